@@ -1,0 +1,43 @@
+# SPDX-FileCopyrightText: Vinebench authors
+# SPDX-License-Identifier: Apache-2.0
+
+# Flags that every target shares. Results must not depend on the optimiser: no contraction of
+# floating-point expressions, no fast-math. x86-64-v2 brings popcnt and SSE4 and leaves Eigen's
+# alignment as Debian's libraries were built with it.
+function(vinebench_flags target)
+  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wno-psabi)
+  target_compile_options(${target} PRIVATE -ffp-contract=off)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    target_compile_options(${target} PRIVATE -march=x86-64-v2)
+  endif()
+  if(VINEBENCH_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(VINEBENCH_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${VINEBENCH_SANITIZE} -fno-omit-frame-pointer)
+    target_link_options(${target} PRIVATE -fsanitize=${VINEBENCH_SANITIZE})
+  endif()
+endfunction()
+
+# vinebench_module(NAME dependencies...): one static library of every source in this folder.
+function(vinebench_module name)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
+  add_library(vinebench_${name} STATIC ${sources})
+  target_link_libraries(vinebench_${name} PUBLIC ${ARGN})
+  vinebench_flags(vinebench_${name})
+endfunction()
+
+# vinebench_tests(FOLDER dependencies...): one GoogleTest program of every *_test.cpp in tests/FOLDER.
+function(vinebench_tests folder)
+  string(REPLACE "/" "_" name ${folder})
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${folder}/*_test.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  add_executable(${name}_test ${sources})
+  target_link_libraries(${name}_test PRIVATE ${ARGN} GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${name}_test PRIVATE VINEBENCH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  vinebench_flags(${name}_test)
+  gtest_discover_tests(${name}_test PROPERTIES LABELS unit DISCOVERY_TIMEOUT 60)
+endfunction()

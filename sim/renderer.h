@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <opencv2/core/mat.hpp>
+
+#include "sim/scene.h"
+#include "slam/base/camera.h"
+#include "slam/base/pose.h"
+#include "slam/base/yaml.h"
+
+namespace vinebench {
+
+/// One rendered view.
+struct Picture {
+  cv::Mat rgb;     ///< CV_8UC3, RGB, top row first
+  cv::Mat labels;  ///< CV_8UC1 of Label, when asked for; else empty
+  cv::Mat depth;   ///< CV_32FC1, z along the optical axis in m, 0 for sky, when asked for
+};
+
+struct RendererConfig {
+  double lod_scale = 1.0;      ///< distances of the levels of detail are multiplied by this
+  int shadow_map_size = 2048;  ///< pixels a side; 0 draws no shadows
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("lod_scale", lod_scale, Range::between(0.05, 20));
+    archive("shadow_map_size", shadow_map_size, Range::between(0, 8192));
+  }
+};
+
+/// Draws a scene from any pinhole camera. Owns a GL context; one thread uses it at a time, but
+/// several renderers may work side by side, one a thread. The same scene and pose give the same
+/// bytes in each.
+class Renderer {
+ public:
+  /// Uploads the scene. Throws Error when no context or no memory is to be had.
+  Renderer(const Scene& scene, const RendererConfig& config);
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+  ~Renderer();
+
+  struct Request {
+    bool labels = false;
+    bool depth = false;
+  };
+  Picture render(const PinholeCamera& camera, const Pose& T_world_cam, const Request& request);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vinebench

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+#include "slam/base/pose.h"
+
+namespace vinebench {
+
+/// What a pixel shows.
+enum class Label : std::uint8_t {
+  kSky,
+  kGround,
+  kGrass,
+  kTrunk,
+  kCane,
+  kLeaf,
+  kBunch,
+  kPost,
+  kWire,
+  kTag,
+  kBox,
+  kRover
+};
+
+/// An RGBA picture on a surface: CV_8UC4, sRGB, first row at v = 0 (glTF's convention).
+struct Texture {
+  std::string name;
+  cv::Mat rgba;
+  bool repeat = true;  ///< else clamped to its edge
+};
+
+struct Material {
+  std::string name;
+  Label label = Label::kGround;
+  Eigen::Vector3f colour = Eigen::Vector3f::Ones();  ///< linear RGB, multiplies the texture
+  int texture = -1;                                  ///< index into Scene::textures, -1 for none
+  bool cutout = false;  ///< pixels of alpha below one half are not there
+  bool double_sided = false;
+  float translucency = 0;  ///< share of the sunlight that a leaf lets through, 0 to 1
+};
+
+struct Vertex {
+  Eigen::Vector3f position;  ///< m, model frame (z up)
+  Eigen::Vector3f normal;
+  Eigen::Vector2f uv = Eigen::Vector2f::Zero();
+  float occlusion = 1;  ///< share of the sky's light that arrives here, baked, 0 to 1
+};
+
+/// Triangles (counter-clockwise from the front) of one material.
+struct Primitive {
+  int material = 0;  ///< index into Scene::materials
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;
+};
+
+struct LevelOfDetail {
+  double until = 1e9;  ///< m from the camera; the next level is drawn beyond
+  std::vector<Primitive> primitives;
+};
+
+/// A thing that stands in the world once or many times. Finest level first.
+struct Model {
+  std::string name;
+  std::vector<LevelOfDetail> levels;
+  Eigen::AlignedBox3f bounds;  ///< of the finest level
+};
+
+struct Instance {
+  int model = 0;  ///< index into Scene::models
+  Pose T_world_model;
+  float scale = 1;
+  int id = 0;  ///< stable number of this thing: a plant's place in its world
+};
+
+/// A straight wire, drawn as a strip that faces the camera.
+struct Wire {
+  Eigen::Vector3f from;
+  Eigen::Vector3f to;
+  float radius = 0.0012f;  ///< m
+  int material = 0;
+};
+
+/// Light of the day; colours are linear RGB, 1 is the camera's mid exposure white.
+struct Light {
+  Eigen::Vector3f towards_sun = Eigen::Vector3f::UnitZ();  ///< unit, world frame
+  Eigen::Vector3f sun = Eigen::Vector3f::Constant(1.0f);
+  Eigen::Vector3f sky = Eigen::Vector3f(0.45f, 0.5f, 0.6f);       ///< ambient from above
+  Eigen::Vector3f bounce = Eigen::Vector3f(0.18f, 0.16f, 0.13f);  ///< ambient from below
+};
+
+/// Everything that can be drawn, in the world frame. Immutable once built.
+struct Scene {
+  std::vector<Texture> textures;
+  std::vector<Material> materials;
+  std::vector<Model> models;
+  std::vector<Instance> instances;
+  std::vector<Wire> wires;
+  Light light;
+  std::uint64_t seed = 0;  ///< for what the renderer draws by itself, such as clouds
+};
+
+}  // namespace vinebench

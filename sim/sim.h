@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// The simulated half of the test bench: vineyard, rover physics, renderer, sensors and the truth.
+/// It knows nothing of SLAM; what it hands over is slam/base's Frame, and Truth for the judge.
+
+#include "sim/renderer.h"
+#include "sim/route.h"
+#include "sim/rover.h"
+#include "sim/scene.h"
+#include "sim/simulation.h"
+#include "sim/world.h"

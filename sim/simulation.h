@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sim/image_noise.h"
+#include "sim/renderer.h"
+#include "sim/route.h"
+#include "sim/rover.h"
+#include "sim/world.h"
+#include "slam/base/frame.h"
+#include "slam/base/rig.h"
+#include "slam/base/stage_timer.h"
+#include "slam/base/worker_pool.h"
+
+namespace vinebench {
+
+/// What only the judge may know of an instant.
+struct Truth {
+  Pose T_world_body;
+  std::vector<double> box_share;  ///< of each camera's pixels, 0 to 1, those that show a carton box
+  /// Indices into WorldConfig::tags that are wholly in the picture of a tag camera, unoccluded at
+  /// their centre and corners.
+  std::vector<int> visible_tags;
+};
+
+/// One tick of a source of frames. Only `frame` is passed on to a SLAM system.
+struct Sample {
+  Frame frame;
+  Truth truth;
+};
+
+/// Frames in order, from a simulation, a recording or a test.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+  /// The next sample, or nothing after the last.
+  virtual std::optional<Sample> next() = 0;
+  /// How many there will be.
+  virtual std::int64_t size() const = 0;
+  virtual const Rig& rig() const = 0;
+  virtual const StageTimes& times() const = 0;
+};
+
+struct SimulationConfig {
+  WorldConfig world;
+  RoverConfig rover;
+  RouteConfig route;
+  RendererConfig renderer;
+  ImageNoiseConfig noise;
+  std::optional<double> duration;  ///< s; the whole route where absent
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("world", world);
+    archive("rover", rover);
+    archive("route", route);
+    archive("renderer", renderer);
+    archive("noise", noise);
+    archive("duration", duration, Range::positive());
+  }
+};
+
+/// Drives the rover along its route and renders every camera at each frame's instant.
+std::unique_ptr<FrameSource> make_simulation(const SimulationConfig& config, std::uint64_t seed,
+                                             const std::filesystem::path& cache, WorkerPool& pool);
+
+}  // namespace vinebench

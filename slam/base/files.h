@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace vinebench {
+
+/// The whole of a file. Throws Error when it cannot be read.
+std::string read_file(const std::filesystem::path& file);
+
+/// Writes beside the final name and renames when whole, so that an interrupted run leaves no half
+/// file. Throws Error with the system's reason (permission, disk full).
+void write_file_atomically(const std::filesystem::path& file, std::string_view content);
+
+}  // namespace vinebench

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slam/base/frame.h"
+#include "slam/base/pose.h"
+#include "slam/base/stage_timer.h"
+#include "slam/base/trajectory.h"
+
+namespace vinebench {
+
+/// A tag whose pose in the world is known beforehand.
+struct RegisteredTag {
+  std::string family;  ///< e.g. "tag36h11"
+  int id = 0;
+  double size = 0;   ///< side of the black square, m
+  Pose T_world_tag;  ///< tag frame: x right, y down on the printed face, z into the tag
+};
+
+enum class TrackingStatus { kInitializing, kTracking, kLost };
+
+/// How well one camera took part in a frame.
+struct CameraCounts {
+  int features = 0;  ///< extracted
+  int stereo = 0;    ///< with a depth within the stereo limit (left eyes only)
+  int matches = 0;   ///< with landmarks of the map
+  int inliers = 0;   ///< of these, in agreement with the estimated pose
+};
+
+/// A tag found in a picture of this frame.
+struct TagSighting {
+  int camera = 0;  ///< index into Rig::cameras
+  std::string family;
+  int id = 0;
+  std::array<Eigen::Vector2d, 4> corners;  ///< px; the tag's own lower left, then counter-clockwise
+                                           ///< as printed (AprilTag's order)
+  Pose T_cam_tag;
+};
+
+/// A loop closed in this frame: the constraint that tied it to an earlier one.
+struct LoopClosure {
+  int tag_id = 0;
+  Stamp earlier = 0;      ///< stamp of the frame that was recognised
+  Stamp later = 0;        ///< stamp of the frame that recognised it
+  Pose T_earlier_later;   ///< body to body, as measured by the tag
+  double correction = 0;  ///< how far this frame's body moved, m
+};
+
+/// What a SLAM system says of one frame, at that frame.
+struct Estimate {
+  Stamp stamp = 0;
+  TrackingStatus status = TrackingStatus::kInitializing;
+  std::optional<Pose> T_map_body;     ///< absent while there is none
+  std::vector<CameraCounts> cameras;  ///< in the rig's order
+  bool keyframe = false;
+  std::vector<TagSighting> tags;
+  std::optional<LoopClosure> loop_closure;
+};
+
+/// What a SLAM system knows in the end, after all corrections.
+struct SlamSummary {
+  Trajectory trajectory;  ///< T_map_body of every frame that has a pose
+  Trajectory keyframes;
+  std::size_t landmarks = 0;
+};
+
+/// A SLAM system as the test bench sees it. It is given frames and nothing else: images, wheel and
+/// inertial samples; the rig's calibration and the registered tags came at its construction.
+class SlamSystem {
+ public:
+  virtual ~SlamSystem() = default;
+
+  /// Takes the next frame, in order of the stamps, and answers before it returns.
+  virtual Estimate process(const Frame& frame) = 0;
+
+  /// Finishes what is pending and reports.
+  virtual SlamSummary finish() = 0;
+
+  /// Wall-clock samples of its stages.
+  virtual const StageTimes& times() const = 0;
+};
+
+}  // namespace vinebench

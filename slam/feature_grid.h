@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "slam/features.h"
+
+namespace vinebench {
+
+/// Files the keypoints of a picture by cells, so that those near a point are found at once.
+class FeatureGrid {
+ public:
+  FeatureGrid() = default;
+  FeatureGrid(const std::vector<Keypoint>& keypoints, int width, int height);
+
+  /// Appends the indices of keypoints within `radius` px (a square window, |dx| and |dy|) of (x, y)
+  /// whose level lies in [min_level, max_level], in ascending order of cell, then index.
+  void query(float x, float y, float radius, int min_level, int max_level,
+             std::vector<int>& result) const;
+
+ private:
+  static constexpr int kCell = 16;  ///< px
+  int columns_ = 0;
+  int rows_ = 0;
+  std::vector<int> cell_begin_;  ///< offsets into items_, one a cell and one past the last
+  std::vector<int> items_;       ///< keypoint indices, cell after cell
+  std::vector<Keypoint> keypoints_;
+};
+
+}  // namespace vinebench

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+#include "slam/base/camera.h"
+#include "slam/base/slam_system.h"
+#include "slam/base/yaml.h"
+
+namespace vinebench {
+
+struct TagDetectorConfig {
+  std::vector<std::string> families{"tag36h11"};
+  double size = 0.161;    ///< m, side of the black square, for tags that are not registered
+  double decimate = 2.0;  ///< the search runs on a picture smaller by this; corners are refined on
+                          ///< the full one
+  double min_margin =
+      30;               ///< decision margin (grey levels) below which a detection is not believed
+  int max_hamming = 1;  ///< corrected bits above which a detection is not believed
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("families", families);
+    archive("size", size, Range::positive());
+    archive("decimate", decimate, Range::between(1, 8));
+    archive("min_margin", min_margin, Range::non_negative());
+    archive("max_hamming", max_hamming, Range::between(0, 3));
+  }
+};
+
+/// Finds AprilTags in a picture (AprilTag 3) and where they stand against the camera.
+class TagDetector {
+ public:
+  TagDetector(const TagDetectorConfig& config, std::vector<RegisteredTag> registered);
+  TagDetector(TagDetector&&) noexcept;
+  TagDetector& operator=(TagDetector&&) noexcept;
+  ~TagDetector();
+
+  /// `grey` is CV_8UC1. Sightings in ascending order of (family, id); camera is copied into each.
+  std::vector<TagSighting> detect(const cv::Mat& grey, const PinholeCamera& model, int camera);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vinebench

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/base/yaml.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "slam/base/error.h"
+
+namespace vinebench {
+namespace {
+
+enum class Colour { kRed, kGreen };
+std::vector<std::string> yaml_names(Colour) {
+  return {"red", "green"};
+}
+
+struct Inner {
+  double radius = 1;
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("radius", radius, Range::positive());
+  }
+};
+
+struct Outer {
+  int count = 3;
+  bool on = false;
+  Colour colour = Colour::kRed;
+  std::string name = "x";
+  std::vector<std::string> names;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  std::optional<double> maybe;
+  Inner inner;
+  std::vector<Inner> list;
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("count", count, Range::between(0, 10));
+    archive("on", on);
+    archive("colour", colour);
+    archive("name", name);
+    archive("names", names);
+    archive("position", position);
+    archive("maybe", maybe);
+    archive("inner", inner);
+    archive("list", list);
+    archive.require(count != 7, "count", "expected anything but 7");
+  }
+};
+
+class YamlTest : public testing::Test {
+ protected:
+  std::filesystem::path write(const std::string& name, const std::string& text) {
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / name;
+    std::ofstream(file) << text;
+    return file;
+  }
+  std::string error_of(const std::string& text) {
+    try {
+      YamlDocument::load(write("bad.yaml", text)).read<Outer>();
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+};
+
+TEST_F(YamlTest, ReadsEveryKindOfField) {
+  const Outer outer = YamlDocument::load(write("good.yaml", R"(count: 4
+on: true
+colour: green
+name: vine
+names: one
+position: [1, 2.5, -3]
+maybe: 0.5
+inner: {radius: 2}
+list:
+  - radius: 3
+  - {}
+)"))
+                          .read<Outer>();
+  EXPECT_EQ(outer.count, 4);
+  EXPECT_TRUE(outer.on);
+  EXPECT_EQ(outer.colour, Colour::kGreen);
+  EXPECT_EQ(outer.names, std::vector<std::string>{"one"});
+  EXPECT_EQ(outer.position, Eigen::Vector3d(1, 2.5, -3));
+  EXPECT_EQ(outer.maybe, 0.5);
+  EXPECT_EQ(outer.inner.radius, 2);
+  ASSERT_EQ(outer.list.size(), 2u);
+  EXPECT_EQ(outer.list[0].radius, 3);
+  EXPECT_EQ(outer.list[1].radius, 1);
+}
+
+TEST_F(YamlTest, NamesFileLineKeyFoundAndExpected) {
+  EXPECT_THAT(error_of("on: true\ncount: many\n"),
+              testing::HasSubstr("bad.yaml:2: count: expected a whole number of at least 0 and at "
+                                 "most 10, found 'many'"));
+  EXPECT_THAT(
+      error_of("inner:\n  radius: -1\n"),
+      testing::HasSubstr("bad.yaml:2: inner.radius: expected a number above 0, found '-1'"));
+  EXPECT_THAT(error_of("inner:\n  radios: 1\n"),
+              testing::HasSubstr("bad.yaml:2: inner.radios: unknown key, expected one of: radius"));
+  EXPECT_THAT(error_of("position: [1, 2]\n"), testing::HasSubstr("position: expected a list of 3"));
+  EXPECT_THAT(error_of("inner: {radius: .nan}\n"), testing::HasSubstr("inner.radius"));
+  EXPECT_THAT(error_of("colour: blue\n"), testing::HasSubstr("expected one of: red, green"));
+  EXPECT_THAT(error_of("list: 5\n"), testing::HasSubstr("list: expected a list, found '5'"));
+  EXPECT_THAT(error_of("count: 7\n"), testing::HasSubstr("count: expected anything but 7"));
+  EXPECT_THAT(error_of("a: [1\n"), testing::HasSubstr("is not valid YAML"));
+}
+
+TEST_F(YamlTest, ListsEveryViolationAtOnce) {
+  const std::string text = error_of("count: 99\nnope: 1\non: perhaps\n");
+  EXPECT_THAT(text, testing::HasSubstr("count"));
+  EXPECT_THAT(text, testing::HasSubstr("nope"));
+  EXPECT_THAT(text, testing::HasSubstr("on"));
+}
+
+TEST_F(YamlTest, DuplicateKeysAreErrors) {
+  EXPECT_THAT(error_of("count: 1\ncount: 2\n"),
+              testing::HasSubstr("bad.yaml:2: count: stands twice"));
+}
+
+TEST_F(YamlTest, MissingFileIsNamed) {
+  EXPECT_THAT([] { YamlDocument::load("/nowhere/x.yaml"); },
+              testing::ThrowsMessage<Error>(testing::HasSubstr("/nowhere/x.yaml")));
+}
+
+TEST_F(YamlTest, OverridesReplaceAndAreNamedInErrors) {
+  YamlDocument document = YamlDocument::load(write("o.yaml", "list: [{radius: 3}]\n"));
+  document.set("list.0.radius", "4");
+  document.set("inner.radius", "5");
+  const Outer outer = document.read<Outer>();
+  EXPECT_EQ(outer.list[0].radius, 4);
+  EXPECT_EQ(outer.inner.radius, 5);
+
+  document.set("inner.radios", "5");
+  EXPECT_THAT([&] { document.read<Outer>(); },
+              testing::ThrowsMessage<Error>(
+                  testing::HasSubstr("--set inner.radios=5: inner.radios: unknown key")));
+  EXPECT_THAT([&] { document.set("list.3.radius", "1"); },
+              testing::ThrowsMessage<Error>(testing::HasSubstr("no item of a list of 1")));
+}
+
+TEST_F(YamlTest, IncludedFilesKeepTheirOwnPlaces) {
+  write("inner.yaml", "# a comment\nradius: -2\n");
+  YamlDocument document = YamlDocument::load(write("outer.yaml", "inner: inner.yaml\n"));
+  document.include("inner");
+  EXPECT_THAT([&] { document.read<Outer>(); },
+              testing::ThrowsMessage<Error>(testing::HasSubstr("inner.yaml:2: inner.radius")));
+  document = YamlDocument::load(write("outer.yaml", "on: true\ninner: none.yaml\n"));
+  EXPECT_THAT(
+      [&] { document.include("inner"); },
+      testing::ThrowsMessage<Error>(testing::HasSubstr("outer.yaml:2: inner: expected a file")));
+}
+
+TEST_F(YamlTest, WrittenTextReadsBackTheSame) {
+  Outer outer;
+  outer.count = 9;
+  outer.name = "a \"quoted\" \\ name";
+  outer.names = {"b", "c"};
+  outer.position = {0.1, 1e-9, 3};
+  outer.list = {Inner{2}, Inner{0.3}};
+  const std::string text = format_yaml(outer);
+  const Outer back = YamlDocument::load(write("back.yaml", text)).read<Outer>();
+  EXPECT_EQ(format_yaml(back), text);
+  EXPECT_EQ(back.position, outer.position);
+  EXPECT_EQ(back.name, outer.name);
+}
+
+TEST_F(YamlTest, ValidateListsViolationsOfAStruct) {
+  Outer outer;
+  outer.count = 11;
+  outer.list = {Inner{-1}};
+  EXPECT_THAT([&] { validate(outer); },
+              testing::ThrowsMessage<Error>(testing::AllOf(testing::HasSubstr("count: expected"),
+                                                           testing::HasSubstr("list.0.radius"))));
+}
+
+}  // namespace
+}  // namespace vinebench
