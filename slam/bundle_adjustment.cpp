@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/bundle_adjustment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+namespace vinebench {
+namespace {
+
+constexpr std::size_t kAbsent = static_cast<std::size_t>(-1);
+
+/// One Ceres problem over a window of the map. Blocks are kept by position in ascending id, so that
+/// the problem is built in the same order every time.
+class Adjustment {
+ public:
+  Adjustment(Map& map, const EstimatorRig& rig, const AdjustmentOptions& options)
+      : map_(map), rig_(rig), options_(options), problem_(ownership()) {}
+
+  void build(const AdjustmentWindow& window) {
+    add_keyframes(window);
+    add_landmarks(window);
+    for (const int id : window.moved) add_tags(id);
+    for (const int id : window.fixed) add_tags(id);
+  }
+
+  void solve() {
+    ceres::Solver::Options options;
+    options.linear_solver_type = options_.global ? ceres::SPARSE_SCHUR : ceres::DENSE_SCHUR;
+    options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
+    options.dense_linear_algebra_library_type = ceres::EIGEN;
+    options.max_num_iterations = options_.iterations;
+    options.function_tolerance = 1e-6;
+    options.num_threads = 1;
+    options.logging_type = ceres::SILENT;
+    options.linear_solver_ordering.reset(ordering_.release());
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem_, &summary);
+  }
+
+  void write_back(const AdjustmentWindow& window) {
+    for (const int id : window.moved) {
+      map_.keyframe(id).T_map_body = from_block(pose_of(id));
+    }
+    for (std::size_t i = 0; i < landmark_ids_.size(); ++i) {
+      map_.landmark(landmark_ids_[i]).position = points_[i];
+    }
+    for (std::size_t t = 0; t < tag_blocks_.size(); ++t) {
+      if (tag_used_[t]) map_.tags()[t].T_map_tag = from_block(tag_blocks_[t].data());
+    }
+  }
+
+  void remove_outliers() {
+    for (const Term& term : terms_) {
+      const Keyframe& keyframe = map_.keyframe(term.observation.keyframe);
+      const double chi_squared =
+          term.error->chi_squared(keyframe.T_map_body, map_.landmark(term.landmark).position);
+      if (chi_squared > term.limit) map_.remove_observation(term.landmark, term.observation);
+    }
+    for (const int id : landmark_ids_) map_.refresh(id, rig_.T_body_cams);
+  }
+
+ private:
+  struct Term {
+    int landmark;
+    Observation observation;
+    const ReprojectionError* error;
+    double limit;
+  };
+
+  static ceres::Problem::Options ownership() {
+    ceres::Problem::Options options;
+    options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.disable_all_safety_checks = true;
+    return options;
+  }
+
+  double* pose_of(int keyframe) {
+    return poses_[pose_index_[static_cast<std::size_t>(keyframe)]].data();
+  }
+
+  void add_keyframes(const AdjustmentWindow& window) {
+    pose_index_.assign(map_.keyframes().size(), kAbsent);
+    poses_.reserve(window.moved.size() + window.fixed.size());
+    const auto add = [&](int id, bool fixed) {
+      pose_index_[static_cast<std::size_t>(id)] = poses_.size();
+      poses_.push_back(to_block(map_.keyframe(id).T_map_body));
+      problem_.AddParameterBlock(poses_.back().data(), 7, &manifold_);
+      ordering_->AddElementToGroup(poses_.back().data(), 1);
+      if (fixed) problem_.SetParameterBlockConstant(poses_.back().data());
+    };
+    for (const int id : window.moved) add(id, false);
+    for (const int id : window.fixed) add(id, true);
+  }
+
+  void add_landmarks(const AdjustmentWindow& window) {
+    std::vector<char> seen(map_.landmarks().size(), 0);
+    for (const int id : window.moved) {
+      for (const std::vector<int>& view : map_.keyframe(id).landmarks) {
+        for (const int landmark : view) {
+          if (landmark >= 0) seen[static_cast<std::size_t>(landmark)] = 1;
+        }
+      }
+    }
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (seen[i]) landmark_ids_.push_back(static_cast<int>(i));
+    }
+    points_.reserve(landmark_ids_.size());
+    for (const int id : landmark_ids_) add_landmark(map_.landmark(id));
+  }
+
+  void add_landmark(const Landmark& landmark) {
+    points_.push_back(landmark.position);
+    double* point = points_.back().data();
+    problem_.AddParameterBlock(point, 3);
+    ordering_->AddElementToGroup(point, 0);
+    for (const Observation& o : landmark.observations) {
+      if (pose_index_[static_cast<std::size_t>(o.keyframe)] == kAbsent) continue;
+      const StereoView& view =
+          map_.keyframe(o.keyframe).frame->views[static_cast<std::size_t>(o.view)];
+      const PixelMeasurement m = rig_.measurement(view, o.feature);
+      errors_.emplace_back(rig_.eyes[static_cast<std::size_t>(o.view)], m);
+      problem_.AddResidualBlock(&errors_.back(), &huber_, pose_of(o.keyframe), point);
+      terms_.push_back({landmark.id, o, &errors_.back(), chi_squared_limit(m)});
+    }
+  }
+
+  void add_tags(int keyframe) {
+    if (tag_blocks_.empty()) {
+      for (const MapTag& tag : map_.tags()) tag_blocks_.push_back(to_block(tag.T_map_tag));
+      tag_used_.assign(tag_blocks_.size(), 0);
+    }
+    for (const TagSighting& sighting : map_.keyframe(keyframe).frame->tags) {
+      const MapTag* tag = map_.find_tag(sighting.family, sighting.id);
+      if (tag == nullptr) continue;
+      const auto t = static_cast<std::size_t>(tag - map_.tags().data());
+      double* block = tag_blocks_[t].data();
+      if (!tag_used_[t]) {
+        problem_.AddParameterBlock(block, 7, &manifold_);
+        ordering_->AddElementToGroup(block, 1);
+        if (tag->fixed || !options_.global) problem_.SetParameterBlockConstant(block);
+        tag_used_[t] = 1;
+      }
+      const std::array<Eigen::Vector3d, 4> corners = tag_corners(tag->size);
+      const PinholeCamera& lens = rig_.rig.cameras[static_cast<std::size_t>(sighting.camera)].model;
+      const EyeModel& eye = rig_.tag_eyes[static_cast<std::size_t>(sighting.camera)];
+      for (std::size_t c = 0; c < corners.size(); ++c) {
+        const Eigen::Vector2d ideal = eye.lens.project(lens.unproject(sighting.corners[c]));
+        tag_errors_.emplace_back(eye, ideal, options_.tag_corner_sigma, corners[c]);
+        problem_.AddResidualBlock(&tag_errors_.back(), &huber_, pose_of(keyframe), block);
+      }
+    }
+  }
+
+  Map& map_;
+  const EstimatorRig& rig_;
+  AdjustmentOptions options_;
+  PoseManifold manifold_;
+  ceres::HuberLoss huber_{std::sqrt(kChiSquared2)};
+  std::vector<PoseBlock> poses_;
+  std::vector<std::size_t> pose_index_;  ///< by keyframe id
+  std::vector<int> landmark_ids_;
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<PoseBlock> tag_blocks_;
+  std::vector<char> tag_used_;
+  std::deque<ReprojectionError> errors_;
+  std::deque<TagCornerError> tag_errors_;
+  std::vector<Term> terms_;
+  std::unique_ptr<ceres::ParameterBlockOrdering> ordering_ =
+      std::make_unique<ceres::ParameterBlockOrdering>();
+  ceres::Problem problem_;  // last: it must go before the blocks it points to
+};
+
+}  // namespace
+
+std::array<Eigen::Vector3d, 4> tag_corners(double size) {
+  const double h = size / 2;
+  return {Eigen::Vector3d(-h, h, 0), {h, h, 0}, {h, -h, 0}, {-h, -h, 0}};
+}
+
+AdjustmentWindow local_window(const Map& map, int keyframe, int size) {
+  AdjustmentWindow window;
+  std::vector<char> role(map.keyframes().size(), 0);  // 1 moved, 2 fixed
+  const auto at = [&](int id) -> char& { return role[static_cast<std::size_t>(id)]; };
+  at(keyframe) = 1;
+  for (const int id : map.covisible(keyframe, size - 1)) at(id) = 1;
+  at(0) = 2;
+  std::vector<char> visited(map.landmarks().size(), 0);
+  for (std::size_t k = 0; k < role.size(); ++k) {
+    if (role[k] != 1) continue;
+    for (const std::vector<int>& view : map.keyframes()[k].landmarks) {
+      for (const int id : view) {
+        if (id < 0 || visited[static_cast<std::size_t>(id)]) continue;
+        visited[static_cast<std::size_t>(id)] = 1;
+        for (const Observation& o : map.landmark(id).observations) {
+          if (at(o.keyframe) == 0) at(o.keyframe) = 2;
+        }
+      }
+    }
+  }
+  for (std::size_t k = 0; k < role.size(); ++k) {
+    if (role[k] == 1) window.moved.push_back(static_cast<int>(k));
+    if (role[k] == 2) window.fixed.push_back(static_cast<int>(k));
+  }
+  return window;
+}
+
+AdjustmentWindow global_window(const Map& map) {
+  bool held_by_tag = false;
+  for (const MapTag& tag : map.tags()) held_by_tag |= tag.fixed;
+  AdjustmentWindow window;
+  for (const Keyframe& keyframe : map.keyframes()) {
+    const bool fixed = keyframe.id == 0 && !held_by_tag;
+    (fixed ? window.fixed : window.moved).push_back(keyframe.id);
+  }
+  return window;
+}
+
+void adjust(Map& map, const AdjustmentWindow& window, const EstimatorRig& rig,
+            const AdjustmentOptions& options) {
+  if (window.moved.empty()) return;
+  Adjustment adjustment(map, rig, options);
+  adjustment.build(window);
+  adjustment.solve();
+  adjustment.write_back(window);
+  adjustment.remove_outliers();
+}
+
+}  // namespace vinebench

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "slam/config.h"
+#include "slam/estimator_rig.h"
+#include "slam/map.h"
+
+namespace vinebench {
+
+/// Which keyframes an adjustment moves, and which it only looks at. Landmarks that a moved keyframe
+/// sees move with it.
+struct AdjustmentWindow {
+  std::vector<int> moved;  ///< keyframe ids, ascending
+  std::vector<int> fixed;  ///< keyframe ids, ascending
+};
+
+struct AdjustmentOptions {
+  int iterations = 6;
+  double tag_corner_sigma = 0.3;  ///< px
+  bool global = false;            ///< all of the map: sparse solver; mapped tags move too
+};
+
+/// The keyframe, those that share most landmarks with it, and as fixed ones all others that see
+/// their landmarks. The first keyframe of the map is fixed.
+AdjustmentWindow local_window(const Map& map, int keyframe, int size);
+
+/// All keyframes; the first is fixed unless a tag of known pose holds the map.
+AdjustmentWindow global_window(const Map& map);
+
+/// Bundle adjustment, Eq. (4), (5): poses of the window's keyframes and positions of the landmarks
+/// that they see, Huber loss, weights by octave; tags seen by a keyframe take part with their
+/// corners. Observations that are outliers in the end (95 % chi-square) are removed from the map.
+void adjust(Map& map, const AdjustmentWindow& window, const EstimatorRig& rig,
+            const AdjustmentOptions& options);
+
+/// Corners of a tag of side `size` in its own frame (x right, y down), in the order of TagSighting.
+std::array<Eigen::Vector3d, 4> tag_corners(double size);
+
+}  // namespace vinebench

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "slam/base/yaml.h"
+#include "slam/orb_extractor.h"
+#include "slam/stereo_matcher.h"
+#include "slam/tag_detector.h"
+
+namespace vinebench {
+
+struct TrackingConfig {
+  double radius = 10;             ///< px, of the first search around a landmark's projection
+  double radius_growth = 2;       ///< factor while there are too few matches
+  int radius_steps = 3;           ///< searches at most
+  int min_matches = 60;           ///< fewer let the radius grow (paper, Sect. III-A)
+  double local_radius = 4;        ///< px, of the second search, around the refined pose
+  int max_hamming = 64;           ///< bits
+  double second_best = 0.85;      ///< the best must be below this share of the second best
+  int min_inliers = 20;           ///< fewer is lost
+  double min_inlier_share = 0.4;  ///< of the matches; a camera (or all) below it is not believed
+  int local_keyframes = 20;       ///< keyframes whose landmarks are looked for
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("radius", radius, Range::between(1, 200));
+    archive("radius_growth", radius_growth, Range::between(1, 10));
+    archive("radius_steps", radius_steps, Range::between(1, 10));
+    archive("min_matches", min_matches, Range::non_negative());
+    archive("local_radius", local_radius, Range::between(1, 100));
+    archive("max_hamming", max_hamming, Range::between(1, 256));
+    archive("second_best", second_best, Range::between(0.1, 1));
+    archive("min_inliers", min_inliers, Range::between(6, 10000));
+    archive("min_inlier_share", min_inlier_share, Range::between(0, 1));
+    archive("local_keyframes", local_keyframes, Range::between(1, 1000));
+  }
+};
+
+struct KeyframeConfig {
+  int min_inliers = 200;   ///< fewer tracked landmarks ask for a keyframe
+  double reduction = 0.7;  ///< so does falling below this share of the last keyframe's
+  double distance = 0.25;  ///< m from the last keyframe
+  double angle_deg = 12;   ///< turned since the last keyframe
+  int min_gap = 2;         ///< frames between keyframes
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("min_inliers", min_inliers, Range::non_negative());
+    archive("reduction", reduction, Range::between(0, 1));
+    archive("distance", distance, Range::positive());
+    archive("angle_deg", angle_deg, Range::positive());
+    archive("min_gap", min_gap, Range::between(1, 1000));
+  }
+};
+
+struct MappingConfig {
+  int window = 10;             ///< keyframes that a local adjustment moves
+  int iterations = 6;          ///< of a local adjustment
+  int global_iterations = 25;  ///< of a global adjustment
+  int min_observations = 3;    ///< keyframes that must see a landmark (paper, Sect. III-A)
+  int trial_keyframes = 3;     ///< keyframes after which a landmark with fewer is dropped
+  int neighbours = 6;          ///< covisible keyframes searched for new landmarks
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("window", window, Range::between(2, 100));
+    archive("iterations", iterations, Range::between(1, 100));
+    archive("global_iterations", global_iterations, Range::between(1, 500));
+    archive("min_observations", min_observations, Range::between(2, 10));
+    archive("trial_keyframes", trial_keyframes, Range::between(1, 100));
+    archive("neighbours", neighbours, Range::between(0, 100));
+  }
+};
+
+struct LoopConfig {
+  bool enabled = true;
+  double away_seconds = 3;     ///< a tag unseen for this long was left
+  double away_distance = 1.0;  ///< m, the way driven meanwhile
+  double corner_sigma = 0.3;   ///< px, standard deviation of a tag's corner
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("enabled", enabled);
+    archive("away_seconds", away_seconds, Range::non_negative());
+    archive("away_distance", away_distance, Range::non_negative());
+    archive("corner_sigma", corner_sigma, Range::positive());
+  }
+};
+
+struct SlamConfig {
+  /// Names of the stereo pairs and tag cameras in use; all of the rig where empty.
+  std::vector<std::string> cameras;
+  OrbConfig features;
+  StereoConfig stereo;
+  TrackingConfig tracking;
+  KeyframeConfig keyframes;
+  MappingConfig mapping;
+  TagDetectorConfig tags;
+  LoopConfig loop;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("cameras", cameras);
+    archive("features", features);
+    archive("stereo", stereo);
+    archive("tracking", tracking);
+    archive("keyframes", keyframes);
+    archive("mapping", mapping);
+    archive("tags", tags);
+    archive("loop", loop);
+  }
+};
+
+}  // namespace vinebench

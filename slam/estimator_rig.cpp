@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/estimator_rig.h"
+
+#include <cmath>
+
+namespace vinebench {
+
+EstimatorRig::EstimatorRig(const StereoRig& stereo_rig, const OrbConfig& features)
+    : rig(stereo_rig) {
+  for (const StereoEye& pair : rig.pairs) {
+    eyes.push_back({pair.lens, pair.T_cam_body, pair.baseline});
+    T_body_cams.push_back(pair.T_body_cam);
+  }
+  for (const RigCamera& camera : rig.cameras) {
+    EyeModel eye{camera.model, camera.T_body_cam.inverse(), 0};
+    eye.lens.distortion = {};
+    tag_eyes.push_back(eye);
+  }
+  for (int level = 0; level < features.levels; ++level) {
+    level_sigmas.push_back(std::pow(features.scale, level));
+  }
+}
+
+PixelMeasurement EstimatorRig::measurement(const StereoView& view, int feature) const {
+  const auto f = static_cast<std::size_t>(feature);
+  const Keypoint& keypoint = view.features.keypoints[f];
+  PixelMeasurement m;
+  m.pixel = {keypoint.x, keypoint.y};
+  m.sigma = level_sigmas[static_cast<std::size_t>(keypoint.level)];
+  if (view.stereo[f].depth > 0) m.right_x = view.stereo[f].x_right;
+  return m;
+}
+
+Eigen::Vector3d EstimatorRig::stereo_point(const StereoView& view, int v, int feature,
+                                           const Pose& T_map_body) const {
+  const auto f = static_cast<std::size_t>(feature);
+  const Keypoint& keypoint = view.features.keypoints[f];
+  const Eigen::Vector3d ray =
+      eyes[static_cast<std::size_t>(v)].lens.unproject({keypoint.x, keypoint.y});
+  const Eigen::Vector3d p_cam = ray * static_cast<double>(view.stereo[f].depth);
+  return T_map_body * (T_body_cams[static_cast<std::size_t>(v)] * p_cam);
+}
+
+}  // namespace vinebench

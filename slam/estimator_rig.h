@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "slam/map.h"
+#include "slam/reprojection.h"
+#include "slam/stereo_rig.h"
+
+namespace vinebench {
+
+/// What every stage of the estimator needs to know of cameras and noise, derived once.
+struct EstimatorRig {
+  EstimatorRig(const StereoRig& rig, const OrbConfig& features);
+
+  StereoRig rig;
+  std::vector<EyeModel> eyes;        ///< left eye of each pair
+  std::vector<Pose> T_body_cams;     ///< of these
+  std::vector<EyeModel> tag_eyes;    ///< by index into Rig::cameras; no baseline
+  std::vector<double> level_sigmas;  ///< px, standard deviation of a feature of each pyramid level
+
+  /// The measurement that a feature is: its pixel, its stereo match where it has one, its noise.
+  PixelMeasurement measurement(const StereoView& view, int feature) const;
+
+  /// Where the feature's stereo depth puts it in the map. The feature must have a depth.
+  Eigen::Vector3d stereo_point(const StereoView& view, int v, int feature,
+                               const Pose& T_map_body) const;
+};
+
+}  // namespace vinebench

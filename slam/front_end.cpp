@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/front_end.h"
+
+#include <chrono>
+#include <opencv2/imgproc.hpp>
+
+#include "slam/base/error.h"
+
+namespace vinebench {
+namespace {
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
+}
+
+}  // namespace
+
+FrontEnd::FrontEnd(const SlamConfig& config, const StereoRig& rig,
+                   const std::vector<RegisteredTag>& tags, WorkerPool& pool)
+    : rig_(rig), stereo_(config.stereo), extractor_(config.features), pool_(pool) {
+  for (std::size_t i = 0; i < rig_.tag_cameras.size(); ++i) {
+    detectors_.emplace_back(config.tags, tags);
+  }
+  extractions_.resize(2 * rig_.pairs.size());
+  sightings_.resize(rig_.tag_cameras.size());
+}
+
+cv::Mat FrontEnd::grey(const Frame& frame, int camera) const {
+  const RigCamera& expected = rig_.cameras[static_cast<std::size_t>(camera)];
+  if (frame.images.size() != rig_.cameras.size()) {
+    fail("frame {}: expected {} pictures, one a camera of the rig, found {}", frame.index,
+         rig_.cameras.size(), frame.images.size());
+  }
+  const cv::Mat& image = frame.images[static_cast<std::size_t>(camera)];
+  if (image.empty()) return image;
+  if (image.cols != expected.model.width || image.rows != expected.model.height) {
+    fail("frame {}: camera '{}': expected a picture of {} x {}, found {} x {}", frame.index,
+         expected.name, expected.model.width, expected.model.height, image.cols, image.rows);
+  }
+  if (image.type() == CV_8UC1) return image;
+  if (image.type() != CV_8UC3) {
+    fail("frame {}: camera '{}': expected an 8-bit grey or RGB picture", frame.index,
+         expected.name);
+  }
+  cv::Mat converted;
+  cv::cvtColor(image, converted, cv::COLOR_RGB2GRAY);
+  return converted;
+}
+
+void FrontEnd::extract(const Frame& frame, StageTimes& times) {
+  // The tag camera's large picture first: it takes longest.
+  const std::size_t tag_jobs = rig_.tag_cameras.size();
+  std::vector<double> spent(tag_jobs + extractions_.size());
+  pool_.for_each(spent.size(), [&](std::size_t job) {
+    const auto start = std::chrono::steady_clock::now();
+    if (job < tag_jobs) {
+      const int camera = rig_.tag_cameras[job];
+      const cv::Mat image = grey(frame, camera);
+      sightings_[job].clear();
+      if (!image.empty()) {
+        sightings_[job] = detectors_[job].detect(
+            image, rig_.cameras[static_cast<std::size_t>(camera)].model, camera);
+      }
+    } else {
+      const std::size_t eye = job - tag_jobs;
+      const StereoEye& pair = rig_.pairs[eye / 2];
+      const cv::Mat image = grey(frame, eye % 2 == 0 ? pair.left_camera : pair.right_camera);
+      extractions_[eye] = image.empty() ? Extraction{} : extractor_.extract(image);
+    }
+    spent[job] = milliseconds_since(start);
+  });
+  double tags = 0;
+  double features = 0;
+  for (std::size_t job = 0; job < spent.size(); ++job) {
+    (job < tag_jobs ? tags : features) += spent[job];
+  }
+  times.add("features", features);
+  if (tag_jobs > 0) times.add("tags", tags);
+}
+
+void FrontEnd::match(FrameFeatures& features, StageTimes& times) {
+  std::vector<double> spent(rig_.pairs.size());
+  pool_.for_each(rig_.pairs.size(), [&](std::size_t p) {
+    const auto start = std::chrono::steady_clock::now();
+    Extraction& left = extractions_[2 * p];
+    const Extraction& right = extractions_[2 * p + 1];
+    StereoView& view = features.views[p];
+    const StereoEye& pair = rig_.pairs[p];
+    view.stereo.assign(left.features.size(), StereoMatch{});
+    if (left.features.size() > 0 && right.features.size() > 0) {
+      view.stereo = match_stereo(left, right, pair.lens, pair.baseline, extractor_, stereo_);
+    }
+    features.right_features[p] = static_cast<int>(right.features.size());
+    view.features = std::move(left.features);
+    view.grid = FeatureGrid(view.features.keypoints, pair.lens.width, pair.lens.height);
+    spent[p] = milliseconds_since(start);
+  });
+  double total = 0;
+  for (const double one : spent) total += one;
+  times.add("stereo", total);
+}
+
+std::shared_ptr<const FrameFeatures> FrontEnd::process(const Frame& frame, StageTimes& times) {
+  auto features = std::make_shared<FrameFeatures>();
+  features->index = frame.index;
+  features->stamp = frame.stamp;
+  features->views.resize(rig_.pairs.size());
+  features->right_features.resize(rig_.pairs.size());
+  extract(frame, times);
+  match(*features, times);
+  for (const std::vector<TagSighting>& seen : sightings_) {
+    features->tags.insert(features->tags.end(), seen.begin(), seen.end());
+  }
+  return features;
+}
+
+}  // namespace vinebench

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "slam/base/frame.h"
+#include "slam/base/stage_timer.h"
+#include "slam/base/worker_pool.h"
+#include "slam/config.h"
+#include "slam/map.h"
+#include "slam/stereo_rig.h"
+
+namespace vinebench {
+
+/// Boils a frame's pictures down to features with stereo matches, and tags.
+class FrontEnd {
+ public:
+  FrontEnd(const SlamConfig& config, const StereoRig& rig, const std::vector<RegisteredTag>& tags,
+           WorkerPool& pool);
+
+  /// Throws Error for a picture of the wrong size or type. A missing (empty) picture has no
+  /// features. Adds the stages "features", "stereo" and "tags", each summed over its pictures.
+  std::shared_ptr<const FrameFeatures> process(const Frame& frame, StageTimes& times);
+
+ private:
+  cv::Mat grey(const Frame& frame, int camera) const;
+  void extract(const Frame& frame, StageTimes& times);
+  void match(FrameFeatures& features, StageTimes& times);
+
+  StereoRig rig_;
+  StereoConfig stereo_;
+  OrbExtractor extractor_;
+  std::vector<TagDetector> detectors_;  ///< one for each tag camera
+  WorkerPool& pool_;
+  std::vector<Extraction> extractions_;              ///< left, right of each pair
+  std::vector<std::vector<TagSighting>> sightings_;  ///< of each tag camera
+};
+
+}  // namespace vinebench

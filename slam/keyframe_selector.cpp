@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/keyframe_selector.h"
+
+#include <numbers>
+
+namespace vinebench {
+namespace {
+
+/// Features with a stereo depth that no landmark explains yet.
+int count_new(const TrackedFrame& tracked) {
+  int count = 0;
+  for (std::size_t v = 0; v < tracked.associations.size(); ++v) {
+    for (std::size_t f = 0; f < tracked.associations[v].size(); ++f) {
+      count += tracked.associations[v][f] < 0 && tracked.frame->views[v].stereo[f].depth > 0;
+    }
+  }
+  return count;
+}
+
+}  // namespace
+
+bool wants_keyframe(const TrackedFrame& tracked, const Keyframe& last,
+                    const KeyframeConfig& config) {
+  if (tracked.frame->index - last.frame->index < config.min_gap) return false;
+  const int inliers = tracked.motion.inliers;
+  const bool weak = inliers < config.min_inliers || inliers < config.reduction * last.tracked;
+  const Pose step = last.T_map_body.inverse() * tracked.motion.T_map_body;
+  const bool moved = step.translation.norm() > config.distance ||
+                     angle_of(step.rotation) > config.angle_deg * std::numbers::pi / 180;
+  // Without anything new to see, a keyframe would add nothing.
+  const bool something_new = count_new(tracked) > inliers / 10;
+  return moved || (weak && something_new);
+}
+
+}  // namespace vinebench

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "slam/config.h"
+#include "slam/map.h"
+#include "slam/tracker.h"
+
+namespace vinebench {
+
+/// Whether a tracked frame should become a keyframe (paper, Sect. III-A): it tracks too few
+/// landmarks, far fewer than the last keyframe, or the body has moved or turned on since then.
+bool wants_keyframe(const TrackedFrame& tracked, const Keyframe& last,
+                    const KeyframeConfig& config);
+
+}  // namespace vinebench

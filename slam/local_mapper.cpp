@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/local_mapper.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/bundle_adjustment.h"
+#include "slam/projection_matcher.h"
+#include "slam/triangulation.h"
+
+namespace vinebench {
+
+int LocalMapper::insert(const TrackedFrame& tracked, Map& map) const {
+  const int id = map.add_keyframe(tracked.frame, tracked.motion.T_map_body, tracked.associations);
+  std::vector<int> touched;
+  for (std::size_t v = 0; v < tracked.frame->views.size(); ++v) {
+    const StereoView& view = tracked.frame->views[v];
+    for (std::size_t f = 0; f < view.features.size(); ++f) {
+      int landmark = map.keyframe(id).landmarks[v][f];
+      if (landmark < 0 && view.stereo[f].depth > 0) {
+        const Eigen::Vector3d p_map = rig_.stereo_point(
+            view, static_cast<int>(v), static_cast<int>(f), tracked.motion.T_map_body);
+        landmark = map.add_landmark(p_map, {id, static_cast<int>(v), static_cast<int>(f)});
+      }
+      if (landmark >= 0) touched.push_back(landmark);
+    }
+  }
+  for (const int landmark : touched) map.refresh(landmark, rig_.T_body_cams);
+  map.keyframe(id).tracked = static_cast<int>(touched.size());
+  return id;
+}
+
+void LocalMapper::refine(int keyframe, Map& map) const {
+  cull(keyframe, map);
+  triangulate(keyframe, map);
+  fuse(keyframe, map);
+  AdjustmentOptions options;
+  options.iterations = config_.mapping.iterations;
+  options.tag_corner_sigma = config_.loop.corner_sigma;
+  adjust(map, local_window(map, keyframe, config_.mapping.window), rig_, options);
+}
+
+void LocalMapper::cull(int keyframe, Map& map) const {
+  const int due = keyframe - config_.mapping.trial_keyframes;
+  for (Landmark& landmark : map.landmarks()) {
+    if (landmark.removed || landmark.first_keyframe != due) continue;
+    if (count_keyframes(landmark) < config_.mapping.min_observations) {
+      map.remove_landmark(landmark.id);
+    }
+  }
+}
+
+void LocalMapper::fuse(int keyframe, Map& map) const {
+  const std::vector<int> neighbours = map.covisible(keyframe, config_.mapping.neighbours);
+  const std::vector<int> mine = landmark_ids(map.keyframe(keyframe).landmarks);
+  std::vector<int> theirs;
+  for (const int neighbour : neighbours) {
+    fuse_into(mine, neighbour, map);
+    const std::vector<int> ids = landmark_ids(map.keyframe(neighbour).landmarks);
+    theirs.insert(theirs.end(), ids.begin(), ids.end());
+  }
+  std::sort(theirs.begin(), theirs.end());
+  theirs.erase(std::unique(theirs.begin(), theirs.end()), theirs.end());
+  fuse_into(theirs, keyframe, map);
+}
+
+void LocalMapper::fuse_into(const std::vector<int>& landmarks, int keyframe_id, Map& map) const {
+  // The same search as tracking's second one: poses of neighbours agree to a few pixels.
+  const ProjectionSearch search{3.0, config_.tracking.max_hamming, 1.0};
+  const Pose T_body_map = map.keyframe(keyframe_id).T_map_body.inverse();
+  for (std::size_t v = 0; v < rig_.eyes.size(); ++v) {
+    for (const int id : landmarks) {
+      const Landmark& landmark = map.landmark(id);
+      if (landmark.removed) continue;
+      const bool sees = std::any_of(
+          landmark.observations.begin(), landmark.observations.end(), [&](const Observation& o) {
+            return o.keyframe == keyframe_id && o.view == static_cast<int>(v);
+          });
+      if (sees) continue;
+      const StereoView& view = map.keyframe(keyframe_id).frame->views[v];
+      const int f = find_feature(landmark, view, static_cast<int>(v), T_body_map, rig_,
+                                 map.level_scale(), search, nullptr);
+      if (f < 0) continue;
+      const int other = map.keyframe(keyframe_id).landmarks[v][static_cast<std::size_t>(f)];
+      if (other < 0) {
+        map.add_observation(id, {keyframe_id, static_cast<int>(v), f});
+      } else if (other != id) {
+        const bool other_is_better =
+            count_keyframes(map.landmark(other)) > count_keyframes(landmark);
+        map.merge(other_is_better ? id : other, other_is_better ? other : id);
+      }
+    }
+  }
+}
+
+void LocalMapper::triangulate(int keyframe, Map& map) const {
+  for (const int neighbour : map.covisible(keyframe, config_.mapping.neighbours)) {
+    for (std::size_t v = 0; v < rig_.eyes.size(); ++v) {
+      triangulate_between(keyframe, neighbour, static_cast<int>(v), map);
+    }
+  }
+}
+
+void LocalMapper::triangulate_between(int newer, int older, int view, Map& map) const {
+  const auto v = static_cast<std::size_t>(view);
+  const std::vector<EpipolarMatch> matches = match_epipolar(
+      map.keyframe(newer), map.keyframe(older), view, rig_, config_.tracking.max_hamming * 3 / 4);
+  for (const EpipolarMatch& match : matches) {
+    if (map.keyframe(newer).landmarks[v][static_cast<std::size_t>(match.feature_a)] >= 0 ||
+        map.keyframe(older).landmarks[v][static_cast<std::size_t>(match.feature_b)] >= 0) {
+      continue;
+    }
+    const int id = map.add_landmark(match.p_map, {newer, view, match.feature_a});
+    map.add_observation(id, {older, view, match.feature_b});
+    map.refresh(id, rig_.T_body_cams);
+  }
+}
+
+}  // namespace vinebench

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "slam/base/slam_system.h"
+#include "slam/base/stage_timer.h"
+#include "slam/config.h"
+#include "slam/estimator_rig.h"
+#include "slam/local_mapper.h"
+#include "slam/loop_closer.h"
+#include "slam/map.h"
+#include "slam/tracker.h"
+
+namespace vinebench {
+
+/// The paper's Fig. 4 from features on: tracking, keyframes, local mapping and loop closing, one
+/// after the other for each frame. Knows no pictures, so that it can be tested without any.
+class Pipeline {
+ public:
+  Pipeline(const SlamConfig& config, const StereoRig& rig, const std::vector<RegisteredTag>& tags);
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+
+  Estimate process(const std::shared_ptr<const FrameFeatures>& frame);
+  SlamSummary finish();
+
+  const Map& map() const { return map_; }
+  StageTimes& times() { return times_; }
+  const StageTimes& times() const { return times_; }
+
+ private:
+  /// A frame's pose is kept against its keyframe, so that it moves with the map's corrections.
+  struct FrameRecord {
+    Stamp stamp;
+    int keyframe;
+    Pose T_keyframe_body;
+  };
+
+  TrackedFrame initialise(const std::shared_ptr<const FrameFeatures>& frame);
+  TrackedFrame track(const std::shared_ptr<const FrameFeatures>& frame);
+  bool wants_new_keyframe(const TrackedFrame& tracked) const;
+  void map_keyframe(const TrackedFrame& tracked, Estimate& estimate);
+  void remember(Stamp stamp);
+  Estimate report(const TrackedFrame& tracked) const;
+
+  SlamConfig config_;
+  EstimatorRig rig_;
+  Map map_;
+  Tracker tracker_;
+  LocalMapper mapper_;
+  LoopCloser loop_closer_;
+  StageTimes times_;
+  std::vector<FrameRecord> records_;
+  double path_length_ = 0;  ///< m
+  int closures_ = 0;
+  bool started_ = false;
+  bool tags_since_adjustment_ = false;  ///< tags were seen after the last global adjustment
+};
+
+}  // namespace vinebench

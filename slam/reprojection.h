@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ceres/ceres.h>
+
+#include <array>
+#include <optional>
+
+#include "slam/base/camera.h"
+#include "slam/base/pose.h"
+
+namespace vinebench {
+
+/// A pose T_map_body as Ceres holds it: qx qy qz qw, x y z.
+using PoseBlock = std::array<double, 7>;
+
+PoseBlock to_block(const Pose& pose);
+Pose from_block(const double* block);
+
+/// Steps a PoseBlock in the body's own frame: p <- p + R rho, R <- R exp(theta), with the step
+/// (rho, theta). Cost functions give their Jacobian for that step in the first six columns of the
+/// block and zero in the seventh, which the plus-Jacobian of this manifold takes over as they are.
+class PoseManifold : public ceres::Manifold {
+ public:
+  int AmbientSize() const override { return 7; }
+  int TangentSize() const override { return 6; }
+  bool Plus(const double* x, const double* delta, double* x_plus_delta) const override;
+  bool PlusJacobian(const double* x, double* jacobian) const override;
+  bool Minus(const double* y, const double* x, double* y_minus_x) const override;
+  bool MinusJacobian(const double* x, double* jacobian) const override;
+};
+
+/// An eye on the body: its lens and where it sits; `baseline` is the right eye's distance along the
+/// eye's x axis, m.
+struct EyeModel {
+  PinholeCamera lens;
+  Pose T_cam_body;
+  double baseline = 0;
+};
+
+/// What is seen of a point: a pixel, and where the right eye saw it too, its column there.
+struct PixelMeasurement {
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  std::optional<double> right_x;
+  double sigma = 1;  ///< px
+  int size() const { return right_x ? 3 : 2; }
+};
+
+/// Reprojection error of one map point in one eye, Eq. (2), (3) and (5): residuals in standard
+/// deviations (two for the pixel, a third for the column in the right eye).
+///
+/// Parameters: the body's pose (7) and, unless the point is held fixed, the point (3). The same
+/// error serves motion-only, local and global bundle adjustment.
+class ReprojectionError : public ceres::CostFunction {
+ public:
+  /// The point is a parameter.
+  ReprojectionError(const EyeModel& eye, const PixelMeasurement& measurement);
+  /// The point is held at `p_map`.
+  ReprojectionError(const EyeModel& eye, const PixelMeasurement& measurement,
+                    const Eigen::Vector3d& p_map);
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+  /// Squared norm of the residuals for that pose and point; infinite behind the eye.
+  double chi_squared(const Pose& T_map_body, const Eigen::Vector3d& p_map) const;
+
+ private:
+  Eigen::Vector3d residual_at(const Eigen::Vector3d& p_cam) const;
+
+  const EyeModel* eye_;
+  PixelMeasurement measurement_;
+  std::optional<Eigen::Vector3d> fixed_point_;
+};
+
+/// Reprojection error of a tag's corner: parameters are the body's pose (7) and the tag's (7).
+class TagCornerError : public ceres::CostFunction {
+ public:
+  TagCornerError(const EyeModel& eye, const Eigen::Vector2d& pixel, double sigma,
+                 const Eigen::Vector3d& p_tag);
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  const EyeModel* eye_;
+  Eigen::Vector2d pixel_;
+  double sigma_;
+  Eigen::Vector3d p_tag_;
+};
+
+/// 95 % of the chi-square distribution with two and three degrees of freedom.
+inline constexpr double kChiSquared2 = 5.991;
+inline constexpr double kChiSquared3 = 7.815;
+
+inline double chi_squared_limit(const PixelMeasurement& measurement) {
+  return measurement.right_x ? kChiSquared3 : kChiSquared2;
+}
+
+}  // namespace vinebench

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/stereo_rig.h"
+
+#include <algorithm>
+
+#include "slam/base/error.h"
+
+namespace vinebench {
+namespace {
+
+bool same_lens(const PinholeCamera& a, const PinholeCamera& b) {
+  return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy &&
+         a.cx == b.cx && a.cy == b.cy;
+}
+
+StereoEye make_pair(const Rig& rig, const StereoPair& pair) {
+  const RigCamera& left = rig.cameras[static_cast<std::size_t>(pair.left)];
+  const RigCamera& right = rig.cameras[static_cast<std::size_t>(pair.right)];
+  if (left.model.has_distortion() || right.model.has_distortion() ||
+      !same_lens(left.model, right.model)) {
+    fail(
+        "rig '{}': stereo pair '{}' must be rectified: expected two equal lenses without "
+        "distortion",
+        rig.name, pair.name);
+  }
+  const Pose T_left_right = left.T_body_cam.inverse() * right.T_body_cam;
+  const Eigen::Vector3d& offset = T_left_right.translation;
+  // A hundredth of a pixel at this focal length is the most that a row may be off.
+  const double tolerance = 0.01 / left.model.fx;
+  const bool parallel = angle_of(T_left_right.rotation) < tolerance;
+  const bool side_by_side = offset.x() > 0 && offset.tail<2>().norm() < tolerance * offset.x();
+  if (!parallel || !side_by_side) {
+    fail(
+        "rig '{}': stereo pair '{}' must be rectified: expected the right eye on the left eye's x "
+        "axis, parallel to it",
+        rig.name, pair.name);
+  }
+  return {pair.name,
+          pair.left,
+          pair.right,
+          left.model,
+          rig.baseline(pair),
+          left.T_body_cam,
+          left.T_body_cam.inverse()};
+}
+
+}  // namespace
+
+StereoRig make_stereo_rig(const Rig& rig, const std::vector<std::string>& names) {
+  std::vector<std::string> unknown = names;
+  const auto selected = [&](const std::string& name) {
+    std::erase(unknown, name);
+    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+  };
+  StereoRig used;
+  used.cameras = rig.cameras;
+  for (const StereoPair& pair : rig.stereo_pairs) {
+    if (selected(pair.name)) used.pairs.push_back(make_pair(rig, pair));
+  }
+  for (const int camera : rig.tag_cameras) {
+    if (selected(rig.cameras[static_cast<std::size_t>(camera)].name)) {
+      used.tag_cameras.push_back(camera);
+    }
+  }
+  if (!unknown.empty()) {
+    fail("slam.cameras: rig '{}' has no stereo pair or tag camera named '{}'", rig.name,
+         unknown.front());
+  }
+  if (used.pairs.empty()) {
+    fail("slam.cameras: expected at least one stereo pair of rig '{}'", rig.name);
+  }
+  return used;
+}
+
+}  // namespace vinebench

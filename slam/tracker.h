@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "slam/config.h"
+#include "slam/estimator_rig.h"
+#include "slam/map.h"
+#include "slam/motion_only_ba.h"
+
+namespace vinebench {
+
+/// What tracking made of one frame.
+struct TrackedFrame {
+  std::shared_ptr<const FrameFeatures> frame;
+  bool tracked = false;
+  MotionEstimate motion;
+  Associations associations;  ///< inliers only
+};
+
+/// Finds the body's pose frame by frame: constant-velocity prediction, landmarks projected into
+/// every camera, motion-only bundle adjustment.
+class Tracker {
+ public:
+  Tracker(const TrackingConfig& config, const EstimatorRig& rig) : config_(config), rig_(rig) {}
+
+  /// Starts at a pose, standing still.
+  void start(const Pose& T_map_body, Stamp stamp);
+
+  /// Tracks the next frame against the map.
+  TrackedFrame track(std::shared_ptr<const FrameFeatures> frame, const Map& map);
+
+  /// Takes over a pose that something else knows better (loop closing, a tag), moving what the
+  /// prediction rests on with it.
+  void correct(const Pose& T_map_body);
+
+  /// The landmarks to look for first in the next frame, ascending: those of a new keyframe.
+  void expect(std::vector<int> landmarks) { last_landmarks_ = std::move(landmarks); }
+
+  const Pose& T_map_body() const { return T_map_body_; }
+
+ private:
+  Pose predict(Stamp stamp) const;
+  void match_near(const Map& map, const std::vector<int>& landmarks, TrackedFrame& tracked) const;
+  void match_local_map(const Map& map, TrackedFrame& tracked) const;
+  void judge(TrackedFrame& tracked);
+
+  TrackingConfig config_;
+  const EstimatorRig& rig_;
+  Pose T_map_body_;
+  Stamp stamp_ = 0;
+  Vector6d velocity_ = Vector6d::Zero();  ///< of the body in its own frame, m/s and rad/s
+  std::vector<int> last_landmarks_;       ///< seen in the frame before, ascending
+  int lost_frames_ = 0;
+};
+
+/// Ids of landmarks that a frame may see: those of the keyframes that share most of `seen`, and of
+/// their covisible ones, and of those made nearby looking the same way; ascending.
+std::vector<int> local_landmarks(const Map& map, const std::vector<int>& seen,
+                                 const Pose& T_map_body, int at_most_keyframes);
+
+/// The landmarks of an association, ascending, each once.
+std::vector<int> landmark_ids(const Associations& associations);
+
+}  // namespace vinebench
