@@ -46,7 +46,7 @@ void describe(const cv::Mat& picture, int level, double scale, const std::vector
               Features& features) {
   if (corners.empty()) return;
   cv::Mat smoothed;
-  cv::GaussianBlur(picture, smoothed, cv::Size(7, 7), 2, 2, cv::BORDER_REFLECT_101);
+  cv::GaussianBlur(picture, smoothed, cv::Size(7, 7), 2, 2, cv::BORDER_REFLECT_101 | cv::BORDER_ISOLATED);
   for (const Corner& corner : corners) {
     Keypoint keypoint;
     keypoint.x = static_cast<float>((corner.x + 0.5) * scale - 0.5);
