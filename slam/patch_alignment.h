@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <optional>
+
+namespace vinebench {
+
+/// Where a window of the left picture lies in the right one.
+struct PatchAlignment {
+  double shift = 0;       ///< px of this level, x_left - x_right at the window's centre
+  double difference = 0;  ///< grey levels, mean absolute difference after alignment
+};
+
+/// Finds an 11 x 11 px window about (x, y) of `left` on the same rows of `right`, a rectified pair
+/// of CV_8UC1. Searches whole shifts about `guess` by the sum of absolute differences, then solves
+/// for shift, slope of the shift along x and y (a slanted surface) and brightness by Gauss-Newton
+/// steps with the gradients of the left window (after Baker and Matthews, "Lucas-Kanade 20 years
+/// on", 2004). None where the window leaves a picture or no minimum is found.
+std::optional<PatchAlignment> align_patch(const cv::Mat& left, const cv::Mat& right, int x, int y,
+                                          double guess);
+
+}  // namespace vinebench

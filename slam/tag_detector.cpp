@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/tag_detector.h"
+
+#include <apriltag/apriltag.h>
+#include <apriltag/tag16h5.h>
+#include <apriltag/tag25h9.h>
+#include <apriltag/tag36h10.h>
+#include <apriltag/tag36h11.h>
+#include <apriltag/tagCircle21h7.h>
+#include <apriltag/tagCircle49h12.h>
+#include <apriltag/tagCustom48h12.h>
+#include <apriltag/tagStandard41h12.h>
+#include <apriltag/tagStandard52h13.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "slam/base/error.h"
+#include "slam/tag_pose.h"
+
+namespace vinebench {
+namespace {
+
+struct KnownFamily {
+  const char* name;
+  apriltag_family_t* (*create)();
+  void (*destroy)(apriltag_family_t*);
+};
+
+constexpr KnownFamily kFamilies[] = {
+    {"tag16h5", tag16h5_create, tag16h5_destroy},
+    {"tag25h9", tag25h9_create, tag25h9_destroy},
+    {"tag36h10", tag36h10_create, tag36h10_destroy},
+    {"tag36h11", tag36h11_create, tag36h11_destroy},
+    {"tagCircle21h7", tagCircle21h7_create, tagCircle21h7_destroy},
+    {"tagCircle49h12", tagCircle49h12_create, tagCircle49h12_destroy},
+    {"tagCustom48h12", tagCustom48h12_create, tagCustom48h12_destroy},
+    {"tagStandard41h12", tagStandard41h12_create, tagStandard41h12_destroy},
+    {"tagStandard52h13", tagStandard52h13_create, tagStandard52h13_destroy},
+};
+
+const KnownFamily& find_family(const std::string& name) {
+  std::string names;
+  for (const KnownFamily& family : kFamilies) {
+    if (name == family.name) return family;
+    names += (names.empty() ? "" : ", ") + std::string(family.name);
+  }
+  fail("tag detector: unknown tag family '{}'; expected one of {}", name, names);
+}
+
+using FamilyPtr = std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)>;
+using DetectorPtr = std::unique_ptr<apriltag_detector_t, void (*)(apriltag_detector_t*)>;
+using DetectionsPtr = std::unique_ptr<zarray_t, void (*)(zarray_t*)>;
+
+/// AprilTag takes the centre of the top left pixel for (0.5, 0.5), we for (0, 0).
+constexpr double kPixelCentre = 0.5;
+
+}  // namespace
+
+struct TagDetector::Impl {
+  TagDetectorConfig config;
+  std::map<std::pair<std::string, int>, double> sizes;  ///< m, of the registered tags
+  std::vector<FamilyPtr> families;                      ///< outlives the detector that uses them
+  DetectorPtr detector{apriltag_detector_create(), apriltag_detector_destroy};
+
+  Impl(const TagDetectorConfig& c, const std::vector<RegisteredTag>& registered) : config(c) {
+    for (const RegisteredTag& tag : registered) sizes[{tag.family, tag.id}] = tag.size;
+    for (const std::string& name : config.families) {
+      const KnownFamily& family = find_family(name);
+      families.emplace_back(family.create(), family.destroy);
+      apriltag_detector_add_family_bits(detector.get(), families.back().get(), config.max_hamming);
+    }
+    detector->nthreads = 1;
+    detector->quad_decimate = static_cast<float>(config.decimate);
+    detector->refine_edges = true;
+  }
+
+  double size_of(const std::string& family, int id) const {
+    const auto found = sizes.find({family, id});
+    return found == sizes.end() ? config.size : found->second;
+  }
+
+  TagSighting sighting(const apriltag_detection_t& found, const PinholeCamera& model,
+                       int camera) const {
+    TagSighting result;
+    result.camera = camera;
+    result.family = found.family->name;
+    result.id = found.id;
+    for (std::size_t i = 0; i < 4; ++i) {
+      result.corners[i] = {found.p[i][0] - kPixelCentre, found.p[i][1] - kPixelCentre};
+    }
+    result.T_cam_tag = estimate_tag_pose(result.corners, model, size_of(result.family, result.id));
+    return result;
+  }
+};
+
+TagDetector::TagDetector(const TagDetectorConfig& config, std::vector<RegisteredTag> registered)
+    : impl_(std::make_unique<Impl>(config, registered)) {}
+TagDetector::TagDetector(TagDetector&&) noexcept = default;
+TagDetector& TagDetector::operator=(TagDetector&&) noexcept = default;
+TagDetector::~TagDetector() = default;
+
+std::vector<TagSighting> TagDetector::detect(const cv::Mat& grey, const PinholeCamera& model,
+                                             int camera) {
+  if (grey.type() != CV_8UC1 || grey.empty()) {
+    fail("tag detector: expected a grey picture of 8 bits (CV_8UC1), found {} x {} of type {}",
+         grey.cols, grey.rows, cv::typeToString(grey.type()));
+  }
+  // The library only reads the picture; its interface is not const.
+  image_u8_t picture{grey.cols, grey.rows, static_cast<int32_t>(grey.step[0]),
+                     const_cast<std::uint8_t*>(grey.ptr<std::uint8_t>())};
+  const DetectionsPtr found(apriltag_detector_detect(impl_->detector.get(), &picture),
+                            apriltag_detections_destroy);
+  std::vector<TagSighting> sightings;
+  for (int i = 0; i < zarray_size(found.get()); ++i) {
+    const apriltag_detection_t* detection = nullptr;
+    zarray_get(found.get(), i, static_cast<void*>(&detection));
+    const bool believed =
+        static_cast<double>(detection->decision_margin) >= impl_->config.min_margin &&
+        detection->hamming <= impl_->config.max_hamming;
+    if (believed) sightings.push_back(impl_->sighting(*detection, model, camera));
+  }
+  std::sort(sightings.begin(), sightings.end(), [](const TagSighting& a, const TagSighting& b) {
+    return std::tuple(a.family, a.id, a.corners[0].x(), a.corners[0].y()) <
+           std::tuple(b.family, b.id, b.corners[0].x(), b.corners[0].y());
+  });
+  return sightings;
+}
+
+}  // namespace vinebench

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "slam/base/camera.h"
+#include "slam/base/pose.h"
+
+namespace vinebench {
+
+/// T_cam_tag of a square tag of side `size` m from its corners (px; the tag's own lower left, then
+/// counter-clockwise as printed). Tag frame: x right, y down on the printed face, z into the tag.
+///
+/// A small or distant square has two poses that explain it nearly as well (Collins and Bartoli,
+/// "Infinitesimal plane-based pose estimation", 2014): both are refined by the reprojection error
+/// of the corners and the better one is returned.
+Pose estimate_tag_pose(const std::array<Eigen::Vector2d, 4>& corners, const PinholeCamera& model,
+                       double size);
+
+}  // namespace vinebench

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <apriltag/apriltag.h>
+#include <apriltag/tag36h11.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <opencv2/core/mat.hpp>
+
+#include "slam/base/camera.h"
+#include "slam/base/pose.h"
+#include "slam/base/random.h"
+
+namespace vinebench {
+
+/// A printed tag36h11 before a camera, drawn by shooting rays: each pixel is the mean of 6 x 6.
+class SyntheticTag {
+ public:
+  SyntheticTag(int id, double size) : size_(size) {
+    apriltag_family_t* family = tag36h11_create();
+    image_u8_t* print = apriltag_to_image(family, static_cast<uint32_t>(id));
+    cells_ = cv::Mat(print->height, print->width, CV_8UC1);
+    for (int y = 0; y < print->height; ++y) {
+      for (int x = 0; x < print->width; ++x) {
+        cells_.at<std::uint8_t>(y, x) = print->buf[y * print->stride + x];
+      }
+    }
+    cell_ = size / family->width_at_border;
+    std::free(print->buf);  // the library does not export its own destroyer
+    std::free(print);
+    tag36h11_destroy(family);
+  }
+
+  /// Corner i in the tag frame: lower left, lower right, upper right, upper left as printed.
+  Eigen::Vector3d corner(std::size_t i) const {
+    const double h = size_ / 2;
+    return {i == 0 || i == 3 ? -h : h, i < 2 ? h : -h, 0};
+  }
+
+  cv::Mat render(const PinholeCamera& camera, const Pose& T_cam_tag, double sigma = 0) const {
+    cv::Mat picture(camera.height, camera.width, CV_8UC1, cv::Scalar(110));
+    draw(picture, camera, T_cam_tag);
+    const RandomStream noise(5, "tag-noise");
+    for (int i = 0; sigma > 0 && i < picture.rows * picture.cols; ++i) {
+      std::uint8_t& grey = picture.at<std::uint8_t>(i / picture.cols, i % picture.cols);
+      grey = cv::saturate_cast<std::uint8_t>(grey +
+                                             sigma * noise.normal(static_cast<std::uint64_t>(i)));
+    }
+    return picture;
+  }
+
+  void draw(cv::Mat& picture, const PinholeCamera& camera, const Pose& T_cam_tag) const {
+    constexpr int kSamples = 6;
+    const Pose T_tag_cam = T_cam_tag.inverse();
+    // Only pixels near the tag: within the print's circumscribed circle.
+    const Eigen::Vector2d middle = camera.project(T_cam_tag.translation);
+    const int reach = static_cast<int>(1.2 * size_ / T_cam_tag.translation.z() * camera.fx) + 8;
+    for (int y = std::max(0, static_cast<int>(middle.y()) - reach);
+         y < std::min(camera.height, static_cast<int>(middle.y()) + reach); ++y) {
+      for (int x = std::max(0, static_cast<int>(middle.x()) - reach);
+           x < std::min(camera.width, static_cast<int>(middle.x()) + reach); ++x) {
+        double sum = 0;
+        for (int s = 0; s < kSamples * kSamples; ++s) {
+          const Eigen::Vector2d pixel(x - 0.5 + (s % kSamples + 0.5) / kSamples,
+                                      y - 0.5 + (s / kSamples + 0.5) / kSamples);
+          sum += grey(T_tag_cam.rotation * camera.unproject(pixel), T_tag_cam.translation);
+        }
+        picture.at<std::uint8_t>(y, x) =
+            cv::saturate_cast<std::uint8_t>(sum / (kSamples * kSamples));
+      }
+    }
+  }
+
+ private:
+  /// Grey level where the ray meets the plane z = 0 of the tag frame.
+  double grey(const Eigen::Vector3d& ray, const Eigen::Vector3d& eye) const {
+    const double along = -eye.z() / ray.z();
+    const double half = cells_.cols / 2.0;
+    const int column = static_cast<int>(std::floor((eye.x() + along * ray.x()) / cell_ + half));
+    const int row = static_cast<int>(std::floor((eye.y() + along * ray.y()) / cell_ + half));
+    if (column < 0 || row < 0 || column >= cells_.cols || row >= cells_.rows) return 110;
+    return 30 + 190 * (cells_.at<std::uint8_t>(row, column) / 255.0);
+  }
+
+  double size_;
+  double cell_ = 0;
+  cv::Mat cells_;
+};
+
+}  // namespace vinebench
