@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/slam/synthetic_aisle.h"
+
+namespace vinebench {
+namespace {
+
+using testing_support::SyntheticAisle;
+
+SlamConfig config() {
+  return {};
+}
+
+/// Drives along x at 0.3 m/s, 0.02 m a frame, swaying a little in heading.
+Pose driving(std::int64_t frame) {
+  const double x = 0.02 * static_cast<double>(frame);
+  return {exp_so3({0, 0, 0.1 * std::sin(2.0 * x)}), {x, 0.05 * std::sin(x), 0}};
+}
+
+/// Greatest position error against the truth, both seen from their first pose, m.
+double worst_error(const Trajectory& estimate, const std::vector<Pose>& truth) {
+  double worst = 0;
+  for (std::size_t i = 0; i < estimate.size(); ++i) {
+    const Pose moved = estimate.front().pose.inverse() * estimate[i].pose;
+    const Pose moved_truth = truth.front().inverse() * truth[i];
+    worst = std::max(worst, (moved.translation - moved_truth.translation).norm());
+  }
+  return worst;
+}
+
+TEST(PipelineTest, RecoversTheWayExactlyWithoutNoise) {
+  const SyntheticAisle aisle(0, 1);
+  Pipeline pipeline(config(), aisle.rig, {});
+  std::vector<Pose> truth;
+  for (std::int64_t i = 0; i < 60; ++i) {
+    truth.push_back(driving(i));
+    ASSERT_EQ(pipeline.process(aisle.frame(i, truth.back())).status, TrackingStatus::kTracking)
+        << i;
+  }
+  const SlamSummary summary = pipeline.finish();
+  ASSERT_EQ(summary.trajectory.size(), 60u);
+  // Pixels are held as floats, 3e-5 px at 500: about 1e-7 m a frame at half a metre.
+  EXPECT_LT(worst_error(summary.trajectory, truth), 2e-6);
+}
+
+TEST(PipelineTest, DriftsLittleWithNoise) {
+  const SyntheticAisle aisle(0.5, 2);
+  Pipeline pipeline(config(), aisle.rig, {});
+  std::vector<Pose> truth;
+  for (std::int64_t i = 0; i < 200; ++i) {
+    truth.push_back(driving(i));
+    ASSERT_EQ(pipeline.process(aisle.frame(i, truth.back())).status, TrackingStatus::kTracking);
+  }
+  const SlamSummary summary = pipeline.finish();
+  // 4 m of way; half a pixel at half a metre is 1 mm for one feature, 0.03 mm for a thousand. A
+  // random walk over some 20 keyframe chains and its heading's lever stay within 0.2 % of the way.
+  EXPECT_LT(worst_error(summary.trajectory, truth), 0.008);
+  EXPECT_GT(summary.landmarks, 500u);
+}
+
+TEST(PipelineTest, StandingStillStays) {
+  const SyntheticAisle aisle(0.5, 3);
+  Pipeline pipeline(config(), aisle.rig, {});
+  std::vector<Pose> truth(150, driving(10));
+  for (std::int64_t i = 0; i < 150; ++i) pipeline.process(aisle.frame(i, truth[0]));
+  const SlamSummary summary = pipeline.finish();
+  EXPECT_LT(worst_error(summary.trajectory, truth), 0.001);
+  EXPECT_LE(summary.keyframes.size(), 2u);
+}
+
+TEST(PipelineTest, GoesOnWhileOnePairIsBlind) {
+  const SyntheticAisle aisle(0.5, 4);
+  Pipeline pipeline(config(), aisle.rig, {});
+  std::vector<Pose> truth;
+  for (std::int64_t i = 0; i < 120; ++i) {
+    truth.push_back(driving(i));
+    const bool blind = i >= 40 && i < 85;
+    const Estimate estimate =
+        pipeline.process(blind ? aisle.frame(i, truth.back(), {0}) : aisle.frame(i, truth.back()));
+    ASSERT_EQ(estimate.status, TrackingStatus::kTracking) << i;
+    if (blind) {
+      EXPECT_EQ(estimate.cameras[0].inliers, 0);
+    }
+    EXPECT_GT(estimate.cameras[2].inliers, 100) << i;
+  }
+  EXPECT_LT(worst_error(pipeline.finish().trajectory, truth), 0.01);
+}
+
+TEST(PipelineTest, SaysLostWhenEveryPairIsBlind) {
+  const SyntheticAisle aisle(0.5, 5);
+  Pipeline pipeline(config(), aisle.rig, {});
+  for (std::int64_t i = 0; i < 30; ++i) pipeline.process(aisle.frame(i, driving(i)));
+  const Estimate blind = pipeline.process(aisle.frame(30, driving(30), {0, 1}));
+  EXPECT_EQ(blind.status, TrackingStatus::kLost);
+  EXPECT_FALSE(blind.T_map_body.has_value());
+  // Two frames later the prediction still holds: tracking is found again.
+  pipeline.process(aisle.frame(31, driving(31), {0, 1}));
+  EXPECT_EQ(pipeline.process(aisle.frame(32, driving(32))).status, TrackingStatus::kTracking);
+}
+
+/// Ahead 2 m, back 2 m (turned about, so that the map cannot be reused): drift is left for the tag.
+Pose there_and_back(std::int64_t frame) {
+  if (frame < 100) return driving(frame);
+  if (frame < 160) {
+    const Pose turn{exp_so3({0, 0, 3.14159265 * static_cast<double>(frame - 100) / 60}), {}};
+    return driving(100) * turn;
+  }
+  const Pose end = driving(100 - (frame - 160));
+  return end * Pose{exp_so3({0, 0, 3.14159265}), {}};
+}
+
+TEST(PipelineTest, ClosesALoopWhenATagIsSeenAgain) {
+  const SyntheticAisle aisle(1.0, 6);
+  const RigCamera& side = aisle.rig.cameras[4];
+  const Pose T_cam_tag{exp_so3({0.1, 0.2, 0}), {0.02, 0.01, 0.3}};
+  const Pose T_world_tag = there_and_back(0) * side.T_body_cam * T_cam_tag;
+  RegisteredTag registered{"tag36h11", 0, 0.161, T_world_tag};
+  Pipeline pipeline(config(), aisle.rig, {registered});
+  std::vector<Pose> truth;
+  int closures = 0;
+  // Round the way: there, back, turned on at the start until the side camera sees the tag again.
+  for (std::int64_t i = 0; i <= 320; ++i) {
+    Pose T_world_body = there_and_back(std::min<std::int64_t>(i, 260));
+    if (i > 260) {
+      T_world_body =
+          T_world_body * Pose{exp_so3({0, 0, 3.14159265 * static_cast<double>(i - 260) / 60}), {}};
+    }
+    truth.push_back(T_world_body);
+    const bool sees_tag = i < 3 || i >= 319;
+    const Estimate estimate =
+        pipeline.process(sees_tag ? aisle.frame_with_tag(i, T_world_body, T_world_tag)
+                                  : aisle.frame(i, T_world_body));
+    ASSERT_EQ(estimate.status, TrackingStatus::kTracking) << i;
+    if (estimate.loop_closure) {
+      ++closures;
+      EXPECT_EQ(i, 319);
+      const Pose constraint = estimate.loop_closure->T_earlier_later;
+      const Pose moved = truth[0].inverse() * truth[319];
+      EXPECT_LT((constraint.translation - moved.translation).norm(), 1e-6);
+    }
+  }
+  EXPECT_EQ(closures, 1);
+  const SlamSummary summary = pipeline.finish();
+  // Exact tag corners at both ends: the last pose is as good as the first, to the few tenths of a
+  // millimetre by which features outvote eight corners.
+  const Pose last = summary.trajectory.back().pose;
+  EXPECT_LT((last.translation - truth.back().translation).norm(), 0.002);
+  EXPECT_LT(worst_error(summary.trajectory, truth), 0.01);
+}
+
+TEST(PipelineTest, SameInputSameBits) {
+  const SyntheticAisle aisle(0.5, 7);
+  std::string texts[2];
+  for (std::string& text : texts) {
+    Pipeline pipeline(config(), aisle.rig, {});
+    for (std::int64_t i = 0; i < 40; ++i) pipeline.process(aisle.frame(i, driving(i)));
+    for (const StampedPose& p : pipeline.finish().trajectory) {
+      text.append(reinterpret_cast<const char*>(p.pose.translation.data()), 24);
+    }
+  }
+  EXPECT_EQ(texts[0], texts[1]);
+}
+
+}  // namespace
+}  // namespace vinebench
