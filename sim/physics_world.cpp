@@ -55,7 +55,7 @@ void silence_warnings() {
 std::string upright(const std::string& name, const Eigen::Vector2d& foot, double height,
                     double radius) {
   return fmt::format(
-      "    <geom name=\"{}\" type=\"capsule\" fromto=\"{} {} 0 {} {} {}\" size=\"{}\"/>\n", name,
+      "    <geom name=\"{}\" type=\"cylinder\" fromto=\"{} {} 0 {} {} {}\" size=\"{}\"/>\n", name,
       foot.x(), foot.y(), foot.x(), foot.y(), height, radius);
 }
 

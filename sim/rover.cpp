@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::array<const char*, 4> kWheelNames{"front_left", "front_right", "rear_left",
                                                  "rear_right"};
-constexpr Stamp kSettling = kNanosecondsPerSecond;  // the suspension comes to rest within it
-constexpr double kGeometryTolerance = 0.002;        // m, between model and configuration
-constexpr double kSpread = 0.01;                    // of motors and friction, from seed to seed
+constexpr Stamp kSettling = 3 * kNanosecondsPerSecond;  // springs and speed loops come to rest
+constexpr double kGeometryTolerance = 0.002;            // m, between model and configuration
+constexpr double kSpread = 0.01;                        // of motors and friction, from seed to seed
 
 Eigen::Vector3d vector_of(const mjtNum* numbers) {
   return {numbers[0], numbers[1], numbers[2]};
