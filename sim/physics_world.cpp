@@ -52,6 +52,26 @@ void silence_warnings() {
   std::call_once(once, [] { mju_user_warning = [](const char*) {}; });
 }
 
+std::string xml_escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
 std::string upright(const std::string& name, const Eigen::Vector2d& foot, double height,
                     double radius) {
   return fmt::format(
@@ -100,23 +120,30 @@ std::string world_mjcf(const WorldConfig& world, const std::filesystem::path& ro
   </worldbody>
 </mujoco>
 )",
-                     rover_include.string(), world.ground_size / 2, world.ground_size / 2, geoms);
+                     xml_escaped(rover_include.string()), world.ground_size / 2,
+                     world.ground_size / 2, geoms);
 }
 
 PhysicsWorld::PhysicsWorld(const std::filesystem::path& rover, const WorldConfig& world)
     : rover_(rover) {
   silence_warnings();
-  if (!std::filesystem::is_regular_file(rover)) {
+  if (mj_version() != mjVERSION_HEADER) {
+    fail("MuJoCo's library is version {}, its headers {}: expected the same", mj_version(),
+         mjVERSION_HEADER);
+  }
+  std::error_code problem;
+  if (!std::filesystem::is_regular_file(rover, problem)) {
     fail("{}: no such file, expected the rover's MJCF model", rover.string());
   }
   const std::filesystem::path folder = temporary_folder();
   const TemporaryFile file((folder / "vinebench-XXXXXX.xml").string(), 4);
   // MuJoCo joins an included name to the folder of the including file, even an absolute one.
-  const std::filesystem::path include = std::filesystem::relative(rover, folder);
+  const std::filesystem::path include = std::filesystem::relative(rover, folder, problem);
+  if (problem) fail("{}: {}", rover.string(), problem.message());
   write_file_atomically(file.name(), world_mjcf(world, include));
-  std::array<char, 1000> problem{};
-  model_.reset(mj_loadXML(file.name().c_str(), nullptr, problem.data(), problem.size()));
-  if (!model_) fail("{}: no valid MJCF model: {}", rover.string(), problem.data());
+  std::array<char, 1000> reason{};
+  model_.reset(mj_loadXML(file.name().c_str(), nullptr, reason.data(), reason.size()));
+  if (!model_) fail("{}: no valid MJCF model: {}", rover.string(), reason.data());
   state_.reset(mj_makeData(model_.get()));
   if (!state_) fail("{}: no memory for the physics' state", rover.string());
 }

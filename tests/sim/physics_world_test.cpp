@@ -152,6 +152,16 @@ TEST(PhysicsWorldTest, LeavesNoTemporaryFile) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(PhysicsWorldTest, LoadsFromAFolderOfAnyName) {
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / "rovers & <\"friends\">";
+  std::filesystem::create_directories(folder);
+  std::filesystem::copy_file(kModels / "rover.xml", folder / "rover.xml",
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_NO_THROW(PhysicsWorld(folder / "rover.xml", one_row()));
+  std::filesystem::remove_all(folder);
+}
+
 TEST(PhysicsWorldTest, ReportsPhysicsThatFail) {
   PhysicsWorld physics(kModels / "rover.xml", one_row());
   physics.refresh();
