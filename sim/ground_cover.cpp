@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "sim/asset.h"
+#include "sim/ground.h"
+#include "sim/plant_geometry.h"
+#include "sim/textures.h"
+#include "slam/base/random.h"
+
+namespace vinebench {
+namespace {
+
+using Eigen::Vector3f;
+
+enum CoverMaterial { kBlade, kPebble, kFallenLeaf, kCoverMaterials };
+
+/// A patch of ground as it is strewn: half-extents in m, and how much of everything.
+struct PatchSpec {
+  const char* name;
+  float half_x, half_y;
+  int tufts, blades;
+  float low, high;  ///< height of grass, m
+  int pebbles;
+  int fallen_leaves;
+};
+
+constexpr std::array<PatchSpec, 3> kPatches{{
+    {"weeds", 0.50f, 0.13f, 11, 12, 0.04f, 0.17f, 8, 4},
+    {"litter", 0.50f, 0.50f, 7, 7, 0.015f, 0.05f, 16, 9},
+    {"grass", 0.50f, 0.50f, 16, 12, 0.05f, 0.16f, 5, 2},
+}};
+constexpr int kVariants = 4;
+constexpr double kFullUntil = 2.5, kThinUntil = 8;  // m
+
+void add_blade(MeshBuilder& builder, const Vector3f& root, float height, float turn, float bend,
+               bool fine) {
+  const Vector3f lean(std::cos(turn), std::sin(turn), 0);
+  const Vector3f across = Vector3f(-lean.y(), lean.x(), 0) * (0.10f * std::sqrt(height) * 0.11f);
+  const Vector3f middle = root + 0.6f * height * Vector3f::UnitZ() + 0.3f * bend * height * lean;
+  const Vector3f tip = root + (1 - 0.3f * bend) * height * Vector3f::UnitZ() + bend * height * lean;
+  const Vector3f normal = (Vector3f::UnitZ() + 0.5f * lean).normalized();
+  const std::uint32_t a = builder.vertex(root - across, normal, {0, 1}, 0.45f);
+  const std::uint32_t b = builder.vertex(root + across, normal, {1, 1}, 0.45f);
+  const std::uint32_t t = builder.vertex(tip, normal, {0.5f, 0});
+  if (!fine) return builder.triangle(a, b, t);
+  const std::uint32_t c = builder.vertex(middle + 0.8f * across, normal, {1, 0.5f}, 0.9f);
+  const std::uint32_t d = builder.vertex(middle - 0.8f * across, normal, {0, 0.5f}, 0.9f);
+  builder.quad(a, b, c, d);
+  builder.triangle(d, c, t);
+}
+
+class Patch {
+ public:
+  Patch(const PatchSpec& spec, std::uint64_t seed, int variant, bool fine)
+      : spec_(spec), fine_(fine), random_(RandomStream(seed, spec.name, variant)) {
+    for (int m = 0; m < kCoverMaterials; ++m) parts_.at(m).material = m;
+  }
+
+  std::vector<Primitive> strew() {
+    for (int i = 0; i < spec_.tufts; ++i) grow_tuft();
+    for (int i = 0; i < spec_.pebbles; ++i) drop_pebble();
+    for (int i = 0; i < spec_.fallen_leaves; ++i) drop_leaf();
+    std::vector<Primitive> kept;
+    for (Primitive& part : parts_) {
+      if (!part.indices.empty()) kept.push_back(std::move(part));
+    }
+    return kept;
+  }
+
+ private:
+  float uniform(float low, float high) { return static_cast<float>(random_.uniform(low, high)); }
+  Vector3f somewhere() {
+    const float x = uniform(-spec_.half_x, spec_.half_x);
+    return {x, uniform(-spec_.half_y, spec_.half_y), 0};
+  }
+
+  void grow_tuft() {
+    MeshBuilder builder(parts_[kBlade]);
+    const Vector3f middle = somewhere();
+    const float height = uniform(spec_.low, spec_.high);
+    for (int i = 0; i < spec_.blades; ++i) {
+      const float turn = uniform(0, 6.2832f), out = uniform(0, 0.4f * height);
+      const float tall = height * uniform(0.5f, 1.0f), bend = uniform(0.2f, 0.9f);
+      const Vector3f root = middle + out * Vector3f(std::cos(turn), std::sin(turn), 0);
+      if (fine_ || i % 3 == 0) add_blade(builder, root, tall, turn, bend, fine_);
+    }
+  }
+
+  void drop_pebble() {
+    MeshBuilder builder(parts_[kPebble]);
+    const float size = 0.006f + 0.022f * std::pow(uniform(0, 1), 3.0f);
+    const Vector3f at = somewhere() - 0.2f * size * Vector3f::UnitZ();
+    const Vector3f up(uniform(-0.3f, 0.3f), uniform(-0.3f, 0.3f), 1);
+    const std::size_t first = parts_[kPebble].vertices.size();
+    if (!fine_ && size < 0.012f) return;
+    builder.dome(at, size, up, 6, fine_ ? 2 : 1);
+    for (std::size_t i = first; i < parts_[kPebble].vertices.size(); ++i) {
+      Vertex& vertex = parts_[kPebble].vertices[i];
+      vertex.position.z() = at.z() + 0.7f * (vertex.position.z() - at.z());  // stones lie flat
+      vertex.uv += Eigen::Vector2f(at.x(), at.y());
+    }
+  }
+
+  void drop_leaf() {
+    BladePlacement leaf;
+    leaf.foot = somewhere();
+    leaf.size = uniform(0.04f, 0.075f);
+    leaf.curl = -uniform(0.05f, 0.3f);  // the rim stands up as it dries
+    const float turn = uniform(0, 6.2832f);
+    leaf.axes = axes_along(Vector3f(uniform(-0.15f, 0.15f), uniform(-0.15f, 0.15f), 1),
+                           {std::cos(turn), std::sin(turn), 0});
+    leaf.foot.z() = 0.2f * leaf.size;
+    leaf.shading_normal = Vector3f::Zero();
+    leaf.cell = leaf_cell(random_.below(kLeafVariants));
+    MeshBuilder(parts_[kFallenLeaf]).blade(leaf, fine_ ? 1 : 0);
+  }
+
+  const PatchSpec& spec_;
+  bool fine_;
+  RandomSequence random_;
+  std::array<Primitive, kCoverMaterials> parts_;
+};
+
+int add_patch(Scene& scene, const PatchSpec& spec, std::uint64_t seed, int variant,
+              const std::vector<Texture>& textures) {
+  Asset asset;
+  asset.textures = textures;
+  asset.add(make_material("grass", Label::kGrass, 0));
+  asset.materials.back().double_sided = true;
+  asset.materials.back().translucency = 0.3f;
+  asset.add(make_material("stone", Label::kGround, 1));
+  asset.add(make_material("fallen leaf", Label::kGround, 2));
+  asset.materials.back().double_sided = true;
+  asset.materials.back().colour = {0.95f, 0.42f, 0.28f};  // turns the green of the atlas brown
+  asset.model.name = spec.name;
+  asset.model.levels.push_back({kFullUntil, Patch(spec, seed, variant, true).strew()});
+  asset.model.levels.push_back({kThinUntil, Patch(spec, seed, variant, false).strew()});
+  asset.model.levels.push_back({1e9, {}});
+  asset.update_bounds();
+  return add_asset(scene, std::move(asset));
+}
+
+Pose flat_pose(double x, double y, double yaw) {
+  return {from_roll_pitch_yaw({0, 0, yaw}), {x, y, 0}};
+}
+
+double distance_to_row(const WorldConfig::Row& row, const Eigen::Vector2d& p) {
+  const Eigen::Vector2d along = row.end - row.start;
+  const double t = std::clamp((p - row.start).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return (p - row.start - t * along).norm();
+}
+
+}  // namespace
+
+void add_ground_cover(Scene& scene, const WorldConfig& world, std::uint64_t seed) {
+  const std::vector<Texture> textures{grass_texture(seed), stone_texture(seed), leaf_texture(seed)};
+  std::array<std::array<int, kVariants>, kPatches.size()> models{};
+  for (std::size_t kind = 0; kind < kPatches.size(); ++kind) {
+    for (int v = 0; v < kVariants; ++v) {
+      models[kind][v] = add_patch(scene, kPatches[kind], seed, v, textures);
+    }
+  }
+  RandomSequence random(RandomStream(seed, "ground cover"));
+  int id = 0;
+  for (const WorldConfig::Row& row : world.rows) {
+    const Eigen::Vector2d along = (row.end - row.start).normalized();
+    const double yaw = std::atan2(along.y(), along.x());
+    for (double s = 0.5; s < (row.end - row.start).norm(); s += 1) {
+      const Eigen::Vector2d at = row.start + s * along;
+      const double turn = random.below(2) * std::numbers::pi;
+      scene.instances.push_back(
+          {models[0][random.below(kVariants)], flat_pose(at.x(), at.y(), yaw + turn), 1, id++});
+    }
+  }
+  constexpr double kMargin = 4;  // m of grass round the rows
+  const Eigen::AlignedBox2d box = rows_box(world);
+  const double half = world.ground_size / 2 - 1;
+  for (double y = std::max(box.min().y() - kMargin, -half);
+       y < std::min(box.max().y() + kMargin, half); y += 1) {
+    for (double x = std::max(box.min().x() - kMargin, -half);
+         x < std::min(box.max().x() + kMargin, half); x += 1) {
+      double nearest = 1e9;
+      for (const WorldConfig::Row& row : world.rows) {
+        nearest = std::min(nearest, distance_to_row(row, {x, y}));
+      }
+      const int kind = nearest < 1.2 ? 1 : 2;
+      const double turn = random.below(4) * std::numbers::pi / 2;
+      scene.instances.push_back(
+          {models[kind][random.below(kVariants)], flat_pose(x, y, turn), 1, id++});
+    }
+  }
+}
+
+}  // namespace vinebench

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "sim/scene.h"
+#include "sim/world.h"
+
+namespace vinebench {
+
+/// Posts and wires of every row.
+void add_trellis(Scene& scene, const WorldConfig& world, std::uint64_t seed);
+
+/// Carton boxes.
+void add_boxes(Scene& scene, const WorldConfig& world, std::uint64_t seed);
+
+/// Printed tags, each on its white board. The print's plane is exactly that of tag_pose.
+void add_tags(Scene& scene, const WorldConfig& world);
+
+/// The print and its board's white rim: each module is a whole number of texels wide, so that the
+/// module edges lie on texel borders in every mip level down to one texel a module.
+Texture tag_texture(const std::string& family, int id);
+
+/// Side of what tag_texture shows, in sides of the black square.
+double tag_board_scale(const std::string& family);
+
+}  // namespace vinebench

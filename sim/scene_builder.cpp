@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <numbers>
+
+#include "sim/asset.h"
+#include "sim/grapevine.h"
+#include "sim/ground.h"
+#include "sim/props.h"
+#include "sim/world.h"
+#include "slam/base/random.h"
+
+namespace vinebench {
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180.0;
+
+std::vector<int> add_plants(Scene& scene, const WorldConfig& world, std::uint64_t seed,
+                            const std::filesystem::path&) {
+  std::vector<int> models;
+  const std::vector<Texture> textures = plant_textures(seed);
+  for (int i = 0; i < world.vines.templates; ++i) {
+    models.push_back(
+        add_asset(scene, mesh_grapevine(grow_grapevine(world.vines, seed, i), textures)));
+  }
+  return models;
+}
+
+/// Heading of each vine's row, in vine_positions' order.
+std::vector<double> vine_headings(const WorldConfig& world) {
+  std::vector<double> headings;
+  for (const WorldConfig::Row& row : world.rows) {
+    WorldConfig only = world;
+    only.rows = {row};
+    const Eigen::Vector2d along = row.end - row.start;
+    headings.insert(headings.end(), vine_positions(only).size(), std::atan2(along.y(), along.x()));
+  }
+  return headings;
+}
+
+/// Plants in their rows: which template, which way round and how tall is drawn for each place.
+void add_vines(Scene& scene, const WorldConfig& world, std::uint64_t seed,
+               const std::filesystem::path& cache) {
+  const std::vector<int> models = add_plants(scene, world, seed, cache);
+  const std::vector<Eigen::Vector2d> places = vine_positions(world);
+  const std::vector<double> headings = vine_headings(world);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    RandomSequence random(RandomStream(seed, "vine", i));
+    const int model = models.at(random.below(static_cast<int>(models.size())));
+    const double turn = headings[i] + random.below(2) * std::numbers::pi;
+    const Pose pose{from_roll_pitch_yaw({0, 0, turn}), {places[i].x(), places[i].y(), 0}};
+    const auto scale = static_cast<float>(random.uniform(1.0, kLargestPlantScale));
+    scene.instances.push_back({model, pose, scale, static_cast<int>(i)});
+  }
+}
+
+Light daylight(const WorldConfig::Sun& sun) {
+  const double azimuth = sun.azimuth_deg * kRadians, elevation = sun.elevation_deg * kRadians;
+  Light light;
+  light.towards_sun = Eigen::Vector3d(std::sin(azimuth) * std::cos(elevation),
+                                      std::cos(azimuth) * std::cos(elevation), std::sin(elevation))
+                          .cast<float>();
+  return light;
+}
+
+}  // namespace
+
+Scene build_scene(const WorldConfig& world, std::uint64_t seed,
+                  const std::filesystem::path& cache) {
+  Scene scene;
+  scene.seed = seed;
+  scene.light = daylight(world.sun);
+  add_vines(scene, world, seed, cache);
+  add_trellis(scene, world, seed);
+  add_tags(scene, world);
+  add_boxes(scene, world, seed);
+  add_ground_cover(scene, world, seed);
+  add_ground(scene, world, seed);
+  add_backdrop(scene, world, seed);
+  return scene;
+}
+
+}  // namespace vinebench

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+
+#include "sim/plant_geometry.h"
+#include "sim/scene.h"
+#include "slam/base/random.h"
+
+namespace vinebench {
+
+// Pictures painted in code from a seed; the same seed gives the same bytes.
+
+/// Smooth noise in [0, 1], CV_32F, that repeats without a seam: `cells` bumps a side.
+cv::Mat value_noise(cv::Size size, cv::Size cells, const RandomStream& random);
+
+/// Octaves of value_noise, each of twice the cells and `gain` times the height, stretched to [0,
+/// 1].
+cv::Mat fractal_noise(cv::Size size, cv::Size cells, int octaves, double gain, std::uint64_t seed,
+                      std::string_view name);
+
+/// Pixel by pixel from `low` to `high` (RGB, 0 to 255) as `amount` goes from 0 to 1: CV_32FC3.
+cv::Mat blend(const cv::Mat& amount, const cv::Vec3f& low, const cv::Vec3f& high);
+
+/// Pixel by pixel from picture `a` to `b`, both CV_32FC3, as `amount` goes from 0 to 1.
+cv::Mat mix(const cv::Mat& amount, const cv::Mat& a, const cv::Mat& b);
+
+/// CV_32FC3 of 0 to 255 (and 8-bit alpha, opaque where empty) to the CV_8UC4 of a Texture.
+cv::Mat to_rgba(const cv::Mat& rgb, const cv::Mat& alpha = {});
+
+/// Atlas of eight vine leaves, alpha outside the blade.
+Texture leaf_texture(std::uint64_t seed);
+inline constexpr int kLeafVariants = 8;
+TextureCell leaf_cell(int variant);
+
+/// Atlas of four clumps of leaves for far plants, made of leaf_texture's.
+Texture foliage_texture(std::uint64_t seed, const Texture& leaves);
+inline constexpr int kFoliageVariants = 4;
+TextureCell foliage_cell(int variant);
+
+Texture bark_texture(std::uint64_t seed);
+Texture cane_texture(std::uint64_t seed);
+Texture berry_texture(std::uint64_t seed);  ///< one berry seen along its dome's axis
+Texture bunch_texture(std::uint64_t seed);  ///< many berries, for bunches seen from afar
+
+Texture soil_texture(std::uint64_t seed);  ///< for kSoilTile metres a side
+inline constexpr double kSoilTile = 2.3;   ///< m; no multiple of usual spacings
+Texture wood_texture(std::uint64_t seed);
+/// White-based, to be multiplied by the box's colour: plain above v = 0.5, with a tape below.
+Texture carton_texture(std::uint64_t seed);
+Texture grass_texture(std::uint64_t seed);
+Texture stone_texture(std::uint64_t seed);
+Texture hedge_texture(std::uint64_t seed);  ///< trees and bushes, alpha above their tops
+
+}  // namespace vinebench
