@@ -22,6 +22,7 @@ namespace vinebench {
   X(TEXIMAGE2D, TexImage2D)                           \
   X(TEXPARAMETERI, TexParameteri)                     \
   X(TEXPARAMETERFV, TexParameterfv)                   \
+  X(TEXPARAMETERF, TexParameterf)                     \
   X(GENVERTEXARRAYS, GenVertexArrays)                 \
   X(DELETEVERTEXARRAYS, DeleteVertexArrays)           \
   X(BINDVERTEXARRAY, BindVertexArray)                 \

@@ -69,7 +69,10 @@ class ChessboardTest : public testing::Test {
     // Started off the truth, so that a corner that is not there cannot be "found" where it began.
     std::vector<cv::Point2f> found = expected;
     for (cv::Point2f& corner : found) corner += cv::Point2f(0.7f, -0.6f);
-    cv::cornerSubPix(grey_of(picture), found, {4, 4}, {-1, -1},
+    // A symmetric blur moves no corner; without it the search feels the pixel grid by 0.1 px.
+    cv::Mat grey = grey_of(picture);
+    cv::GaussianBlur(grey, grey, {5, 5}, 1.0);
+    cv::cornerSubPix(grey, found, {4, 4}, {-1, -1},
                      {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 100, 1e-4});
     double worst = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -170,8 +173,10 @@ TEST(RendererTest, TagCornersAreWhereTheCameraProjectsThem) {
   light_evenly(scene);
   Renderer renderer(scene, {});
   const PinholeCamera camera = large_camera();
-  for (const Pose& pose : {look_at({0, -0.6, 0}, {0, 0, 0}), look_at({0.3, -0.5, 0.1}, {0, 0, 0}),
-                           look_at({-0.2, -0.9, -0.1}, {0, 0, 0}, 0.2)}) {
+  // No edge along the pixel grid, where the library's own refinement is off by 0.2 px.
+  for (const Pose& pose :
+       {look_at({0, -0.6, 0}, {0, 0, 0}, 0.05), look_at({0.3, -0.5, 0.1}, {0, 0, 0}),
+        look_at({-0.2, -0.9, -0.1}, {0, 0, 0}, 0.2)}) {
     const auto corners = detect_tag(grey_of(renderer.render(camera, pose, {})));
     ASSERT_EQ(corners.size(), 4u);
     // The library's order: counter-clockwise in the picture from the bottom left.
