@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "sim/frustum.h"
+#include "sim/gpu_scene.h"
+
+namespace vinebench {
+
+/// Instances of one model at one level of detail that are drawn by one call a primitive.
+struct DrawBatch {
+  int model = 0;
+  int level = 0;
+  int order = 0;  ///< draw order of the triangles
+  std::size_t first = 0;
+  std::size_t count = 0;  ///< instances
+};
+
+/// What one view draws, the nearest first.
+struct DrawList {
+  std::vector<DrawBatch> batches;
+  std::vector<InstanceMatrix> cam_from_model;  ///< of the batches' instances
+};
+
+/// Culls the instances against the view, chooses each one's level of detail by the distance of its
+/// nearest point, and batches what is about as far away.
+DrawList make_draw_list(const GpuScene& scene, const PinholeCamera& camera, const Pose& T_world_cam,
+                        double lod_scale);
+
+}  // namespace vinebench

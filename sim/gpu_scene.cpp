@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/gpu_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "sim/mip_levels.h"
+#include "slam/base/error.h"
+
+namespace vinebench {
+namespace {
+
+constexpr std::size_t kSmall = 32;  // triangles; fewer are not worth an order
+
+void check_index(int index, std::size_t size, const char* what, const std::string& where) {
+  if (index < 0 || static_cast<std::size_t>(index) >= size) {
+    fail("scene: {} names {} {}, expected 0 to {}", where, what, index, static_cast<int>(size) - 1);
+  }
+}
+
+void check_scene(const Scene& scene) {
+  for (const Texture& texture : scene.textures) {
+    if (texture.rgba.empty() || texture.rgba.type() != CV_8UC4) {
+      fail("scene: texture '{}': expected a picture of 4 channels of 8 bits", texture.name);
+    }
+  }
+  for (const Material& material : scene.materials) {
+    if (material.texture == -1) continue;
+    check_index(material.texture, scene.textures.size(), "texture", "material " + material.name);
+  }
+  for (const Model& model : scene.models) {
+    for (const LevelOfDetail& level : model.levels) {
+      for (const Primitive& primitive : level.primitives) {
+        check_index(primitive.material, scene.materials.size(), "material", "model " + model.name);
+        for (const std::uint32_t index : primitive.indices) {
+          check_index(static_cast<int>(index), primitive.vertices.size(), "vertex",
+                      "model " + model.name);
+        }
+      }
+    }
+  }
+  for (const Instance& instance : scene.instances) {
+    check_index(instance.model, scene.models.size(), "model", "an instance");
+  }
+  for (const Wire& wire : scene.wires) {
+    check_index(wire.material, scene.materials.size(), "material", "a wire");
+  }
+}
+
+GpuPrimitive upload(const Primitive& primitive) {
+  GpuPrimitive gpu;
+  gpu.material = primitive.material;
+  gpu.count = static_cast<GLsizei>(primitive.indices.size());
+  gpu.array = make_vertex_array();
+  gpu.vertices = make_buffer(GL_ARRAY_BUFFER, primitive.vertices);
+  vertex_attribute(0, 3, sizeof(Vertex), offsetof(Vertex, position));
+  vertex_attribute(1, 3, sizeof(Vertex), offsetof(Vertex, normal));
+  vertex_attribute(2, 2, sizeof(Vertex), offsetof(Vertex, uv));
+  vertex_attribute(3, 1, sizeof(Vertex), offsetof(Vertex, occlusion));
+  gpu.indices = make_buffer(GL_ELEMENT_ARRAY_BUFFER, sorted_indices(primitive));
+  gl.BindVertexArray(0);
+  return gpu;
+}
+
+bool casts_shadow(const Model& model, const std::vector<Material>& materials) {
+  for (const LevelOfDetail& level : model.levels) {
+    for (const Primitive& primitive : level.primitives) {
+      const Label label = materials[static_cast<std::size_t>(primitive.material)].label;
+      if (label != Label::kGround && label != Label::kGrass) return true;
+    }
+  }
+  return false;
+}
+
+GpuModel upload(const Model& model, const std::vector<Material>& materials) {
+  GpuModel gpu;
+  gpu.casts_shadow = casts_shadow(model, materials);
+  for (const LevelOfDetail& level : model.levels) {
+    GpuLevel& to = gpu.levels.emplace_back();
+    to.until = level.until;
+    for (const Primitive& primitive : level.primitives) {
+      if (primitive.indices.empty()) continue;
+      for (const Vertex& vertex : primitive.vertices) gpu.bounds.extend(vertex.position);
+      to.primitives.push_back(upload(primitive));
+    }
+  }
+  return gpu;
+}
+
+struct WireVertex {
+  Eigen::Vector3f from;
+  Eigen::Vector3f to;
+  Eigen::Vector3f shape;  // end, side, radius
+};
+
+void append_wire(const Wire& wire, std::vector<WireVertex>& vertices) {
+  constexpr float kPiece = 0.25f;  // m
+  const Eigen::Vector3f along = wire.to - wire.from;
+  const int pieces = std::max(1, static_cast<int>(std::ceil(along.norm() / kPiece)));
+  constexpr std::array<std::array<float, 2>, 6> kCorners{
+      {{0, -1}, {1, -1}, {1, 1}, {0, -1}, {1, 1}, {0, 1}}};
+  for (int i = 0; i < pieces; ++i) {
+    const Eigen::Vector3f from = wire.from + along * (static_cast<float>(i) / pieces);
+    const Eigen::Vector3f to = wire.from + along * (static_cast<float>(i + 1) / pieces);
+    for (const auto& [end, side] : kCorners) {
+      vertices.push_back({from, to, {end, side, wire.radius}});
+    }
+  }
+}
+
+GpuWires upload_wires(const Scene& scene, int material) {
+  std::vector<WireVertex> vertices;
+  for (const Wire& wire : scene.wires) {
+    if (wire.material == material) append_wire(wire, vertices);
+  }
+  GpuWires gpu;
+  gpu.material = material;
+  gpu.count = static_cast<GLsizei>(vertices.size());
+  gpu.array = make_vertex_array();
+  gpu.vertices = make_buffer(GL_ARRAY_BUFFER, vertices);
+  vertex_attribute(0, 3, sizeof(WireVertex), offsetof(WireVertex, from));
+  vertex_attribute(1, 3, sizeof(WireVertex), offsetof(WireVertex, to));
+  vertex_attribute(2, 3, sizeof(WireVertex), offsetof(WireVertex, shape));
+  gl.BindVertexArray(0);
+  return gpu;
+}
+
+bool is_cutout(const Scene& scene, int texture) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [&](const Material& m) { return m.texture == texture && m.cutout; });
+}
+
+}  // namespace
+
+int draw_order(const Eigen::Vector3d& towards_camera) {
+  const bool along_x = std::abs(towards_camera.x()) > std::abs(towards_camera.y());
+  if (along_x) return towards_camera.x() > 0 ? 0 : 1;
+  return towards_camera.y() > 0 ? 2 : 3;
+}
+
+std::vector<std::uint32_t> sorted_indices(const Primitive& primitive) {
+  constexpr int kBins = 24;
+  const std::size_t triangles = primitive.indices.size() / 3;
+  Eigen::AlignedBox3f bounds;
+  for (const Vertex& vertex : primitive.vertices) bounds.extend(vertex.position);
+  std::vector<std::uint32_t> sorted;
+  sorted.reserve(primitive.indices.size() * kDrawOrders);
+  for (int order = 0; order < kDrawOrders; ++order) {
+    const int axis = order / 2;
+    const float width = std::max(bounds.sizes()[axis], 1e-6f);
+    std::array<std::vector<std::uint32_t>, kBins> bins;
+    for (std::size_t t = 0; t < triangles; ++t) {
+      const std::uint32_t* triangle = &primitive.indices[3 * t];
+      const float x = (primitive.vertices[triangle[0]].position[axis] +
+                       primitive.vertices[triangle[1]].position[axis] +
+                       primitive.vertices[triangle[2]].position[axis]) /
+                          3 -
+                      bounds.min()[axis];
+      const int bin = std::min(kBins - 1, static_cast<int>(kBins * x / width));
+      const int place = triangles < kSmall ? 0 : (order % 2 == 0 ? kBins - 1 - bin : bin);
+      bins[static_cast<std::size_t>(place)].insert(bins[static_cast<std::size_t>(place)].end(),
+                                                   triangle, triangle + 3);
+    }
+    for (const auto& bin : bins) sorted.insert(sorted.end(), bin.begin(), bin.end());
+  }
+  return sorted;
+}
+
+GpuScene::GpuScene(const Scene& scene)
+    : materials(scene.materials), instances(scene.instances), light(scene.light) {
+  check_scene(scene);
+  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+    const Texture& texture = scene.textures[i];
+    const bool cutout = is_cutout(scene, static_cast<int>(i));
+    textures.push_back(make_texture(mip_levels(texture.rgba, cutout), texture.repeat));
+  }
+  for (const Model& model : scene.models) models.push_back(upload(model, scene.materials));
+  for (int i = 0; i < static_cast<int>(scene.materials.size()); ++i) {
+    GpuWires pieces = upload_wires(scene, i);
+    if (pieces.count > 0) wires.push_back(std::move(pieces));
+  }
+}
+
+Eigen::Matrix4d world_from_model(const Instance& instance) {
+  Eigen::Matrix4d m = instance.T_world_model.matrix();
+  m.topLeftCorner<3, 3>() *= static_cast<double>(instance.scale);
+  return m;
+}
+
+void bind_instances(std::size_t first) {
+  for (GLuint row = 0; row < 3; ++row) {
+    vertex_attribute(4 + row, 4, sizeof(InstanceMatrix),
+                     first * sizeof(InstanceMatrix) + row * 4 * sizeof(float), 1);
+  }
+}
+
+}  // namespace vinebench
