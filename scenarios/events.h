@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "scenarios/results.h"
+
+namespace vinebench {
+
+/// The run's log, a JSON object a line in order of time: keyframes, occlusions by the truth (a
+/// camera whose share of carton is at least `box_share`), tag sightings, loop closures, losses.
+/// Each has `t` (s), `frame` and `event`.
+std::string format_events(const RunRecord& record, const RunResults& results, double box_share);
+
+}  // namespace vinebench

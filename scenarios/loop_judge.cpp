@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/loop_judge.h"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+namespace vinebench {
+namespace {
+
+const Tick* find_tick(const RunRecord& record, Stamp stamp) {
+  const auto found = std::ranges::lower_bound(record.ticks, stamp, {}, &Tick::stamp);
+  return found != record.ticks.end() && found->stamp == stamp ? &*found : nullptr;
+}
+
+JudgedClosure judge(const RunRecord& record, std::size_t tick) {
+  JudgedClosure judged{.tick = tick, .closure = *record.ticks[tick].estimate.loop_closure};
+  const Tick* earlier = find_tick(record, judged.closure.earlier);
+  const Tick* later = find_tick(record, judged.closure.later);
+  if (earlier == nullptr || later == nullptr) {  // ties frames that never were
+    judged.error_m = judged.error_rad = std::numeric_limits<double>::infinity();
+    return judged;
+  }
+  const Pose truth = earlier->truth.T_world_body.inverse() * later->truth.T_world_body;
+  const Pose error = truth.inverse() * judged.closure.T_earlier_later;
+  judged.error_m = error.translation.norm();
+  judged.error_rad = angle_of(error.rotation);
+  judged.correct = judged.error_m <= kLoopClosureMetres &&
+                   judged.error_rad <= kLoopClosureDegrees * std::numbers::pi / 180;
+  return judged;
+}
+
+bool sees(const Tick& tick, int tag) {
+  return std::ranges::count(tick.truth.visible_tags, tag) > 0;
+}
+
+std::vector<TagVisit> visits_of(const RunRecord& record, int tag,
+                                const std::vector<double>& lengths) {
+  std::vector<TagVisit> visits;
+  Stamp run_begin = 0;
+  for (std::size_t i = 0; i < record.ticks.size(); ++i) {
+    if (!sees(record.ticks[i], tag)) continue;
+    const Stamp now = record.ticks[i].stamp;
+    const bool again =
+        visits.empty() || (now - record.ticks[visits.back().last].stamp >= kVisitGap &&
+                           lengths[i] - lengths[visits.back().last] >= kVisitGapMetres);
+    if (again) visits.push_back({.tag = tag, .first = i, .last = i});
+    if (again || i - visits.back().last > 1) run_begin = now;
+    visits.back().last = i;
+    visits.back().longest = std::max(visits.back().longest, now - run_begin);
+  }
+  return visits;
+}
+
+bool was_closed(const RunRecord& record, const LoopVerdict& verdict, const TagVisit& visit) {
+  return std::ranges::any_of(verdict.closures, [&](const JudgedClosure& judged) {
+    return judged.closure.tag_id == record.tags[static_cast<std::size_t>(visit.tag)].id &&
+           judged.closure.later >= record.ticks[visit.first].stamp &&
+           judged.closure.later <= record.ticks[visit.last].stamp;
+  });
+}
+
+}  // namespace
+
+int LoopVerdict::correct() const {
+  return static_cast<int>(std::ranges::count(closures, true, &JudgedClosure::correct));
+}
+
+std::vector<TagVisit> tag_visits(const RunRecord& record) {
+  const std::vector<double> lengths = true_path_lengths(record);
+  std::vector<TagVisit> visits;
+  for (std::size_t tag = 0; tag < record.tags.size(); ++tag) {
+    const std::vector<TagVisit> of_tag = visits_of(record, static_cast<int>(tag), lengths);
+    visits.insert(visits.end(), of_tag.begin(), of_tag.end());
+  }
+  return visits;
+}
+
+LoopVerdict judge_loop_closures(const RunRecord& record) {
+  LoopVerdict verdict;
+  for (std::size_t i = 0; i < record.ticks.size(); ++i) {
+    if (record.ticks[i].estimate.loop_closure) verdict.closures.push_back(judge(record, i));
+  }
+  int seen_before = -1;
+  for (const TagVisit& visit : tag_visits(record)) {
+    const bool again = visit.tag == seen_before;
+    seen_before = visit.tag;
+    if (again && visit.longest >= kVisitSeconds && !was_closed(record, verdict, visit)) {
+      verdict.missed.push_back(visit);
+    }
+  }
+  return verdict;
+}
+
+}  // namespace vinebench

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "scenarios/evaluation.h"
+#include "scenarios/loop_judge.h"
+#include "scenarios/occlusion.h"
+#include "scenarios/run_record.h"
+#include "scenarios/scenario.h"
+
+namespace vinebench {
+
+/// What the judge found. A function of the record alone: no wall-clock figure.
+struct RunResults {
+  double coverage = 0;                  ///< share of frames with a pose at their own time, 0 to 1
+  int lost_frames = 0;                  ///< without a pose after the first that had one
+  int losses = 0;                       ///< how often tracking went from a pose to none
+  std::optional<Evaluation> corrected;  ///< of every frame's pose after all corrections
+  std::optional<Evaluation> live;       ///< of the poses as they were known at their own frame
+  LoopVerdict loops;
+  std::optional<BlindStretch> blind;  ///< where the scenario asks for one
+};
+
+/// Throws Error when an expectation names a camera that the rig has not.
+RunResults measure(const RunRecord& record, const Expectations& expectations);
+
+}  // namespace vinebench

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "scenarios/metrics.h"
+
+namespace vinebench {
+
+/// Makes the folder of a run, writes scenario.resolved.yaml into it and takes away what an earlier
+/// run would leave beside the new one (metrics.json and pictures of frames). Throws Error when it
+/// cannot be written to, before any work is done.
+void prepare_run_folder(const std::filesystem::path& folder, const ScenarioConfig& scenario);
+
+/// Trajectories, events and plot: all but the metrics, which only a whole run has.
+void write_run_files(const std::filesystem::path& folder, const ScenarioConfig& scenario,
+                     const RunRecord& record, const RunResults& results);
+
+void write_metrics(const std::filesystem::path& folder, const Json& metrics);
+
+}  // namespace vinebench

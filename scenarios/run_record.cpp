@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/run_record.h"
+
+namespace vinebench {
+
+Trajectory true_trajectory(const RunRecord& record) {
+  Trajectory trajectory;
+  for (const Tick& tick : record.ticks) trajectory.push_back({tick.stamp, tick.truth.T_world_body});
+  return trajectory;
+}
+
+Trajectory live_trajectory(const RunRecord& record) {
+  Trajectory trajectory;
+  for (const Tick& tick : record.ticks) {
+    if (is_tracked(tick.estimate)) trajectory.push_back({tick.stamp, *tick.estimate.T_map_body});
+  }
+  return trajectory;
+}
+
+std::vector<double> true_path_lengths(const RunRecord& record) {
+  std::vector<double> lengths;
+  double length = 0;
+  for (std::size_t i = 0; i < record.ticks.size(); ++i) {
+    if (i > 0) {
+      length += (record.ticks[i].truth.T_world_body.translation -
+                 record.ticks[i - 1].truth.T_world_body.translation)
+                    .norm();
+    }
+    lengths.push_back(length);
+  }
+  return lengths;
+}
+
+Recorder::Recorder(Rig rig, std::vector<WorldConfig::Tag> tags) {
+  record_.rig = std::move(rig);
+  record_.tags = std::move(tags);
+}
+
+void Recorder::on_tick(const Sample& sample, const Estimate& estimate) {
+  record_.ticks.push_back({sample.frame.index, sample.frame.stamp, sample.truth, estimate});
+}
+
+}  // namespace vinebench

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "scenarios/sink.h"
+
+namespace vinebench {
+
+/// What one tick leaves behind once its pictures are gone.
+struct Tick {
+  std::int64_t index = 0;
+  Stamp stamp = 0;
+  Truth truth;
+  Estimate estimate;
+};
+
+/// A whole run, or as much of it as there was: the one input of judge, log, plot and metrics.
+struct RunRecord {
+  Rig rig;
+  std::vector<WorldConfig::Tag> tags;  ///< of the world, in its order
+  std::vector<Tick> ticks;
+  SlamSummary summary;
+};
+
+/// Whether this frame has a pose that the system stands by.
+inline bool is_tracked(const Estimate& estimate) {
+  return estimate.T_map_body.has_value() && estimate.status != TrackingStatus::kLost;
+}
+
+Trajectory true_trajectory(const RunRecord& record);
+
+/// Poses as they were known at their own frame.
+Trajectory live_trajectory(const RunRecord& record);
+
+/// Length of the true way from the first tick to each, m.
+std::vector<double> true_path_lengths(const RunRecord& record);
+
+/// Fills a record.
+class Recorder : public Sink {
+ public:
+  Recorder(Rig rig, std::vector<WorldConfig::Tag> tags);
+  void on_tick(const Sample& sample, const Estimate& estimate) override;
+  void on_finish(const SlamSummary& summary) override { record_.summary = summary; }
+  const RunRecord& record() const { return record_; }
+
+ private:
+  RunRecord record_;
+};
+
+}  // namespace vinebench

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scenarios/run.h"
+
+namespace vinebench {
+
+/// Where grown plants are kept between runs: $VINEBENCH_CACHE, else $XDG_CACHE_HOME/vinebench, else
+/// ~/.cache/vinebench, else a folder for temporary files.
+std::filesystem::path default_cache();
+
+/// Builds the simulation and the SLAM system of a scenario and runs one on the other. `threads`
+/// counts all threads that share the work; it changes no result.
+RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options);
+
+}  // namespace vinebench

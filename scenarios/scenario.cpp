@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/scenario.h"
+
+#include <algorithm>
+
+#include "slam/base/error.h"
+
+namespace vinebench {
+namespace {
+
+/// A file that stands in for a part of the scenario is looked for from where the user is.
+std::string part_value(const std::string& value) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(value, ignored)) return value;
+  return fmt::format("\"{}\"", std::filesystem::absolute(value).string());
+}
+
+template <class T>
+void move_into(std::vector<T>& from, std::vector<T>& to) {
+  to.insert(to.end(), from.begin(), from.end());
+  from.clear();
+}
+
+}  // namespace
+
+Override parse_override(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    fail("--set {}: expected KEY=VALUE, such as world.sun.elevation_deg=20", text);
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+ScenarioConfig load_scenario(const std::filesystem::path& file,
+                             const std::vector<Override>& overrides) {
+  YamlDocument document = YamlDocument::load(file);
+  const std::vector<std::string> parts{"world", "rover"};
+  const auto is_part = [&](const Override& o) { return std::ranges::count(parts, o.first) > 0; };
+  for (const Override& o : overrides) {
+    if (is_part(o)) document.set(o.first, part_value(o.second));
+  }
+  for (const std::string& part : parts) document.include(part);
+  for (const Override& o : overrides) {
+    if (!is_part(o)) document.set(o.first, o.second);
+  }
+  auto scenario = document.read<ScenarioConfig>();
+  move_into(scenario.boxes, scenario.simulation.world.boxes);
+  move_into(scenario.tags, scenario.simulation.world.tags);
+  return scenario;
+}
+
+}  // namespace vinebench
