@@ -1,3 +1,0 @@
-// SPDX-FileCopyrightText: Vinebench authors
-// SPDX-License-Identifier: Apache-2.0
-namespace vinebench {}
