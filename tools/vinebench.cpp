@@ -89,8 +89,9 @@ int verify_determinism(const ScenarioConfig& scenario, int threads, const std::s
 
 int run(const RunArguments& arguments) {
   const ScenarioConfig scenario = scenario_of(arguments);
-  const std::filesystem::path folder =
-      arguments.out.empty() ? std::filesystem::path("out") / scenario.name : arguments.out;
+  const std::filesystem::path folder = arguments.out.empty()
+                                           ? std::filesystem::path("out") / scenario.name
+                                           : std::filesystem::path(arguments.out);
   prepare_run_folder(folder, scenario);
   catch_interrupts();
   RunOptions options = options_of(scenario, "");
