@@ -29,6 +29,8 @@ boxes:
   - {position: [9, 9]}
 )");
     write_file_atomically(folder_ / "rover.yaml", "model: rover.xml\nrig: rig.yaml\n");
+    write_file_atomically(folder_ / "rover.xml", "<mujoco/>");
+    write_file_atomically(folder_ / "rig.yaml", "name: none\n");
   }
   void TearDown() override { fs::remove_all(folder_); }
 
@@ -110,6 +112,8 @@ TEST_F(ScenarioTest, ErrorsNameFileLineAndKey) {
       testing::AllOf(testing::HasSubstr("scenario.yaml:5:"), testing::HasSubstr("tags.0.id")));
   EXPECT_THAT(error_of("", {{"world.sun.elevation", "3"}}),
               testing::HasSubstr("--set world.sun.elevation=3: world.sun.elevation: unknown key"));
+  EXPECT_THAT(error_of("", {{"world.vines.meshes", "[nowhere.glb]"}}),
+              testing::HasSubstr("world.vines.meshes.0: expected a file, found none at"));
   EXPECT_THAT(error_of("", {{"world", "nowhere.yaml"}}), testing::HasSubstr("nowhere.yaml"));
   write_file_atomically(folder_ / "world.yaml", "name: small\nrows: 5\n");
   EXPECT_THAT(error_of(""), testing::HasSubstr("world.yaml:2: world.rows: expected a list"));
