@@ -153,7 +153,7 @@ void add_run(CLI::App& app, RunArguments& arguments) {
 
 int dispatch(int argc, char** argv) {
   CLI::App app{"Deterministic test bench for multicamera visual SLAM in vineyards", "vinebench"};
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   app.set_version_flag("--version", versions_text());
   RunArguments arguments;
   add_run(app, arguments);
@@ -167,6 +167,7 @@ int dispatch(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kBadInput;
   }
+  if (app.get_subcommands().empty()) fail("expected a sub-command, run or eval (see --help)");
   return eval_command->parsed() ? eval(truth, estimate) : run(arguments);
 }
 

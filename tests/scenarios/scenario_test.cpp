@@ -30,7 +30,8 @@ boxes:
 )");
     write_file_atomically(folder_ / "rover.yaml", "model: rover.xml\nrig: rig.yaml\n");
     write_file_atomically(folder_ / "rover.xml", "<mujoco/>");
-    write_file_atomically(folder_ / "rig.yaml", "name: none\n");
+    fs::copy_file(fs::path(VINEBENCH_SOURCE_DIR) / "models/csl-rover/rig.yaml",
+                  folder_ / "rig.yaml");
   }
   void TearDown() override { fs::remove_all(folder_); }
 
@@ -110,6 +111,8 @@ TEST_F(ScenarioTest, ErrorsNameFileLineAndKey) {
   EXPECT_THAT(
       error_of("tags: [{id: 99999}]\n"),
       testing::AllOf(testing::HasSubstr("scenario.yaml:5:"), testing::HasSubstr("tags.0.id")));
+  EXPECT_THAT(error_of("expectations: {blind: {cameras: top}}\n"),
+              testing::HasSubstr("expectations.blind.cameras: the rig has no camera 'top'"));
   EXPECT_THAT(error_of("", {{"world.sun.elevation", "3"}}),
               testing::HasSubstr("--set world.sun.elevation=3: world.sun.elevation: unknown key"));
   EXPECT_THAT(error_of("", {{"world.vines.meshes", "[nowhere.glb]"}}),
