@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "scenarios/occlusion.h"
 #include "slam/base/error.h"
 
 namespace vinebench {
@@ -45,6 +46,8 @@ ScenarioConfig load_scenario(const std::filesystem::path& file,
     if (!is_part(o)) document.set(o.first, o.second);
   }
   auto scenario = document.read<ScenarioConfig>();
+  const Rig rig = load_rig(scenario.simulation.rover.rig);
+  if (const auto& blind = scenario.expectations.blind) find_cameras(rig, blind->cameras);
   move_into(scenario.boxes, scenario.simulation.world.boxes);
   move_into(scenario.tags, scenario.simulation.world.tags);
   return scenario;

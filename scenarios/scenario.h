@@ -86,7 +86,8 @@ Override parse_override(const std::string& text);
 
 /// Reads a scenario. `world` and `rover` may be maps or names of files beside the scenario;
 /// overrides apply after those are read in, so that "world.sun.elevation_deg" works. Boxes and tags
-/// of the scenario are moved into its world. Throws Error that names file, line and key.
+/// of the scenario are moved into its world. The rig is read too, so that its faults show before
+/// anything is started. Throws Error that names file, line and key.
 ScenarioConfig load_scenario(const std::filesystem::path& file,
                              const std::vector<Override>& overrides = {});
 

@@ -89,8 +89,9 @@ int verify_determinism(const ScenarioConfig& scenario, int threads, const std::s
 
 int run(const RunArguments& arguments) {
   const ScenarioConfig scenario = scenario_of(arguments);
-  const std::filesystem::path folder =
-      arguments.out.empty() ? std::filesystem::path("out") / scenario.name : arguments.out;
+  const std::filesystem::path folder = arguments.out.empty()
+                                           ? std::filesystem::path("out") / scenario.name
+                                           : std::filesystem::path(arguments.out);
   prepare_run_folder(folder, scenario);
   catch_interrupts();
   RunOptions options = options_of(scenario, "");
@@ -152,7 +153,7 @@ void add_run(CLI::App& app, RunArguments& arguments) {
 
 int dispatch(int argc, char** argv) {
   CLI::App app{"Deterministic test bench for multicamera visual SLAM in vineyards", "vinebench"};
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   app.set_version_flag("--version", versions_text());
   RunArguments arguments;
   add_run(app, arguments);
@@ -166,6 +167,7 @@ int dispatch(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kBadInput;
   }
+  if (app.get_subcommands().empty()) fail("expected a sub-command, run or eval (see --help)");
   return eval_command->parsed() ? eval(truth, estimate) : run(arguments);
 }
 

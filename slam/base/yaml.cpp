@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/base/yaml.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "slam/base/error.h"
@@ -212,9 +213,16 @@ void YamlReader::read(const YAML::Node& node, const std::string& key, std::files
   std::string text;
   read(node, key, text, range);
   if (text.empty()) return;
-  const bool overridden = document_.overrides_.contains(key);
+  const bool overridden = std::ranges::any_of(document_.overrides_, [&](const auto& item) {
+    return key == item.first || key.starts_with(item.first + ".");
+  });
   value = overridden ? std::filesystem::path(text) : document_.file_of(key).parent_path() / text;
   value = std::filesystem::absolute(value).lexically_normal();
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(value, ignored)) {
+    violations_.push_back(fmt::format("{}: {}: expected a file, found none at '{}'",
+                                      document_.place_of(key, node), key, value.string()));
+  }
 }
 
 void YamlReader::read_integer(const YAML::Node& node, const std::string& key, std::int64_t& value,
@@ -258,7 +266,7 @@ std::string YamlWriter::quote(const std::string& value) {
   std::string quoted = "\"";
   for (const char c : value) {
     if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c;
+    quoted += c == '\n' ? "\\n" : std::string(1, c);
   }
   return quoted + "\"";
 }

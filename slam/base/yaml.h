@@ -33,7 +33,7 @@ namespace vinebench {
 // (format_yaml) and documents its keys. Fields may be bool, int, std::int64_t, std::uint64_t,
 // double, std::string, std::filesystem::path, Eigen vectors, std::array, std::vector,
 // std::optional, other such structs, and enums with a `yaml_names(Enum)` that gives their names in
-// order.
+// order. A path names a file that must exist, relative to the YAML file it stands in.
 
 /// The numbers a field may take; also the text of the error when it does not.
 struct Range {

@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: Vinebench authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Includes go one way: tools -> scenarios -> sim and slam -> slam/base. Usage: arrows_test.sh ROOT
+set -euo pipefail
+cd "$1"
+failed=0
+
+# forbid WHO PATTERN: no source of folder WHO includes what matches PATTERN.
+forbid() {
+  local sources
+  mapfile -t sources < <(find "$1" -name '*.h' -o -name '*.cpp' | sort)
+  if [[ ${#sources[@]} -eq 0 ]]; then
+    echo "arrows: $1 has no sources"
+    failed=1
+  elif grep -HnP "^\\s*#\\s*include\\s*[\"<]$2" "${sources[@]}"; then
+    echo "arrows: $1 must not include the above"
+    failed=1
+  fi
+}
+
+forbid slam/base '(slam/(?!base/)|sim/|scenarios/|tools/|tests/)'
+forbid slam '(sim/|scenarios/|tools/|tests/|mujoco)'
+forbid sim '(slam/(?!base/)|scenarios/|tools/|tests/|ceres)'
+forbid scenarios '(tools/|tests/)'
+# Relative includes would pass unseen.
+for folder in slam sim scenarios; do forbid "$folder" '\.\.?/'; done
+exit $failed

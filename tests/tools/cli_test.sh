@@ -1,0 +1,112 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: Vinebench authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# What the command line says to bad input: exit code 2 and one message that names file, line and
+# key. Usage: cli_test.sh VINEBENCH ROOT
+set -uo pipefail
+vinebench=$1
+root=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+report() {
+  echo "FAILED: $1"
+  sed 's/^/    /' "$work/stdout" "$work/stderr"
+  failures=$((failures + 1))
+}
+
+# expect CODE NAME WORDS... -- ARGUMENTS...: exit code, and words on stderr (on stdout for code 0).
+expect() {
+  local code=$1 name=$2 words=()
+  shift 2
+  while [[ $1 != -- ]]; do
+    words+=("$1")
+    shift
+  done
+  shift
+  "$vinebench" "$@" >"$work/stdout" 2>"$work/stderr" </dev/null
+  local got=$?
+  if [[ $got -ne $code ]]; then
+    report "$name: exit code $got, expected $code"
+    return
+  fi
+  local where=stderr word
+  [[ $code -eq 0 ]] && where=stdout
+  for word in "${words[@]}"; do
+    grep -qF -- "$word" "$work/$where" || report "$name: $where lacks '$word'"
+  done
+  if [[ $code -eq 2 && $(grep -c '^vinebench: ' "$work/stderr") -gt 1 ]]; then
+    report "$name: more than one message"
+  fi
+}
+
+# A scenario of its own, with $1 as further lines from line 4 on.
+scenario() {
+  printf '%s\n' "name: bad" "world: world.yaml" "rover: $root/models/csl-rover/rover.yaml" "$1" \
+    "route: {waypoints: [{position: [0, 0]}]}" >"$work/bad.yaml"
+}
+world() {
+  printf '%s\n' "name: bad" "rows: [{start: [0, 0], end: [4, 0]}]" "$1" >"$work/world.yaml"
+}
+
+world "ground_size: 20"
+scenario "sede: 4"
+expect 2 "unknown key" "bad.yaml:4: sede: unknown key, expected one of: " -- run "$work/bad.yaml"
+
+scenario "seed: 4"
+world "vines: {meshes: [nowhere.glb]}"
+expect 2 "missing mesh" "world.yaml:3: world.vines.meshes.0: " "nowhere.glb" -- run "$work/bad.yaml"
+
+world "tags: [{family: tag36h11, id: 587}]"
+expect 2 "tag outside its family" "world.yaml:3: world.tags.0" "id" -- run "$work/bad.yaml"
+
+world "ground_size: 20"
+printf '%s\n' "model: $root/models/csl-rover/rover.xml" "rig: $root/models/csl-rover/rig.yaml" \
+  "imu_rate_hz: -200" >"$work/rover.yaml"
+sed -i "s|^rover: .*|rover: rover.yaml|" "$work/bad.yaml"
+expect 2 "negative rate" "rover.yaml:3: rover.imu_rate_hz: expected" "-200" -- run "$work/bad.yaml"
+
+scenario "seed: 4"
+sed 's/^rate_hz: .*/rate_hz: -15/' "$root/models/csl-rover/rig.yaml" >"$work/rig.yaml"
+printf '%s\n' "model: $root/models/csl-rover/rover.xml" "rig: rig.yaml" >"$work/rover.yaml"
+sed -i "s|^rover: .*|rover: rover.yaml|" "$work/bad.yaml"
+rate_line=$(grep -n '^rate_hz' "$work/rig.yaml" | cut -d: -f1)
+expect 2 "negative frame rate" "rig.yaml:$rate_line: rate_hz: expected" "-15" -- \
+  run "$work/bad.yaml" --out "$work/out"
+
+scenario "seed: 4"
+touch "$work/file"
+expect 2 "unwritable output folder" "output folder" "$work/file/out" -- \
+  run "$work/bad.yaml" --out "$work/file/out"
+
+expect 2 "unknown --set key" "--set world.sun.elevation=20: world.sun.elevation: unknown key" -- \
+  run "$work/bad.yaml" --set world.sun.elevation=20
+expect 2 "--set without value" "--set seed: expected KEY=VALUE" -- run "$work/bad.yaml" --set seed
+expect 2 "missing scenario" "$work/none.yaml" -- run "$work/none.yaml"
+expect 2 "no YAML" "is not valid YAML" -- run "$work/rig.yaml" --set 'seed=[1'
+expect 2 "unknown sub-command" "fly" -- fly
+expect 2 "unknown option" "--fly" -- run "$work/bad.yaml" --fly
+expect 2 "no threads" "--threads" -- run "$work/bad.yaml" --threads 0
+
+expect 0 "help" "run" "eval" -- --help
+expect 0 "help of run" "--verify-determinism" "--set" -- run --help
+expect 0 "help of eval" "GROUNDTRUTH" -- eval --help
+expect 0 "version" "vinebench" "MuJoCo" "OpenCV" "Ceres" -- --version
+
+printf '%s 0 0 0 0 0 1\n' "0 0" "1 1" "2 2" "3 3" >"$work/truth.tum"
+sed 's/^/# a comment\n/;' "$work/truth.tum" >"$work/same.tum"
+expect 0 "eval of equals" "ate_rmse_m           0.000000000" "poses                4" -- \
+  eval "$work/truth.tum" "$work/same.tum"
+echo "5 1 2 3" >"$work/short.tum"
+expect 2 "eval of a broken file" "short.tum:1: expected 8 columns" -- \
+  eval "$work/truth.tum" "$work/short.tum"
+sed 's/^/10/' "$work/truth.tum" >"$work/later.tum"
+expect 2 "eval of strangers" "later.tum: fewer than three" -- \
+  eval "$work/truth.tum" "$work/later.tum"
+
+if [[ $failures -ne 0 ]]; then
+  echo "$failures failed"
+  exit 1
+fi

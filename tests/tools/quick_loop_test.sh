@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: Vinebench authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# The quick-loop scenario from end to end. Usage: quick_loop_test.sh STEP VINEBENCH ROOT WORK
+# with STEP one of
+#   verdict  its expectations hold, and a second run is the same to the byte
+#   threads  one thread gives what two give (needs verdict)
+#   resolved its own scenario.resolved.yaml repeats it (needs verdict)
+#   front    with the front cameras alone it is lost or ten times worse (needs verdict)
+set -euo pipefail
+step=$1 vinebench=$2 root=$3 work=$4
+scenario=$root/scenarios/quick-loop.yaml
+
+# A figure of a run's metrics.json; "null" where it was not measured.
+metric() { sed -nE "s/^  \"$2\": \"?([^\",]*)\"?,?\$/\1/p" "$work/$1/metrics.json"; }
+
+same_hash() {
+  echo "hash of verdict: $(metric verdict hash), of $1: $(metric "$1" hash)"
+  [[ -n $(metric verdict hash) && $(metric verdict hash) == $(metric "$1" hash) ]]
+}
+
+case $step in
+  verdict)
+    "$vinebench" run "$scenario" --out "$work/verdict" --threads 2 --verify-determinism
+    ;;
+  threads)
+    "$vinebench" run "$scenario" --out "$work/threads" --threads 1
+    same_hash threads
+    ;;
+  resolved)
+    "$vinebench" run "$work/verdict/scenario.resolved.yaml" --out "$work/resolved"
+    same_hash resolved
+    ;;
+  front)
+    code=0
+    "$vinebench" run "$scenario" --out "$work/front" --set slam.cameras=front || code=$?
+    [[ $code -eq 1 ]] || { echo "exit code $code, expected 1" >&2; exit 1; }
+    echo "front cameras alone: $(metric front losses) losses, ATE $(metric front ate_rmse_m) m;" \
+      "all cameras: ATE $(metric verdict ate_rmse_m) m"
+    awk -v losses="$(metric front losses)" -v alone="$(metric front ate_rmse_m)" \
+      -v all="$(metric verdict ate_rmse_m)" \
+      'BEGIN { exit !(losses + 0 > 0 || alone == "null" || alone + 0 >= 10 * all) }'
+    ;;
+  *)
+    echo "unknown step '$step'" >&2
+    exit 2
+    ;;
+esac

@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: Vinebench authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Installs the Debian packages that Vinebench is built from, those that are missing. As root, or
+# through sudo. Does nothing when all are there.
+set -euo pipefail
+
+packages=(
+  # tools
+  g++ cmake ninja-build git pkg-config ccache clang-format
+  # simulation (qhull: Debian's MuJoCo package names its headers)
+  libmujoco-dev libqhull-dev libosmesa6-dev libegl-dev libepoxy-dev libassimp-dev libtinygltf-dev
+  # vision and optimisation
+  libopencv-dev libeigen3-dev libceres-dev libapriltag-dev
+  # files, text, command line
+  libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libspdlog-dev libxxhash-dev
+  # tests
+  libgtest-dev libgmock-dev libbenchmark-dev
+)
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "setup.sh: this system has no apt; install by its own means what these Debian packages hold:" >&2
+  echo "  ${packages[*]}" >&2
+  exit 1
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  state=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [[ $state == installed ]] || missing+=("$package")
+done
+if [[ ${#missing[@]} -eq 0 ]]; then
+  exit 0
+fi
+
+as_root=()
+if [[ $(id -u) -ne 0 ]]; then
+  if ! command -v sudo >/dev/null; then
+    echo "setup.sh: neither root nor sudo; have someone install: ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+
+echo "setup.sh: installing ${missing[*]}"
+install=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get)
+"${install[@]}" update -qq
+"${install[@]}" install -y -qq --no-install-recommends "${missing[@]}"
