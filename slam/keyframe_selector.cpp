@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/keyframe_selector.h"
 
+#include <algorithm>
 #include <numbers>
 
 namespace vinebench {
@@ -18,13 +19,25 @@ int count_new(const TrackedFrame& tracked) {
   return count;
 }
 
+/// Landmarks of a keyframe that it does not see alone.
+int count_founded(const Keyframe& keyframe, const Map& map) {
+  const int keyframes = std::min<int>(3, static_cast<int>(map.keyframes().size()));
+  int count = 0;
+  for (const std::vector<int>& view : keyframe.landmarks) {
+    for (const int id : view) {
+      count += id >= 0 && count_keyframes(map.landmark(id)) >= keyframes;
+    }
+  }
+  return count;
+}
+
 }  // namespace
 
-bool wants_keyframe(const TrackedFrame& tracked, const Keyframe& last,
-                    const KeyframeConfig& config) {
+bool wants_keyframe(const TrackedFrame& tracked, const Map& map, const KeyframeConfig& config) {
+  const Keyframe& last = map.keyframes().back();
   if (tracked.frame->index - last.frame->index < config.min_gap) return false;
   const int inliers = tracked.motion.inliers;
-  const bool weak = inliers < config.min_inliers || inliers < config.reduction * last.tracked;
+  const bool weak = inliers < config.min_inliers || inliers < config.reduction * count_founded(last, map);
   const Pose step = last.T_map_body.inverse() * tracked.motion.T_map_body;
   const bool moved = step.translation.norm() > config.distance ||
                      angle_of(step.rotation) > config.angle_deg * std::numbers::pi / 180;

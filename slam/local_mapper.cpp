@@ -27,7 +27,6 @@ int LocalMapper::insert(const TrackedFrame& tracked, Map& map) const {
     }
   }
   for (const int landmark : touched) map.refresh(landmark, rig_.T_body_cams);
-  map.keyframe(id).tracked = static_cast<int>(touched.size());
   return id;
 }
 

@@ -45,7 +45,6 @@ struct Keyframe {
   Pose T_map_body;
   Associations landmarks;
   std::map<int, int> covisible;  ///< keyframe id to the number of landmarks both see
-  int tracked = 0;               ///< landmarks it saw when it was made, new ones included
 };
 
 /// One feature of one keyframe.

@@ -97,7 +97,7 @@ bool Pipeline::wants_new_keyframe(const TrackedFrame& tracked) const {
   const double moved = (last.T_map_body.translation - tracked.motion.T_map_body.translation).norm();
   const bool tag_from_elsewhere = !tracked.frame->tags.empty() && moved > kTagKeyframeDistance;
   return tag_from_elsewhere || loop_closer_.sees_loop(*tracked.frame, path_length_) ||
-         wants_keyframe(tracked, last, config_.keyframes);
+         wants_keyframe(tracked, map_, config_.keyframes);
 }
 
 void Pipeline::map_keyframe(const TrackedFrame& tracked, Estimate& estimate) {
