@@ -23,7 +23,8 @@ FrontEnd::FrontEnd(const SlamConfig& config, const StereoRig& rig,
   for (std::size_t i = 0; i < rig_.tag_cameras.size(); ++i) {
     detectors_.emplace_back(config.tags, tags);
   }
-  extractions_.resize(2 * rig_.pairs.size());
+  left_.resize(rig_.pairs.size());
+  right_pyramids_.resize(rig_.pairs.size());
   sightings_.resize(rig_.tag_cameras.size());
 }
 
@@ -52,7 +53,7 @@ cv::Mat FrontEnd::grey(const Frame& frame, int camera) const {
 void FrontEnd::extract(const Frame& frame, StageTimes& times) {
   // The tag camera's large picture first: it takes longest.
   const std::size_t tag_jobs = rig_.tag_cameras.size();
-  std::vector<double> spent(tag_jobs + extractions_.size());
+  std::vector<double> spent(tag_jobs + rig_.pairs.size());
   pool_.for_each(spent.size(), [&](std::size_t job) {
     const auto start = std::chrono::steady_clock::now();
     if (job < tag_jobs) {
@@ -64,10 +65,11 @@ void FrontEnd::extract(const Frame& frame, StageTimes& times) {
             image, rig_.cameras[static_cast<std::size_t>(camera)].model, camera);
       }
     } else {
-      const std::size_t eye = job - tag_jobs;
-      const StereoEye& pair = rig_.pairs[eye / 2];
-      const cv::Mat image = grey(frame, eye % 2 == 0 ? pair.left_camera : pair.right_camera);
-      extractions_[eye] = image.empty() ? Extraction{} : extractor_.extract(image);
+      const std::size_t p = job - tag_jobs;
+      const cv::Mat left = grey(frame, rig_.pairs[p].left_camera);
+      const cv::Mat right = grey(frame, rig_.pairs[p].right_camera);
+      left_[p] = left.empty() ? Extraction{} : extractor_.extract(left);
+      right_pyramids_[p] = right.empty() ? std::vector<cv::Mat>{} : extractor_.pyramid(right);
     }
     spent[job] = milliseconds_since(start);
   });
@@ -84,15 +86,14 @@ void FrontEnd::match(FrameFeatures& features, StageTimes& times) {
   std::vector<double> spent(rig_.pairs.size());
   pool_.for_each(rig_.pairs.size(), [&](std::size_t p) {
     const auto start = std::chrono::steady_clock::now();
-    Extraction& left = extractions_[2 * p];
-    const Extraction& right = extractions_[2 * p + 1];
+    Extraction& left = left_[p];
     StereoView& view = features.views[p];
     const StereoEye& pair = rig_.pairs[p];
     view.stereo.assign(left.features.size(), StereoMatch{});
-    if (left.features.size() > 0 && right.features.size() > 0) {
-      view.stereo = match_stereo(left, right, pair.lens, pair.baseline, extractor_, stereo_);
+    if (!left.pyramid.empty() && !right_pyramids_[p].empty()) {
+      view.stereo =
+          match_stereo(left, right_pyramids_[p], pair.lens, pair.baseline, extractor_, stereo_);
     }
-    features.right_features[p] = static_cast<int>(right.features.size());
     view.features = std::move(left.features);
     view.grid = FeatureGrid(view.features.keypoints, pair.lens.width, pair.lens.height);
     spent[p] = milliseconds_since(start);
@@ -107,7 +108,6 @@ std::shared_ptr<const FrameFeatures> FrontEnd::process(const Frame& frame, Stage
   features->index = frame.index;
   features->stamp = frame.stamp;
   features->views.resize(rig_.pairs.size());
-  features->right_features.resize(rig_.pairs.size());
   extract(frame, times);
   match(*features, times);
   for (const std::vector<TagSighting>& seen : sightings_) {

@@ -34,8 +34,9 @@ class FrontEnd {
   OrbExtractor extractor_;
   std::vector<TagDetector> detectors_;  ///< one for each tag camera
   WorkerPool& pool_;
-  std::vector<Extraction> extractions_;              ///< left, right of each pair
-  std::vector<std::vector<TagSighting>> sightings_;  ///< of each tag camera
+  std::vector<Extraction> left_;                      ///< of each pair
+  std::vector<std::vector<cv::Mat>> right_pyramids_;  ///< of each pair
+  std::vector<std::vector<TagSighting>> sightings_;   ///< of each tag camera
 };
 
 }  // namespace vinebench

@@ -37,7 +37,8 @@ bool wants_keyframe(const TrackedFrame& tracked, const Map& map, const KeyframeC
   const Keyframe& last = map.keyframes().back();
   if (tracked.frame->index - last.frame->index < config.min_gap) return false;
   const int inliers = tracked.motion.inliers;
-  const bool weak = inliers < config.min_inliers || inliers < config.reduction * count_founded(last, map);
+  const bool weak =
+      inliers < config.min_inliers || inliers < config.reduction * count_founded(last, map);
   const Pose step = last.T_map_body.inverse() * tracked.motion.T_map_body;
   const bool moved = step.translation.norm() > config.distance ||
                      angle_of(step.rotation) > config.angle_deg * std::numbers::pi / 180;

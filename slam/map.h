@@ -28,8 +28,7 @@ struct StereoView {
 struct FrameFeatures {
   std::int64_t index = 0;
   Stamp stamp = 0;
-  std::vector<StereoView> views;    ///< of each pair of the StereoRig
-  std::vector<int> right_features;  ///< number extracted from each pair's right picture
+  std::vector<StereoView> views;  ///< of each pair of the StereoRig
   std::vector<TagSighting> tags;
 };
 

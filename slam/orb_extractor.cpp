@@ -46,7 +46,8 @@ void describe(const cv::Mat& picture, int level, double scale, const std::vector
               Features& features) {
   if (corners.empty()) return;
   cv::Mat smoothed;
-  cv::GaussianBlur(picture, smoothed, cv::Size(7, 7), 2, 2, cv::BORDER_REFLECT_101 | cv::BORDER_ISOLATED);
+  cv::GaussianBlur(picture, smoothed, cv::Size(7, 7), 2, 2,
+                   cv::BORDER_REFLECT_101 | cv::BORDER_ISOLATED);
   for (const Corner& corner : corners) {
     Keypoint keypoint;
     keypoint.x = static_cast<float>((corner.x + 0.5) * scale - 0.5);
@@ -69,13 +70,17 @@ OrbExtractor::OrbExtractor(const OrbConfig& config)
   }
 }
 
-Extraction OrbExtractor::extract(const cv::Mat& grey) const {
+std::vector<cv::Mat> OrbExtractor::pyramid(const cv::Mat& grey) const {
   if (grey.type() != CV_8UC1 || grey.empty()) {
     fail("ORB extraction: expected a grey picture of 8 bits (CV_8UC1), found {} x {} of type {}",
          grey.cols, grey.rows, cv::typeToString(grey.type()));
   }
+  return build_pyramid(grey, config_.levels, config_.scale);
+}
+
+Extraction OrbExtractor::extract(const cv::Mat& grey) const {
   Extraction result;
-  result.pyramid = build_pyramid(grey, config_.levels, config_.scale);
+  result.pyramid = pyramid(grey);
   const FastCellsConfig fast{config_.fast_threshold, config_.fast_threshold_min, config_.cell,
                              config_.edge};
   for (std::size_t level = 0; level < result.pyramid.size(); ++level) {

@@ -47,6 +47,9 @@ class OrbExtractor {
   /// `grey` is CV_8UC1. Same picture, same result, to the bit.
   Extraction extract(const cv::Mat& grey) const;
 
+  /// The scale pyramid alone, level 0 the picture itself.
+  std::vector<cv::Mat> pyramid(const cv::Mat& grey) const;
+
   /// Size of a pixel of that level in pixels of level 0.
   double scale_of(int level) const { return scales_[static_cast<std::size_t>(level)]; }
 

@@ -142,8 +142,8 @@ Estimate Pipeline::report(const TrackedFrame& tracked) const {
     for (const StereoMatch& match : view.stereo) left.stereo += match.depth > 0;
     left.matches = tracked.motion.matches_per_view[p];
     left.inliers = tracked.motion.inliers_per_view[p];
-    estimate.cameras[static_cast<std::size_t>(pair.right_camera)].features =
-        frame.right_features[p];
+    // The right eye's part is where the left eye's features were found in it.
+    estimate.cameras[static_cast<std::size_t>(pair.right_camera)].features = left.stereo;
   }
   return estimate;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <opencv2/core/mat.hpp>
 #include <vector>
 
 #include "slam/base/camera.h"
@@ -12,11 +13,15 @@ namespace vinebench {
 
 struct StereoConfig {
   double max_depth_baselines = 40;  ///< farther depths are not used (paper, Sect. III-A)
-  int max_hamming = 75;             ///< bits
+  double min_depth = 0.15;          ///< m; nothing is nearer
+  double uniqueness = 1.15;         ///< the next best place must differ by this factor more
+  double max_difference = 12;       ///< grey levels, mean of the aligned windows' pixels
   template <class Archive>
   void serialize(Archive& archive) {
     archive("max_depth_baselines", max_depth_baselines, Range::positive());
-    archive("max_hamming", max_hamming, Range::between(1, 256));
+    archive("min_depth", min_depth, Range::positive());
+    archive("uniqueness", uniqueness, Range::between(1, 10));
+    archive("max_difference", max_difference, Range::between(0.1, 255));
   }
 };
 
@@ -26,10 +31,15 @@ struct StereoMatch {
   float depth = -1;    ///< m along the optical axis; -1 without a match or beyond the limit
 };
 
-/// Matches a rectified pair (same lens, same rows) along the epipolar line: descriptor search on
-/// the rows around, sub-pixel refinement by sliding a window over the right picture and a parabola,
-/// then removal of outliers of the window's difference.
-std::vector<StereoMatch> match_stereo(const Extraction& left, const Extraction& right,
+/// Finds the left picture's keypoints in the right one of a rectified pair (same lens, same rows):
+/// search of the window about each along the epipolar line on its pyramid level, accepted where the
+/// place is unique and the search back from there finds the keypoint again; then sub-pixel
+/// alignment.
+///
+/// The search reads the right picture itself, not features extracted there: a plant's corners are
+/// often found in one eye only, and two thirds of the left ones would stay without a partner.
+std::vector<StereoMatch> match_stereo(const Extraction& left,
+                                      const std::vector<cv::Mat>& right_pyramid,
                                       const PinholeCamera& camera, double baseline,
                                       const OrbExtractor& extractor, const StereoConfig& config);
 

@@ -40,7 +40,6 @@ class SyntheticAisle {
     features->index = index;
     features->stamp = stamp_of_frame(index, 15);
     features->views.resize(rig.pairs.size());
-    features->right_features.assign(rig.pairs.size(), 0);
     for (std::size_t v = 0; v < rig.pairs.size(); ++v) {
       const bool sees = std::find(blind.begin(), blind.end(), v) == blind.end();
       if (sees) fill(*features, v, T_world_body);
