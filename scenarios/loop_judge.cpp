@@ -56,8 +56,8 @@ std::vector<TagVisit> visits_of(const RunRecord& record, int tag,
 bool was_closed(const RunRecord& record, const LoopVerdict& verdict, const TagVisit& visit) {
   return std::ranges::any_of(verdict.closures, [&](const JudgedClosure& judged) {
     return judged.closure.tag_id == record.tags[static_cast<std::size_t>(visit.tag)].id &&
-           judged.closure.later >= record.ticks[visit.first].stamp &&
-           judged.closure.later <= record.ticks[visit.last].stamp;
+           judged.closure.later >= record.ticks[visit.first].stamp - kVisitMargin &&
+           judged.closure.later <= record.ticks[visit.last].stamp + kVisitMargin;
   });
 }
 
