@@ -53,11 +53,14 @@ std::vector<TagVisit> visits_of(const RunRecord& record, int tag,
   return visits;
 }
 
+/// A detector may read a tag some frames before the truth calls it wholly in view.
+constexpr Stamp kEarlyReading = kNanosecondsPerSecond;
+
 bool was_closed(const RunRecord& record, const LoopVerdict& verdict, const TagVisit& visit) {
   return std::ranges::any_of(verdict.closures, [&](const JudgedClosure& judged) {
     return judged.closure.tag_id == record.tags[static_cast<std::size_t>(visit.tag)].id &&
-           judged.closure.later >= record.ticks[visit.first].stamp - kVisitMargin &&
-           judged.closure.later <= record.ticks[visit.last].stamp + kVisitMargin;
+           judged.closure.later >= record.ticks[visit.first].stamp - kEarlyReading &&
+           judged.closure.later <= record.ticks[visit.last].stamp;
   });
 }
 

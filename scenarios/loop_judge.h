@@ -17,8 +17,6 @@ inline constexpr Stamp kVisitGap = 3 * kNanosecondsPerSecond;
 inline constexpr double kVisitGapMetres = 1.0;
 /// … and a visit is one that a system must notice once the tag stayed in view for so long.
 inline constexpr Stamp kVisitSeconds = kNanosecondsPerSecond;
-/// A detector may see a tag a little before and after the truth has all of it in the picture.
-inline constexpr Stamp kVisitMargin = kNanosecondsPerSecond;
 
 /// One reported closure against the truth.
 struct JudgedClosure {
