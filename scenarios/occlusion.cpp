@@ -43,7 +43,7 @@ void describe(BlindStretch& stretch, const RunRecord& record, const std::vector<
   stretch.inliers_blind = mean_inliers(record, cameras, in_stretch);
   stretch.inliers_clear = mean_inliers(record, cameras, [&](std::size_t i) {
     return is_tracked(record.ticks[i].estimate) &&
-           each_share(record.ticks[i], cameras, [&](double s) { return s <= box_share / 4; });
+           each_share(record.ticks[i], cameras, [&](double s) { return s <= box_share / 2; });
   });
   for (std::size_t i = stretch.first; i <= stretch.last; ++i) {
     if (!is_tracked(record.ticks[i].estimate)) ++stretch.lost_frames;

@@ -31,7 +31,7 @@ struct BlindStretch {
 std::vector<int> find_cameras(const Rig& rig, const std::vector<std::string>& names);
 
 /// Cameras are blind where each one's share of carton is at least `box_share`; their view is clear
-/// where each one's is at most a quarter of that. Nothing when they are never blind in motion.
+/// where each one's is at most half of that. Nothing when they are never blind in motion.
 std::optional<BlindStretch> longest_blind_stretch(const RunRecord& record,
                                                   const std::vector<int>& cameras,
                                                   double box_share);

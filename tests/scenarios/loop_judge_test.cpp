@@ -67,6 +67,15 @@ TEST(LoopJudgeTest, AReturnWithoutAClosureIsMissed) {
   EXPECT_EQ(verdict.missed[0].last, 200u);
 }
 
+// The truth has the tag in view from 18 s on; a detector may be quicker by less than a second.
+TEST(LoopJudgeTest, AClosureAtTheEdgeOfAVisitBelongsToIt) {
+  const auto missed_with = [](double at) {
+    return verdict_of(at, fakes::closure(fakes::seconds(1), fakes::seconds(at))).missed.size();
+  };
+  EXPECT_EQ(missed_with(17.5), 0u);
+  EXPECT_EQ(missed_with(16.5), 1u);
+}
+
 TEST(LoopJudgeTest, AnotherTagsClosureDoesNotCount) {
   LoopClosure other = fakes::closure(fakes::seconds(1), fakes::seconds(19));
   other.tag_id = 8;
