@@ -156,9 +156,14 @@ std::optional<PatchAlignment> align_patch(const cv::Mat& left, const cv::Mat& ri
   }
   if (!warp(right, y, p, window)) return std::nullopt;
   float difference = 0;
-  for (std::size_t i = 0; i < kArea; ++i) difference += std::abs(window[i] - t.grey[i]);
+  float contrast = 0;
+  for (std::size_t i = 0; i < kArea; ++i) {
+    difference += std::abs(window[i] - t.grey[i]);
+    contrast += std::abs(t.grey[i]);
+  }
   return PatchAlignment{static_cast<double>(x) - static_cast<double>(p[0]),
-                        static_cast<double>(difference) / kArea};
+                        static_cast<double>(difference) / kArea,
+                        static_cast<double>(contrast) / kArea};
 }
 
 }  // namespace vinebench

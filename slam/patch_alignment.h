@@ -11,6 +11,7 @@ namespace vinebench {
 struct PatchAlignment {
   double shift = 0;       ///< px of this level, x_left - x_right at the window's centre
   double difference = 0;  ///< grey levels, mean absolute difference after alignment
+  double contrast = 0;    ///< grey levels, mean absolute deviation of the left window
 };
 
 /// Finds an 11 x 11 px window about (x, y) of `left` on the same rows of `right`, a rectified pair

@@ -60,7 +60,9 @@ std::vector<StereoMatch> match_stereo(const Extraction& left,
         search_disparity({left.pyramid[l], right_pyramid[l], farthest}, x, y, config.uniqueness);
     if (whole < 0) continue;
     const auto aligned = align_patch(left.pyramid[l], right_pyramid[l], x, y, whole);
-    if (!aligned || aligned->difference > config.max_difference) continue;
+    if (!aligned) continue;
+    const double limit = config.noise + config.max_residual * aligned->contrast;
+    if (aligned->difference > limit) continue;
     const double disparity = aligned->shift * scale;
     if (disparity <= 0) continue;
     const double depth = focal_baseline / disparity;

@@ -15,13 +15,18 @@ struct StereoConfig {
   double max_depth_baselines = 40;  ///< farther depths are not used (paper, Sect. III-A)
   double min_depth = 0.15;          ///< m; nothing is nearer
   double uniqueness = 1.15;         ///< the next best place must differ by this factor more
-  double max_difference = 12;       ///< grey levels, mean of the aligned windows' pixels
+  /// Mean difference of the aligned windows, as a share of their contrast, that is still a match.
+  /// Windows that show two depths, a stem before the ground, differ more: they would be biased
+  /// towards the nearer one.
+  double max_residual = 0.2;
+  double noise = 1.5;  ///< grey levels, difference that the sensor's noise alone explains
   template <class Archive>
   void serialize(Archive& archive) {
     archive("max_depth_baselines", max_depth_baselines, Range::positive());
     archive("min_depth", min_depth, Range::positive());
     archive("uniqueness", uniqueness, Range::between(1, 10));
-    archive("max_difference", max_difference, Range::between(0.1, 255));
+    archive("max_residual", max_residual, Range::between(0.01, 2));
+    archive("noise", noise, Range::between(0, 50));
   }
 };
 
