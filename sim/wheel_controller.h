@@ -10,7 +10,7 @@ namespace vinebench {
 /// Front-left, front-right, rear-left, rear-right.
 using WheelArray = std::array<double, 4>;
 
-/// Four mecanum wheels whose rollers on the ground form an X seen from above. No slip assumed.
+/// Four mecanum wheels whose upper rollers form an X seen from above. No slip assumed.
 struct MecanumDrive {
   double wheel_radius = 0.10;    ///< m
   double half_track = 0.19;      ///< m, body centre to wheel centre along y
