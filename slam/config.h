@@ -39,6 +39,24 @@ struct TrackingConfig {
   }
 };
 
+/// Fine placement of matches on the landmark's patch.
+struct RefinementConfig {
+  bool enabled = true;
+  double max_residual = 0.35;  ///< mean difference to the patch as a share of its contrast, at most
+  double noise = 2.0;          ///< grey levels, difference that the sensor's noise alone explains
+  double sigma = 0.35;         ///< px of the feature's level, standard deviation once placed
+  double disparity_sigma = 0.4;  ///< px of the feature's level, of a stereo match
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("enabled", enabled);
+    archive("max_residual", max_residual, Range::between(0, 2));
+    archive("noise", noise, Range::between(0, 50));
+    archive("sigma", sigma, Range::between(0.01, 5));
+    archive("disparity_sigma", disparity_sigma, Range::between(0.01, 5));
+  }
+};
+
 struct KeyframeConfig {
   int min_inliers = 200;   ///< fewer tracked landmarks ask for a keyframe
   double reduction = 0.7;  ///< so does falling below this share of the last keyframe's
@@ -96,6 +114,7 @@ struct SlamConfig {
   OrbConfig features;
   StereoConfig stereo;
   TrackingConfig tracking;
+  RefinementConfig refinement;
   KeyframeConfig keyframes;
   MappingConfig mapping;
   TagDetectorConfig tags;
@@ -107,6 +126,7 @@ struct SlamConfig {
     archive("features", features);
     archive("stereo", stereo);
     archive("tracking", tracking);
+    archive("refinement", refinement);
     archive("keyframes", keyframes);
     archive("mapping", mapping);
     archive("tags", tags);

@@ -6,8 +6,9 @@
 
 namespace vinebench {
 
-EstimatorRig::EstimatorRig(const StereoRig& stereo_rig, const OrbConfig& features)
-    : rig(stereo_rig) {
+EstimatorRig::EstimatorRig(const StereoRig& stereo_rig, const OrbConfig& features,
+                           const RefinementConfig& refine)
+    : rig(stereo_rig), refinement(refine) {
   for (const StereoEye& pair : rig.pairs) {
     eyes.push_back({pair.lens, pair.T_cam_body, pair.baseline});
     T_body_cams.push_back(pair.T_body_cam);
@@ -18,7 +19,7 @@ EstimatorRig::EstimatorRig(const StereoRig& stereo_rig, const OrbConfig& feature
     tag_eyes.push_back(eye);
   }
   for (int level = 0; level < features.levels; ++level) {
-    level_sigmas.push_back(std::pow(features.scale, level));
+    level_scales.push_back(std::pow(features.scale, level));
   }
 }
 
@@ -27,7 +28,11 @@ PixelMeasurement EstimatorRig::measurement(const StereoView& view, int feature) 
   const Keypoint& keypoint = view.features.keypoints[f];
   PixelMeasurement m;
   m.pixel = {keypoint.x, keypoint.y};
-  m.sigma = level_sigmas[static_cast<std::size_t>(keypoint.level)];
+  m.sigma = m.right_sigma = level_scales[static_cast<std::size_t>(keypoint.level)];
+  if (view.is_placed(f)) {
+    m.right_sigma *= std::hypot(refinement.sigma, refinement.disparity_sigma);
+    m.sigma *= refinement.sigma;
+  }
   if (view.stereo[f].depth > 0) m.right_x = view.stereo[f].x_right;
   return m;
 }

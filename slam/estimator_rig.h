@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "slam/config.h"
 #include "slam/map.h"
 #include "slam/reprojection.h"
 #include "slam/stereo_rig.h"
@@ -12,13 +13,16 @@ namespace vinebench {
 
 /// What every stage of the estimator needs to know of cameras and noise, derived once.
 struct EstimatorRig {
-  EstimatorRig(const StereoRig& rig, const OrbConfig& features);
+  EstimatorRig(const StereoRig& rig, const OrbConfig& features,
+               const RefinementConfig& refinement = {});
 
   StereoRig rig;
-  std::vector<EyeModel> eyes;        ///< left eye of each pair
-  std::vector<Pose> T_body_cams;     ///< of these
-  std::vector<EyeModel> tag_eyes;    ///< by index into Rig::cameras; no baseline
-  std::vector<double> level_sigmas;  ///< px, standard deviation of a feature of each pyramid level
+  std::vector<EyeModel> eyes;      ///< left eye of each pair
+  std::vector<Pose> T_body_cams;   ///< of these
+  std::vector<EyeModel> tag_eyes;  ///< by index into Rig::cameras; no baseline
+  /// Pixels of level 0 to a pixel of each pyramid level: the standard deviation of a corner there.
+  std::vector<double> level_scales;
+  RefinementConfig refinement;
 
   /// The measurement that a feature is: its pixel, its stereo match where it has one, its noise.
   PixelMeasurement measurement(const StereoView& view, int feature) const;

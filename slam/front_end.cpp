@@ -95,6 +95,7 @@ void FrontEnd::match(FrameFeatures& features, StageTimes& times) {
           match_stereo(left, right_pyramids_[p], pair.lens, pair.baseline, extractor_, stereo_);
     }
     view.features = std::move(left.features);
+    features.pyramids[p] = std::move(left.pyramid);
     view.grid = FeatureGrid(view.features.keypoints, pair.lens.width, pair.lens.height);
     spent[p] = milliseconds_since(start);
   });
@@ -103,11 +104,12 @@ void FrontEnd::match(FrameFeatures& features, StageTimes& times) {
   times.add("stereo", total);
 }
 
-std::shared_ptr<const FrameFeatures> FrontEnd::process(const Frame& frame, StageTimes& times) {
+std::shared_ptr<FrameFeatures> FrontEnd::process(const Frame& frame, StageTimes& times) {
   auto features = std::make_shared<FrameFeatures>();
   features->index = frame.index;
   features->stamp = frame.stamp;
   features->views.resize(rig_.pairs.size());
+  features->pyramids.resize(rig_.pairs.size());
   extract(frame, times);
   match(*features, times);
   for (const std::vector<TagSighting>& seen : sightings_) {

@@ -22,7 +22,7 @@ class FrontEnd {
 
   /// Throws Error for a picture of the wrong size or type. A missing (empty) picture has no
   /// features. Adds the stages "features", "stereo" and "tags", each summed over its pictures.
-  std::shared_ptr<const FrameFeatures> process(const Frame& frame, StageTimes& times);
+  std::shared_ptr<FrameFeatures> process(const Frame& frame, StageTimes& times);
 
  private:
   cv::Mat grey(const Frame& frame, int camera) const;

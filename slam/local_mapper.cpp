@@ -6,10 +6,20 @@
 #include <cmath>
 
 #include "slam/bundle_adjustment.h"
+#include "slam/match_refiner.h"
 #include "slam/projection_matcher.h"
 #include "slam/triangulation.h"
 
 namespace vinebench {
+namespace {
+
+/// A landmark is, by definition, what is seen where it was first found.
+void place(StereoView& view, std::size_t feature) {
+  if (view.placed.empty()) view.placed.assign(view.features.size(), 0);
+  view.placed[feature] = 1;
+}
+
+}  // namespace
 
 int LocalMapper::insert(const TrackedFrame& tracked, Map& map) const {
   const int id = map.add_keyframe(tracked.frame, tracked.motion.T_map_body, tracked.associations);
@@ -22,11 +32,13 @@ int LocalMapper::insert(const TrackedFrame& tracked, Map& map) const {
         const Eigen::Vector3d p_map = rig_.stereo_point(
             view, static_cast<int>(v), static_cast<int>(f), tracked.motion.T_map_body);
         landmark = map.add_landmark(p_map, {id, static_cast<int>(v), static_cast<int>(f)});
+        if (rig_.refinement.enabled) place(tracked.frame->views[v], f);
       }
       if (landmark >= 0) touched.push_back(landmark);
     }
   }
   for (const int landmark : touched) map.refresh(landmark, rig_.T_body_cams);
+  map.keyframe(id).patches = cut_patches(*tracked.frame, map.keyframe(id).landmarks, rig_);
   return id;
 }
 

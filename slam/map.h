@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "slam/base/time.h"
 #include "slam/feature_grid.h"
 #include "slam/features.h"
+#include "slam/patch.h"
 #include "slam/stereo_matcher.h"
 
 namespace vinebench {
@@ -22,14 +24,22 @@ struct StereoView {
   Features features;
   std::vector<StereoMatch> stereo;  ///< of each feature
   FeatureGrid grid;
+  /// Of each feature, whether it stands on the landmark's patch to a fraction of a pixel; empty
+  /// where none does.
+  std::vector<char> placed;
+
+  bool is_placed(std::size_t feature) const { return !placed.empty() && placed[feature] != 0; }
 };
 
-/// What a frame's pictures were boiled down to. Immutable once made; shared by those who need it.
+/// What a frame's pictures were boiled down to. Tracking places its matches more finely; after that
+/// it is immutable, and shared by those who need it.
 struct FrameFeatures {
   std::int64_t index = 0;
   Stamp stamp = 0;
   std::vector<StereoView> views;  ///< of each pair of the StereoRig
   std::vector<TagSighting> tags;
+  /// Left pyramid of each pair, while the frame is being tracked; dropped afterwards.
+  std::vector<std::vector<cv::Mat>> pyramids;
 };
 
 /// Landmark of each feature of each view, -1 for none.
@@ -43,6 +53,7 @@ struct Keyframe {
   std::shared_ptr<const FrameFeatures> frame;
   Pose T_map_body;
   Associations landmarks;
+  std::vector<std::vector<std::optional<Patch>>> patches;  ///< of each feature of each view
   std::map<int, int> covisible;  ///< keyframe id to the number of landmarks both see
 };
 

@@ -162,6 +162,7 @@ std::optional<PatchAlignment> align_patch(const cv::Mat& left, const cv::Mat& ri
     contrast += std::abs(t.grey[i]);
   }
   return PatchAlignment{static_cast<double>(x) - static_cast<double>(p[0]),
+                        -static_cast<double>(p[1]), -static_cast<double>(p[2]),
                         static_cast<double>(difference) / kArea,
                         static_cast<double>(contrast) / kArea};
 }

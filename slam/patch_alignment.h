@@ -10,6 +10,8 @@ namespace vinebench {
 /// Where a window of the left picture lies in the right one.
 struct PatchAlignment {
   double shift = 0;       ///< px of this level, x_left - x_right at the window's centre
+  double slope_x = 0;     ///< change of the shift along x, px a px: a surface slanted that way
+  double slope_y = 0;     ///< along y
   double difference = 0;  ///< grey levels, mean absolute difference after alignment
   double contrast = 0;    ///< grey levels, mean absolute deviation of the left window
 };

@@ -19,17 +19,18 @@ constexpr double kTagKeyframeDistance = 0.05;  // m
 Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
                    const std::vector<RegisteredTag>& tags)
     : config_(config),
-      rig_(rig, config.features),
+      rig_(rig, config.features, config.refinement),
       map_(config.features.scale),
       tracker_(config.tracking, rig_),
       mapper_(config, rig_),
       loop_closer_(config, rig_, tags) {}
 
-Estimate Pipeline::process(const std::shared_ptr<const FrameFeatures>& frame) {
+Estimate Pipeline::process(const std::shared_ptr<FrameFeatures>& frame) {
   TrackedFrame tracked = started_ ? track(frame) : initialise(frame);
   Estimate estimate = report(tracked);
+  if (tracked.tracked && wants_new_keyframe(tracked)) map_keyframe(tracked, estimate);
+  frame->pyramids.clear();
   if (!tracked.tracked) return estimate;
-  if (wants_new_keyframe(tracked)) map_keyframe(tracked, estimate);
   loop_closer_.note(*frame, tracker_.T_map_body(), path_length_, map_);
   remember(frame->stamp);
   estimate.T_map_body = tracker_.T_map_body();
@@ -56,7 +57,7 @@ SlamSummary Pipeline::finish() {
 
 /// The first frame with enough stereo points is the map's first keyframe. A registered tag in it
 /// makes the map's frame the world's; without one the body is at the origin.
-TrackedFrame Pipeline::initialise(const std::shared_ptr<const FrameFeatures>& frame) {
+TrackedFrame Pipeline::initialise(const std::shared_ptr<FrameFeatures>& frame) {
   TrackedFrame tracked;
   tracked.frame = frame;
   tracked.associations = no_associations(*frame);
@@ -75,7 +76,7 @@ TrackedFrame Pipeline::initialise(const std::shared_ptr<const FrameFeatures>& fr
   return tracked;
 }
 
-TrackedFrame Pipeline::track(const std::shared_ptr<const FrameFeatures>& frame) {
+TrackedFrame Pipeline::track(const std::shared_ptr<FrameFeatures>& frame) {
   const ScopedTimer timer(times_, "tracking");
   const Pose before = tracker_.T_map_body();
   TrackedFrame tracked = tracker_.track(frame, map_);

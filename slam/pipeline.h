@@ -24,7 +24,7 @@ class Pipeline {
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
-  Estimate process(const std::shared_ptr<const FrameFeatures>& frame);
+  Estimate process(const std::shared_ptr<FrameFeatures>& frame);
   SlamSummary finish();
 
   const Map& map() const { return map_; }
@@ -39,8 +39,8 @@ class Pipeline {
     Pose T_keyframe_body;
   };
 
-  TrackedFrame initialise(const std::shared_ptr<const FrameFeatures>& frame);
-  TrackedFrame track(const std::shared_ptr<const FrameFeatures>& frame);
+  TrackedFrame initialise(const std::shared_ptr<FrameFeatures>& frame);
+  TrackedFrame track(const std::shared_ptr<FrameFeatures>& frame);
   bool wants_new_keyframe(const TrackedFrame& tracked) const;
   void map_keyframe(const TrackedFrame& tracked, Estimate& estimate);
   void remember(Stamp stamp);

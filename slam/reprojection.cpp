@@ -106,9 +106,10 @@ ReprojectionError::ReprojectionError(const EyeModel& eye, const PixelMeasurement
 Eigen::Vector3d ReprojectionError::residual_at(const Eigen::Vector3d& p_cam) const {
   const Eigen::Vector2d pixel = eye_->lens.project(p_cam);
   const double right_x = pixel.x() - eye_->lens.fx * eye_->baseline / p_cam.z();
-  return Eigen::Vector3d(pixel.x() - measurement_.pixel.x(), pixel.y() - measurement_.pixel.y(),
-                         measurement_.right_x ? right_x - *measurement_.right_x : 0.0) /
-         measurement_.sigma;
+  return {
+      (pixel.x() - measurement_.pixel.x()) / measurement_.sigma,
+      (pixel.y() - measurement_.pixel.y()) / measurement_.sigma,
+      measurement_.right_x ? (right_x - *measurement_.right_x) / measurement_.right_sigma : 0.0};
 }
 
 bool ReprojectionError::Evaluate(double const* const* parameters, double* residuals,
@@ -127,7 +128,9 @@ bool ReprojectionError::Evaluate(double const* const* parameters, double* residu
   std::copy_n(r.data(), num_residuals(), residuals);
   if (jacobians == nullptr) return true;
 
-  const Matrix3d J_body = projection_jacobian(*eye_, p_cam) * R_cam_body / measurement_.sigma;
+  const Eigen::Vector3d weights(1 / measurement_.sigma, 1 / measurement_.sigma,
+                                1 / measurement_.right_sigma);
+  const Matrix3d J_body = weights.asDiagonal() * projection_jacobian(*eye_, p_cam) * R_cam_body;
   if (jacobians[0] != nullptr) {
     RowMajor37 J = RowMajor37::Zero();
     J.leftCols<6>() = J_body * body_point_jacobian(p_body);

@@ -43,7 +43,8 @@ struct EyeModel {
 struct PixelMeasurement {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   std::optional<double> right_x;
-  double sigma = 1;  ///< px
+  double sigma = 1;        ///< px
+  double right_sigma = 1;  ///< px, of the column in the right eye
   int size() const { return right_x ? 3 : 2; }
 };
 

@@ -67,6 +67,8 @@ std::vector<StereoMatch> match_stereo(const Extraction& left,
     if (disparity <= 0) continue;
     const double depth = focal_baseline / disparity;
     matches[i].x_right = static_cast<float>(static_cast<double>(seen.x) - disparity);
+    matches[i].slant_x = static_cast<float>(aligned->slope_x / disparity);
+    matches[i].slant_y = static_cast<float>(aligned->slope_y / disparity);
     if (depth < config.max_depth_baselines * baseline) matches[i].depth = static_cast<float>(depth);
   }
   return matches;

@@ -34,6 +34,9 @@ struct StereoConfig {
 struct StereoMatch {
   float x_right = -1;  ///< px in the right picture, sub-pixel; -1 without a match
   float depth = -1;    ///< m along the optical axis; -1 without a match or beyond the limit
+  /// How the surface is slanted: change of the inverse depth along x and y, as a share of it a px.
+  float slant_x = 0;
+  float slant_y = 0;
 };
 
 /// Finds the left picture's keypoints in the right one of a rectified pair (same lens, same rows):

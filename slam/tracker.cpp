@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "slam/match_refiner.h"
 #include "slam/projection_matcher.h"
 
 namespace vinebench {
@@ -111,7 +112,7 @@ void Tracker::match_local_map(const Map& map, TrackedFrame& tracked) const {
                       tracked.associations);
 }
 
-TrackedFrame Tracker::track(std::shared_ptr<const FrameFeatures> frame, const Map& map) {
+TrackedFrame Tracker::track(std::shared_ptr<FrameFeatures> frame, const Map& map) {
   TrackedFrame tracked;
   tracked.frame = std::move(frame);
   tracked.motion.T_map_body = predict(tracked.frame->stamp);
@@ -125,6 +126,9 @@ TrackedFrame Tracker::track(std::shared_ptr<const FrameFeatures> frame, const Ma
                                    config_.min_inlier_share, tracked.associations);
   if (tracked.motion.inliers >= config_.min_inliers / 2) {
     match_local_map(map, tracked);
+    tracked.motion = estimate_motion(map, *tracked.frame, tracked.motion.T_map_body, rig_,
+                                     config_.min_inlier_share, tracked.associations);
+    refine_matches(map, tracked.associations, tracked.motion.T_map_body, rig_, *tracked.frame);
     tracked.motion = estimate_motion(map, *tracked.frame, tracked.motion.T_map_body, rig_,
                                      config_.min_inlier_share, tracked.associations);
   }

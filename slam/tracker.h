@@ -15,7 +15,7 @@ namespace vinebench {
 
 /// What tracking made of one frame.
 struct TrackedFrame {
-  std::shared_ptr<const FrameFeatures> frame;
+  std::shared_ptr<FrameFeatures> frame;
   bool tracked = false;
   MotionEstimate motion;
   Associations associations;  ///< inliers only
@@ -31,7 +31,7 @@ class Tracker {
   void start(const Pose& T_map_body, Stamp stamp);
 
   /// Tracks the next frame against the map.
-  TrackedFrame track(std::shared_ptr<const FrameFeatures> frame, const Map& map);
+  TrackedFrame track(std::shared_ptr<FrameFeatures> frame, const Map& map);
 
   /// Takes over a pose that something else knows better (loop closing, a tag), moving what the
   /// prediction rests on with it.
