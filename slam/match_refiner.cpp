@@ -24,21 +24,22 @@ class Refiner {
   Refiner(const Map& map, const Pose& T_map_body, const EstimatorRig& rig, FrameFeatures& frame)
       : map_(map), T_map_body_(T_map_body), rig_(rig), config_(rig.refinement), frame_(frame) {}
 
-  /// Tries the oldest fitting patch, which has not drifted, then the newest.
-  void refine(std::size_t v, std::size_t f, const Landmark& landmark) {
+  /// Tries the oldest fitting patch, which has not drifted, then the newest. False where there are
+  /// patches to compare with and none fits: the feature is not the landmark.
+  bool refine(std::size_t v, std::size_t f, const Landmark& landmark) {
     const std::vector<Observation>& seen = landmark.observations;
     for (auto o = seen.begin(); o != seen.end(); ++o) {
       const std::optional<PatchWarp> warp = warp_of(*o, v, f, landmark);
       if (!warp) continue;
-      if (try_patch(*o, *warp, v, f)) return;
+      if (try_patch(*o, *warp, v, f)) return true;
       for (auto newer = seen.rbegin(); &*newer != &*o; ++newer) {
         const std::optional<PatchWarp> newer_warp = warp_of(*newer, v, f, landmark);
         if (!newer_warp) continue;
-        try_patch(*newer, *newer_warp, v, f);
-        return;
+        return try_patch(*newer, *newer_warp, v, f);
       }
-      return;
+      return false;
     }
+    return true;
   }
 
  private:
@@ -137,14 +138,15 @@ class Refiner {
 
 }  // namespace
 
-void refine_matches(const Map& map, const Associations& associations, const Pose& T_map_body,
-                    const EstimatorRig& rig, FrameFeatures& frame) {
+void refine_matches(const Map& map, const Pose& T_map_body, const EstimatorRig& rig,
+                    FrameFeatures& frame, Associations& associations) {
   if (frame.pyramids.empty() || !rig.refinement.enabled) return;
   Refiner refiner(map, T_map_body, rig, frame);
   for (std::size_t v = 0; v < associations.size(); ++v) {
     frame.views[v].placed.assign(associations[v].size(), 0);
     for (std::size_t f = 0; f < associations[v].size(); ++f) {
-      if (associations[v][f] >= 0) refiner.refine(v, f, map.landmark(associations[v][f]));
+      int& landmark = associations[v][f];
+      if (landmark >= 0 && !refiner.refine(v, f, map.landmark(landmark))) landmark = -1;
     }
   }
 }

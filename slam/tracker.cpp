@@ -128,7 +128,7 @@ TrackedFrame Tracker::track(std::shared_ptr<FrameFeatures> frame, const Map& map
     match_local_map(map, tracked);
     tracked.motion = estimate_motion(map, *tracked.frame, tracked.motion.T_map_body, rig_,
                                      config_.min_inlier_share, tracked.associations);
-    refine_matches(map, tracked.associations, tracked.motion.T_map_body, rig_, *tracked.frame);
+    refine_matches(map, tracked.motion.T_map_body, rig_, *tracked.frame, tracked.associations);
     tracked.motion = estimate_motion(map, *tracked.frame, tracked.motion.T_map_body, rig_,
                                      config_.min_inlier_share, tracked.associations);
   }
