@@ -106,11 +106,12 @@ TEST(PipelineTest, SaysLostWhenEveryPairIsBlind) {
 Pose there_and_back(std::int64_t frame) {
   if (frame < 100) return driving(frame);
   if (frame < 160) {
-    const Pose turn{exp_so3({0, 0, 3.14159265 * static_cast<double>(frame - 100) / 60}), {}};
+    const Pose turn{exp_so3({0, 0, 3.14159265 * static_cast<double>(frame - 100) / 60}),
+                    Eigen::Vector3d::Zero()};
     return driving(100) * turn;
   }
   const Pose end = driving(100 - (frame - 160));
-  return end * Pose{exp_so3({0, 0, 3.14159265}), {}};
+  return end * Pose{exp_so3({0, 0, 3.14159265}), Eigen::Vector3d::Zero()};
 }
 
 TEST(PipelineTest, ClosesALoopWhenATagIsSeenAgain) {
@@ -127,7 +128,8 @@ TEST(PipelineTest, ClosesALoopWhenATagIsSeenAgain) {
     Pose T_world_body = there_and_back(std::min<std::int64_t>(i, 260));
     if (i > 260) {
       T_world_body =
-          T_world_body * Pose{exp_so3({0, 0, 3.14159265 * static_cast<double>(i - 260) / 60}), {}};
+          T_world_body * Pose{exp_so3({0, 0, 3.14159265 * static_cast<double>(i - 260) / 60}),
+                              Eigen::Vector3d::Zero()};
     }
     truth.push_back(T_world_body);
     const bool sees_tag = i < 3 || i >= 319;
