@@ -42,7 +42,8 @@ TEST(PoseTest, InverseUndoes) {
 
 TEST(PoseTest, StaysRigidOverALongChain) {
   Pose chain;
-  for (int i = 0; i < 100000; ++i) chain = chain * Pose{exp_so3({0.01, 0.02, -0.03}), {}};
+  for (int i = 0; i < 100000; ++i)
+    chain = chain * Pose{exp_so3({0.01, 0.02, -0.03}), Eigen::Vector3d::Zero()};
   EXPECT_NEAR(chain.rotation.norm(), 1, kRounding);
 }
 

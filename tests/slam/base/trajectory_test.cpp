@@ -29,7 +29,7 @@ TEST(TrajectoryTest, ComesBackToTheLastDecimal) {
   RandomSequence random(RandomStream(1, "trajectory"));
   Trajectory written;
   for (std::int64_t i = 0; i < 50; ++i) {
-    const Eigen::Vector3d turn(random.normal(), random.normal(), random.normal());
+    const Eigen::Vector3d turn{random.normal(), random.normal(), random.normal()};
     const Eigen::Vector3d p(random.uniform(-100, 100), random.uniform(-100, 100), random.normal());
     written.push_back({stamp_of_frame(i, 15), {exp_so3(turn), p}});
   }
