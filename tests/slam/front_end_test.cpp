@@ -39,13 +39,21 @@ class FrontEndTest : public testing::Test {
     config_.features.features = 300;
     frame_.index = 4;
     frame_.stamp = stamp_of_frame(4, 15);
+    static const std::vector<cv::Mat> pictures = render(rig_);
+    frame_.images = pictures;
+  }
+
+  /// A textured wall 1.5 m before each pair and a tag before the side camera.
+  static std::vector<cv::Mat> render(const StereoRig& rig) {
+    std::vector<cv::Mat> pictures;
     for (const std::uint64_t texture : {11U, 12U}) {
-      SyntheticPlane plane{16, 0, 0, 320, 200, texture};
-      frame_.images.push_back(plane.left(1));
-      frame_.images.push_back(plane.right(1));
+      const SyntheticPlane plane{16, 0, 0, 320, 200, texture};
+      pictures.push_back(plane.left(1));
+      pictures.push_back(plane.right(1));
     }
-    frame_.images.push_back(SyntheticTag(6, 0.161).render(
-        rig_.cameras[4].model, Pose{exp_so3({0.2, 0.1, 0}), {0, 0, 0.4}}));
+    const Pose T_cam_tag{exp_so3({0.2, 0.1, 0}), {0, 0, 0.4}};
+    pictures.push_back(SyntheticTag(6, 0.161).render(rig.cameras[4].model, T_cam_tag));
+    return pictures;
   }
 
   std::shared_ptr<const FrameFeatures> process(const Frame& frame, int threads = 1) {
