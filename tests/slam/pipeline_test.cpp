@@ -157,6 +157,23 @@ TEST(PipelineTest, ClosesALoopWhenATagIsSeenAgain) {
   EXPECT_LT(worst_error(summary.trajectory, truth), 0.01);
 }
 
+TEST(PipelineTest, ATagSeenOnlyBetweenKeyframesIsNoLoopYet) {
+  const SyntheticAisle aisle(0.5, 8, kLandmarks);
+  const RigCamera& side = aisle.rig.cameras[4];
+  const Pose T_cam_tag{exp_so3({0.1, 0.2, 0}), {0.02, 0.01, 2.0}};
+  const Pose T_world_tag = driving(1) * side.T_body_cam * T_cam_tag;
+  Pipeline pipeline(config(), aisle.rig, {});
+  // Frame 1 is too soon after the first keyframe to be one; frame 70 is 4.6 s and 1.4 m later.
+  for (std::int64_t i = 0; i < 75; ++i) {
+    const bool sees_tag = i == 1 || i >= 70;
+    const Estimate estimate = pipeline.process(
+        sees_tag ? aisle.frame_with_tag(i, driving(i), T_world_tag) : aisle.frame(i, driving(i)));
+    ASSERT_EQ(estimate.status, TrackingStatus::kTracking) << i;
+    EXPECT_EQ(estimate.keyframe && i == 1, false);
+    EXPECT_FALSE(estimate.loop_closure) << i;
+  }
+}
+
 TEST(PipelineTest, SameInputSameBits) {
   const SyntheticAisle aisle(0.5, 7, kLandmarks);
   std::string texts[2];
