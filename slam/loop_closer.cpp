@@ -65,11 +65,14 @@ const LoopCloser::Visit* LoopCloser::visit(const TagSighting& sighting) const {
   return nullptr;
 }
 
-void LoopCloser::remember_visit(const TagSighting& sighting, Stamp stamp, double path_length) {
+void LoopCloser::remember_visit(const TagSighting& sighting, Stamp stamp, double path_length,
+                                bool in_keyframe) {
+  const Visit* before = visit(sighting);
+  in_keyframe |= before != nullptr && before->in_keyframe;
   std::erase_if(visits_, [&](const Visit& visit) {
     return visit.family == sighting.family && visit.id == sighting.id;
   });
-  visits_.push_back({sighting.family, sighting.id, stamp, path_length});
+  visits_.push_back({sighting.family, sighting.id, stamp, path_length, in_keyframe});
 }
 
 Pose LoopCloser::T_body_tag(const TagSighting& sighting) const {
@@ -100,7 +103,7 @@ const TagSighting* LoopCloser::loop_sighting(const FrameFeatures& frame, double 
   if (!config_.loop.enabled) return nullptr;
   for (const TagSighting& sighting : frame.tags) {
     const Visit* last = visit(sighting);
-    if (last == nullptr) continue;
+    if (last == nullptr || !last->in_keyframe) continue;
     const bool left = to_seconds(frame.stamp - last->last_seen) >= config_.loop.away_seconds &&
                       path_length - last->path_length >= config_.loop.away_distance;
     if (left) return &sighting;
@@ -114,6 +117,8 @@ bool LoopCloser::sees_loop(const FrameFeatures& frame, double path_length) const
 
 void LoopCloser::note(const FrameFeatures& frame, const Pose& T_map_body, double path_length,
                       Map& map) {
+  const bool is_keyframe =
+      !map.keyframes().empty() && map.keyframes().back().frame->index == frame.index;
   for (const TagSighting& sighting : frame.tags) {
     const Pose T_map_tag = T_map_body * T_body_tag(sighting);
     if (map.find_tag(sighting.family, sighting.id) == nullptr) {
@@ -126,30 +131,30 @@ void LoopCloser::note(const FrameFeatures& frame, const Pose& T_map_body, double
       }
       map.tags().push_back(tag);
     }
-    remember_visit(sighting, frame.stamp, path_length);
+    remember_visit(sighting, frame.stamp, path_length, is_keyframe);
   }
 }
 
-LoopClosure LoopCloser::close(int keyframe_id, Map& map) {
+LoopClosure LoopCloser::close(int keyframe_id, double path_length, Map& map) {
   const Keyframe& later = map.keyframe(keyframe_id);
-  LoopClosure closure;
-  for (const TagSighting& sighting : later.frame->tags) {
-    int first = keyframe_id;
-    const TagSighting* earlier = first_sighting(map, sighting, first);
-    const MapTag* tag = map.find_tag(sighting.family, sighting.id);
-    if (earlier == nullptr || tag == nullptr || first == keyframe_id) continue;
-    const Pose before = later.T_map_body;
-    closure.tag_id = sighting.id;
-    closure.earlier = map.keyframe(first).frame->stamp;
-    closure.later = later.frame->stamp;
-    closure.T_earlier_later = T_body_tag(*earlier) * T_body_tag(sighting).inverse();
-    spread_correction(map, first, keyframe_id, tag->T_map_tag * T_body_tag(sighting).inverse());
-    adjust_globally(map);
-    closure.correction =
-        (map.keyframe(keyframe_id).T_map_body.translation - before.translation).norm();
-    return closure;
+  const TagSighting* sighting = loop_sighting(*later.frame, path_length);
+  int first = keyframe_id;
+  const TagSighting* earlier = sighting ? first_sighting(map, *sighting, first) : nullptr;
+  const MapTag* tag = sighting ? map.find_tag(sighting->family, sighting->id) : nullptr;
+  if (earlier == nullptr || tag == nullptr || first == keyframe_id) {
+    fail("loop closing: keyframe {} sees no tag that an earlier one saw and left", keyframe_id);
   }
-  fail("loop closing: keyframe {} sees no tag that an earlier one saw", keyframe_id);
+  const Pose before = later.T_map_body;
+  LoopClosure closure;
+  closure.tag_id = sighting->id;
+  closure.earlier = map.keyframe(first).frame->stamp;
+  closure.later = later.frame->stamp;
+  closure.T_earlier_later = T_body_tag(*earlier) * T_body_tag(*sighting).inverse();
+  spread_correction(map, first, keyframe_id, tag->T_map_tag * T_body_tag(*sighting).inverse());
+  adjust_globally(map);
+  closure.correction =
+      (map.keyframe(keyframe_id).T_map_body.translation - before.translation).norm();
+  return closure;
 }
 
 void LoopCloser::adjust_globally(Map& map) const {

@@ -26,15 +26,15 @@ class LoopCloser {
   /// The body's pose in the map by a tag that the map knows, if one is among the sightings.
   std::optional<Pose> map_pose(const std::vector<TagSighting>& sightings, Map& map) const;
 
-  /// Whether a tag of this frame was seen before and left since: a loop to close.
+  /// Whether a tag of this frame was seen before, in a keyframe, and left since: a loop to close.
   bool sees_loop(const FrameFeatures& frame, double path_length) const;
 
   /// Enters the sightings of a frame: tags that are new to the map get a pose there.
   void note(const FrameFeatures& frame, const Pose& T_map_body, double path_length, Map& map);
 
-  /// Closes the loop that `keyframe` sees: moves the way since the earlier visit onto the tag's
-  /// constraint, then adjusts the whole map.
-  LoopClosure close(int keyframe, Map& map);
+  /// Closes the loop that `keyframe`, made of a frame that sees_loop, sees: moves the way since the
+  /// earlier visit onto the tag's constraint, then adjusts the whole map.
+  LoopClosure close(int keyframe, double path_length, Map& map);
 
   /// Global bundle adjustment of the map as it is.
   void adjust_globally(Map& map) const;
@@ -45,12 +45,14 @@ class LoopCloser {
     std::string family;
     int id = 0;
     Stamp last_seen = 0;
-    double path_length = 0;  ///< m, the way driven until then
+    double path_length = 0;    ///< m, the way driven until then
+    bool in_keyframe = false;  ///< a keyframe saw it, so that a loop has an earlier end
   };
 
   const RegisteredTag* registered(const TagSighting& sighting) const;
   const Visit* visit(const TagSighting& sighting) const;
-  void remember_visit(const TagSighting& sighting, Stamp stamp, double path_length);
+  void remember_visit(const TagSighting& sighting, Stamp stamp, double path_length,
+                      bool in_keyframe);
   const TagSighting* loop_sighting(const FrameFeatures& frame, double path_length) const;
   Pose T_body_tag(const TagSighting& sighting) const;
 

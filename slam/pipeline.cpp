@@ -107,7 +107,7 @@ void Pipeline::map_keyframe(const TrackedFrame& tracked, Estimate& estimate) {
   tags_since_adjustment_ |= closures_ > 0 && !tracked.frame->tags.empty();
   if (loop) {
     const ScopedTimer timer(times_, "global adjustment");
-    estimate.loop_closure = loop_closer_.close(id, map_);
+    estimate.loop_closure = loop_closer_.close(id, path_length_, map_);
     ++closures_;
     tags_since_adjustment_ = false;
   }

@@ -37,7 +37,11 @@ void write_file_atomically(const std::filesystem::path& file, std::string_view c
     fail("{}: cannot be written: {}", file.string(), std::strerror(reason));
   }
   std::filesystem::rename(partial, file, error);
-  if (error) fail("{}: cannot be written: {}", file.string(), error.message());
+  if (error) {
+    std::error_code ignored;
+    std::filesystem::remove(partial, ignored);
+    fail("{}: cannot be written: {}", file.string(), error.message());
+  }
 }
 
 }  // namespace vinebench

@@ -2,12 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/base/time.h"
 
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 
 #include "slam/base/error.h"
 
 namespace vinebench {
+namespace {
+
+/// What a Stamp can hold, 292 years, a little less.
+constexpr double kMostSeconds = 9.2e9;
+
+}  // namespace
 
 Stamp from_seconds(double seconds) {
   return static_cast<Stamp>(std::llround(seconds * static_cast<double>(kNanosecondsPerSecond)));
@@ -30,13 +37,14 @@ std::string format_seconds(Stamp stamp) {
 
 Stamp parse_seconds(const std::string& text) {
   const std::size_t first_digit = text.find_first_not_of("+-");
-  const bool plain = !text.empty() && text.find_first_not_of("+-0123456789.") == std::string::npos;
+  const bool plain = text.find_first_of("0123456789") != std::string::npos &&
+                     text.find_first_not_of("+-0123456789.") == std::string::npos;
   const std::size_t dot = text.find('.');
   const std::size_t decimals = dot == std::string::npos ? 0 : text.size() - dot - 1;
   if (!plain || decimals > 9 || first_digit > 1) {
     char* end = nullptr;
     const double seconds = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0' || !std::isfinite(seconds)) {
+    if (text.empty() || *end != '\0' || !(std::abs(seconds) < kMostSeconds)) {
       fail("expected a time in seconds, found '{}'", text);
     }
     return from_seconds(seconds);
@@ -45,8 +53,9 @@ Stamp parse_seconds(const std::string& text) {
   if (dot != std::string::npos) digits += text.substr(dot + 1);
   digits.append(9 - decimals, '0');
   char* end = nullptr;
+  errno = 0;
   const Stamp stamp = std::strtoll(digits.c_str(), &end, 10);
-  if (*end != '\0') fail("expected a time in seconds, found '{}'", text);
+  if (*end != '\0' || errno == ERANGE) fail("expected a time in seconds, found '{}'", text);
   return stamp;
 }
 

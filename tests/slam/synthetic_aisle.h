@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -19,10 +20,11 @@ namespace vinebench::testing_support {
 /// back end is tested on these, without pictures. World frame: the aisle runs along x at y = 0.
 class SyntheticAisle {
  public:
-  SyntheticAisle(double noise_px, std::uint64_t seed) : noise_(noise_px), seed_(seed) {
+  SyntheticAisle(double noise_px, std::uint64_t seed, int landmarks = 6000)
+      : noise_(noise_px), seed_(seed) {
     rig = make_stereo_rig(load_rig(VINEBENCH_SOURCE_DIR "/models/csl-rover/rig.yaml"), {});
     RandomSequence random(RandomStream(seed, "aisle"));
-    for (int i = 0; i < 6000; ++i) {
+    for (int i = 0; i < landmarks; ++i) {
       const double side = i % 2 == 0 ? 0.5 : -0.5;
       points_.emplace_back(random.uniform(-4, 8), side + random.uniform(-0.1, 0.1),
                            random.uniform(0.0, 1.4));
@@ -30,8 +32,13 @@ class SyntheticAisle {
       const RandomStream bits(seed, "descriptor", static_cast<std::uint64_t>(i));
       for (std::size_t w = 0; w < 4; ++w) descriptor[w] = bits.bits(w);
       descriptors_.push_back(descriptor);
+      index_[descriptor] = i;
     }
   }
+
+  /// Which point a feature is of, and where that is in the world.
+  int point_of(const Descriptor& descriptor) const { return index_.at(descriptor); }
+  const Eigen::Vector3d& point(int index) const { return points_[static_cast<std::size_t>(index)]; }
 
   /// Pairs listed in `blind` see nothing.
   std::shared_ptr<FrameFeatures> frame(std::int64_t index, const Pose& T_world_body,
@@ -106,6 +113,7 @@ class SyntheticAisle {
   std::uint64_t seed_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<Descriptor> descriptors_;
+  std::map<Descriptor, int> index_;
 };
 
 }  // namespace vinebench::testing_support

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/estimator_rig.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/slam/synthetic_aisle.h"
+
+namespace vinebench {
+namespace {
+
+using testing_support::SyntheticAisle;
+
+TEST(EstimatorRigTest, MeasuresWithTheRightEyeWhereThereIsADepth) {
+  const SyntheticAisle aisle(0, 1, 300);
+  const EstimatorRig rig(aisle.rig, OrbConfig{});
+  StereoView view = aisle.frame(0, Pose{})->views[0];
+  view.features.keypoints[2].level = 3;
+  view.stereo[3] = StereoMatch{100, -1};  // matched, but beyond the limit
+  view.stereo[4] = StereoMatch{};
+  const PixelMeasurement m = rig.measurement(view, 2);
+  EXPECT_EQ(m.pixel.x(), static_cast<double>(view.features.keypoints[2].x));
+  EXPECT_EQ(m.pixel.y(), static_cast<double>(view.features.keypoints[2].y));
+  ASSERT_TRUE(m.right_x);
+  EXPECT_EQ(*m.right_x, static_cast<double>(view.stereo[2].x_right));
+  EXPECT_NEAR(m.sigma, 1.2 * 1.2 * 1.2, 1e-12);
+  EXPECT_FALSE(rig.measurement(view, 3).right_x);
+  EXPECT_FALSE(rig.measurement(view, 4).right_x);
+}
+
+TEST(EstimatorRigTest, StereoPutsAPointWhereItIs) {
+  const SyntheticAisle aisle(0, 1, 300);
+  const EstimatorRig rig(aisle.rig, OrbConfig{});
+  const Pose body{exp_so3({0.02, 0.01, 0.4}), {0.3, 0.1, 0.02}};
+  const auto frame = aisle.frame(0, body);
+  for (int v = 0; v < 2; ++v) {
+    const StereoView& view = frame->views[static_cast<std::size_t>(v)];
+    ASSERT_GT(view.features.size(), 5u);
+    for (std::size_t f = 0; f < view.features.size(); ++f) {
+      const auto& truth = aisle.point(aisle.point_of(view.features.descriptors[f]));
+      const Eigen::Vector3d point = rig.stereo_point(view, v, static_cast<int>(f), body);
+      EXPECT_LT((point - truth).norm(), 1e-6);  // floats: 1e-7 of up to 4.8 m
+    }
+  }
+}
+
+TEST(EstimatorRigTest, TagEyesHaveNoDistortionLeft) {
+  Rig bent = load_rig(VINEBENCH_SOURCE_DIR "/models/csl-rover/rig.yaml");
+  bent.cameras[4].model.distortion = {-0.05, 0, 0, 0};
+  const EstimatorRig rig(make_stereo_rig(bent, {}), OrbConfig{});
+  ASSERT_EQ(rig.tag_eyes.size(), 5u);
+  EXPECT_FALSE(rig.tag_eyes[4].lens.has_distortion());
+  EXPECT_EQ(rig.tag_eyes[4].lens.fx, 733);
+  const Pose identity = rig.tag_eyes[4].T_cam_body * bent.cameras[4].T_body_cam;
+  EXPECT_LT((identity.matrix() - Eigen::Matrix4d::Identity()).norm(), 1e-14);
+}
+
+}  // namespace
+}  // namespace vinebench
