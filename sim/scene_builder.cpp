@@ -3,9 +3,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/asset.h"
+#include "sim/asset_file.h"
 #include "sim/grapevine.h"
 #include "sim/ground.h"
+#include "sim/plant_cache.h"
 #include "sim/props.h"
 #include "sim/world.h"
 #include "slam/base/random.h"
@@ -15,13 +16,16 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0;
 
+/// The world's own meshes, or the plants that are grown for it.
 std::vector<int> add_plants(Scene& scene, const WorldConfig& world, std::uint64_t seed,
-                            const std::filesystem::path&) {
+                            const std::filesystem::path& cache) {
   std::vector<int> models;
-  const std::vector<Texture> textures = plant_textures(seed);
-  for (int i = 0; i < world.vines.templates; ++i) {
-    models.push_back(
-        add_asset(scene, mesh_grapevine(grow_grapevine(world.vines, seed, i), textures)));
+  for (const std::filesystem::path& mesh : world.vines.meshes) {
+    models.push_back(add_asset(scene, load_asset(mesh)));
+  }
+  if (!models.empty()) return models;
+  for (Asset& plant : cached_plants(world.vines, seed, cache)) {
+    models.push_back(add_asset(scene, std::move(plant)));
   }
   return models;
 }

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// tinygltf as Debian builds it: without its own picture decoder.
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#define TINYGLTF_NO_INCLUDE_STB_IMAGE
+#define TINYGLTF_NO_INCLUDE_STB_IMAGE_WRITE
+#include <tiny_gltf.h>
+
+namespace vinebench {
+
+// Levels of detail: a viewer draws the node of the scene, the others are named by this extension.
+inline constexpr const char* kLevelsExtension = "MSFT_lod";
+// What glTF has no words for. Extras of the finest level's node: until what distance each level is
+// drawn, m.
+inline constexpr const char* kUntil = "until";
+// Extras of a material.
+inline constexpr const char* kLabel = "label";
+inline constexpr const char* kTranslucency = "translucency";
+// Attribute of a vertex.
+inline constexpr const char* kOcclusion = "_OCCLUSION";
+
+}  // namespace vinebench

@@ -1,0 +1,286 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "sim/asset_file.h"
+#include "sim/gltf.h"
+#include "sim/gltf_accessor.h"
+#include "slam/base/error.h"
+#include "slam/base/files.h"
+
+namespace vinebench {
+namespace {
+
+using tinygltf::Value;
+
+/// glTF's y up to z up.
+Eigen::Matrix4f z_up() {
+  Eigen::Matrix4f m = Eigen::Matrix4f::Zero();
+  m(0, 0) = m(2, 1) = m(3, 3) = 1;
+  m(1, 2) = -1;
+  return m;
+}
+
+/// Keeps a picture file's bytes as they are; those inside a buffer are found there later.
+bool keep_bytes(tinygltf::Image* image, int, std::string*, std::string*, int, int,
+                const unsigned char* bytes, int size, void*) {
+  if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
+  return true;
+}
+
+tinygltf::Model parse(const std::filesystem::path& file) {
+  const std::string bytes = read_file(file);
+  if (bytes.empty()) fail("{}: expected glTF, found an empty file", file.string());
+  const std::string folder = file.parent_path().string();
+  const auto size = static_cast<unsigned int>(bytes.size());
+  tinygltf::TinyGLTF reader;
+  reader.SetImageLoader(keep_bytes, nullptr);
+  tinygltf::Model model;
+  std::string problem, warning;
+  bool whole = false;
+  try {
+    whole =
+        bytes.starts_with("glTF")
+            ? reader.LoadBinaryFromMemory(&model, &problem, &warning,
+                                          reinterpret_cast<const unsigned char*>(bytes.data()),
+                                          size, folder)
+            : reader.LoadASCIIFromString(&model, &problem, &warning, bytes.data(), size, folder);
+  } catch (const std::exception& exception) {
+    problem = exception.what();
+  }
+  std::ranges::replace(problem, '\n', ' ');
+  if (!whole) fail("{}: expected glTF 2.0: {}", file.string(), problem);
+  for (const std::string& extension : model.extensionsRequired) {
+    fail("{}: needs the glTF extension {}, which is not supported", file.string(), extension);
+  }
+  return model;
+}
+
+class GltfReader {
+ public:
+  explicit GltfReader(const std::filesystem::path& file)
+      : file_(file.string()), model_(parse(file)) {}
+
+  Asset read() {
+    for (const tinygltf::Texture& texture : model_.textures) add(texture);
+    for (const tinygltf::Material& material : model_.materials) add(material);
+    asset_.model.name = std::filesystem::path(file_).stem().string();
+    add_levels();
+    return std::move(asset_);
+  }
+
+ private:
+  void add(const tinygltf::Texture& from) {
+    const tinygltf::Image& image = at(model_.images, from.source, "picture");
+    Texture texture;
+    texture.name = image.name.empty() ? image.uri : image.name;
+    const std::string where = fmt::format("{}: picture \"{}\"", file_, texture.name);
+    if (image.bufferView >= 0) {
+      texture.rgba = decode_picture(gltf_view(model_, image.bufferView, file_), where);
+    } else if (image.image.empty()) {
+      fail("{}: the file {} cannot be read", where, image.uri);
+    } else {
+      const auto* bytes = reinterpret_cast<const char*>(image.image.data());
+      texture.rgba = decode_picture({bytes, image.image.size()}, where);
+    }
+    if (from.sampler >= 0) {
+      const tinygltf::Sampler& sampler = at(model_.samplers, from.sampler, "sampler");
+      texture.repeat = sampler.wrapS != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    }
+    asset_.add(std::move(texture));
+  }
+
+  void add(const tinygltf::Material& from) {
+    const tinygltf::PbrMetallicRoughness& look = from.pbrMetallicRoughness;
+    Material material = make_material(from.name, Label::kLeaf, look.baseColorTexture.index);
+    if (material.texture >= 0) at(model_.textures, material.texture, "texture");
+    for (int i = 0; i < 3 && look.baseColorFactor.size() >= 3; ++i) {
+      material.colour[i] = static_cast<float>(look.baseColorFactor[static_cast<std::size_t>(i)]);
+    }
+    material.cutout = from.alphaMode != "OPAQUE";
+    material.double_sided = from.doubleSided;
+    if (from.extras.Has(kLabel)) {
+      const int label = from.extras.Get(kLabel).GetNumberAsInt();
+      const int last = static_cast<int>(Label::kRover);
+      if (label < 0 || label > last) fail("{}: label {}, expected 0 to {}", file_, label, last);
+      material.label = static_cast<Label>(label);
+    }
+    if (from.extras.Has(kTranslucency)) {
+      material.translucency =
+          static_cast<float>(from.extras.Get(kTranslucency).GetNumberAsDouble());
+    }
+    asset_.add(std::move(material));
+  }
+
+  void add_levels() {
+    std::vector<int> roots = scene_roots();
+    LevelOfDetail finest;
+    for (const int root : roots) add_node(root, z_up(), 0, finest);
+    asset_.model.levels.push_back(std::move(finest));
+    if (roots.size() != 1) return;
+    const tinygltf::Node& node = at(model_.nodes, roots[0], "node");
+    asset_.model.name = node.name.empty() ? asset_.model.name : node.name;
+    const Value until = node.extras.Has(kUntil) ? node.extras.Get(kUntil) : Value();
+    const auto extension = node.extensions.find(kLevelsExtension);
+    if (until.ArrayLen() > 0) asset_.model.levels[0].until = until.Get(0).GetNumberAsDouble();
+    if (extension == node.extensions.end() || !extension->second.Has("ids")) return;
+    const Value& ids = extension->second.Get("ids");
+    // Without our distances, only the finest level can be used.
+    if (until.ArrayLen() != ids.ArrayLen() + 1) return;
+    for (int i = 0; i < static_cast<int>(ids.ArrayLen()); ++i) {
+      LevelOfDetail level{until.Get(i + 1).GetNumberAsDouble(), {}};
+      add_node(ids.Get(i).GetNumberAsInt(), z_up(), 0, level);
+      asset_.model.levels.push_back(std::move(level));
+    }
+  }
+
+  std::vector<int> scene_roots() const {
+    if (!model_.scenes.empty()) {
+      return at(model_.scenes, std::max(0, model_.defaultScene), "scene").nodes;
+    }
+    std::vector<int> roots;
+    for (int i = 0; i < static_cast<int>(model_.nodes.size()); ++i) {
+      const auto is_child = [&](const tinygltf::Node& n) {
+        return std::ranges::find(n.children, i) != n.children.end();
+      };
+      if (std::ranges::none_of(model_.nodes, is_child)) roots.push_back(i);
+    }
+    return roots;
+  }
+
+  void add_node(int index, const Eigen::Matrix4f& T_model_parent, int depth, LevelOfDetail& level) {
+    constexpr int kDeepest = 64, kMost = 100000;
+    if (depth > kDeepest) fail("{}: nodes lie more than {} deep in each other", file_, kDeepest);
+    if (++visited_ > kMost) fail("{}: more than {} nodes", file_, kMost);
+    const tinygltf::Node& node = at(model_.nodes, index, "node");
+    const Eigen::Matrix4f T_model_node = T_model_parent * matrix_of(node);
+    if (node.mesh >= 0) {
+      for (const tinygltf::Primitive& primitive : at(model_.meshes, node.mesh, "mesh").primitives) {
+        level.primitives.push_back(part(primitive, T_model_node));
+      }
+    }
+    for (const int child : node.children) add_node(child, T_model_node, depth + 1, level);
+  }
+
+  static Eigen::Matrix4f matrix_of(const tinygltf::Node& node) {
+    if (node.matrix.size() == 16) {
+      return Eigen::Map<const Eigen::Matrix4d>(node.matrix.data()).cast<float>();
+    }
+    Eigen::Affine3d T = Eigen::Affine3d::Identity();
+    if (node.translation.size() == 3) {
+      T.translate(Eigen::Map<const Eigen::Vector3d>(node.translation.data()));
+    }
+    if (node.rotation.size() == 4) {
+      T.rotate(
+          Eigen::Quaterniond(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2])
+              .normalized());
+    }
+    if (node.scale.size() == 3) T.scale(Eigen::Map<const Eigen::Vector3d>(node.scale.data()));
+    return T.matrix().cast<float>();
+  }
+
+  Primitive part(const tinygltf::Primitive& from, const Eigen::Matrix4f& T_model_node) {
+    if (from.mode != TINYGLTF_MODE_TRIANGLES && from.mode != -1) {
+      fail("{}: a mesh of mode {}, expected triangles ({})", file_, from.mode,
+           TINYGLTF_MODE_TRIANGLES);
+    }
+    Primitive primitive;
+    primitive.material = from.material >= 0 ? from.material : default_material();
+    at(asset_.materials, primitive.material, "material");
+    const bool has_normals = read_vertices(from, primitive);
+    read_indices(from, primitive);
+    if (!has_normals) compute_normals(primitive);
+    transform(primitive, T_model_node);
+    return primitive;
+  }
+
+  /// Whether they have normals.
+  bool read_vertices(const tinygltf::Primitive& from, Primitive& primitive) {
+    const auto attribute = [&](const char* name) {
+      const auto it = from.attributes.find(name);
+      return it == from.attributes.end() ? -1 : it->second;
+    };
+    if (attribute("POSITION") < 0) fail("{}: a mesh has no positions", file_);
+    const GltfNumbers positions(model_, attribute("POSITION"), TINYGLTF_TYPE_VEC3, file_);
+    primitive.vertices.resize(positions.size());
+    const auto read = [&](const char* name, int type, auto set) {
+      if (attribute(name) < 0) return false;
+      const GltfNumbers numbers(model_, attribute(name), type, file_);
+      if (numbers.size() != positions.size()) {
+        fail("{}: {} of {} vertices, expected {}", file_, name, numbers.size(), positions.size());
+      }
+      for (std::size_t i = 0; i < numbers.size(); ++i) set(primitive.vertices[i], numbers, i);
+      return true;
+    };
+    read("POSITION", TINYGLTF_TYPE_VEC3, [](Vertex& v, const GltfNumbers& n, std::size_t i) {
+      v.position = {n.real(i, 0), n.real(i, 1), n.real(i, 2)};
+    });
+    read("TEXCOORD_0", TINYGLTF_TYPE_VEC2, [](Vertex& v, const GltfNumbers& n, std::size_t i) {
+      v.uv = {n.real(i, 0), n.real(i, 1)};
+    });
+    read(kOcclusion, TINYGLTF_TYPE_SCALAR,
+         [](Vertex& v, const GltfNumbers& n, std::size_t i) { v.occlusion = n.real(i, 0); });
+    return read("NORMAL", TINYGLTF_TYPE_VEC3, [](Vertex& v, const GltfNumbers& n, std::size_t i) {
+      v.normal = {n.real(i, 0), n.real(i, 1), n.real(i, 2)};
+    });
+  }
+
+  void read_indices(const tinygltf::Primitive& from, Primitive& primitive) {
+    if (from.indices < 0) {
+      for (std::uint32_t i = 0; i < primitive.vertices.size(); ++i) primitive.indices.push_back(i);
+    } else {
+      const GltfNumbers numbers(model_, from.indices, TINYGLTF_TYPE_SCALAR, file_);
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+        primitive.indices.push_back(numbers.whole(i));
+    }
+    if (primitive.indices.size() % 3 != 0) {
+      fail("{}: {} indices, expected three for each triangle", file_, primitive.indices.size());
+    }
+  }
+
+  /// Exact where the node does not turn or scale: our own files come back to the last bit.
+  void transform(Primitive& primitive, const Eigen::Matrix4f& m) const {
+    const Eigen::Matrix3f turn = m.topLeftCorner<3, 3>();
+    const float volume = turn.determinant();
+    if (!(std::abs(volume) > 0)) fail("{}: a node flattens its mesh", file_);
+    const Eigen::Matrix3f across = std::abs(volume) * turn.inverse().transpose();
+    for (Vertex& vertex : primitive.vertices) {
+      vertex.position = (turn * vertex.position + m.topRightCorner<3, 1>()).eval();
+      vertex.normal = (across * vertex.normal).eval();
+    }
+    if (volume > 0) return;
+    for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+      std::swap(primitive.indices[i + 1], primitive.indices[i + 2]);
+    }
+  }
+
+  int default_material() {
+    if (default_material_ < 0) {
+      default_material_ = asset_.add(make_material("default", Label::kLeaf, -1));
+    }
+    return default_material_;
+  }
+
+  template <class T>
+  const T& at(const std::vector<T>& items, int index, const char* what) const {
+    if (index < 0 || static_cast<std::size_t>(index) >= items.size()) {
+      fail("{}: names {} {} of {}", file_, what, index, items.size());
+    }
+    return items[static_cast<std::size_t>(index)];
+  }
+
+  std::string file_;
+  tinygltf::Model model_;
+  Asset asset_;
+  int default_material_ = -1;
+  int visited_ = 0;
+};
+
+}  // namespace
+
+Asset read_gltf(const std::filesystem::path& file) {
+  return GltfReader(file).read();
+}
+
+}  // namespace vinebench
