@@ -17,7 +17,7 @@ class KeyframeSelectorTest : public testing::Test {
     for (int f = 0; f < 400; ++f) map_.add_landmark({1, 0, 0}, {0, 0, f});
   }
 
-  static std::shared_ptr<const FrameFeatures> frame(std::int64_t index) {
+  static std::shared_ptr<FrameFeatures> frame(std::int64_t index) {
     auto features = std::make_shared<FrameFeatures>();
     features->index = index;
     features->views.resize(1);

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/patch.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+
+#include "tests/slam/synthetic_texture.h"
+
+namespace vinebench {
+namespace {
+
+constexpr int kWidth = 160;
+constexpr int kHeight = 120;
+constexpr double kNoise = 1.5;  // grey levels
+
+Eigen::Matrix3d scaling(double s) {
+  return Eigen::Vector3d(s, s, 1).asDiagonal();
+}
+
+cv::Mat texture_picture() {
+  return render_picture(kWidth, kHeight, SyntheticTexture(3), kNoise, 1);
+}
+
+/// The texture as a homography (its own pixels to the picture's) shows it.
+cv::Mat warped_picture(const Eigen::Matrix3d& H) {
+  const Eigen::Matrix3d back = H.inverse();
+  const SyntheticTexture texture(3);
+  const auto grey = [&](double x, double y) {
+    const Eigen::Vector2d p = (back * Eigen::Vector3d(x, y, 1)).hnormalized();
+    return texture(p.x(), p.y());
+  };
+  return render_picture(kWidth, kHeight, grey, kNoise, 2);
+}
+
+/// Root mean square distance (px) of the fits from where the homography puts the patches, each
+/// begun a pixel off; `found` counts them.
+double fit_error(const Eigen::Matrix3d& H, bool plain, int& found) {
+  const cv::Mat then = texture_picture();
+  const cv::Mat now = warped_picture(H);
+  double sum = 0;
+  found = 0;
+  for (int y = 20; y <= 100; y += 10) {
+    for (int x = 20; x <= 140; x += 10) {
+      const auto patch = cut_patch(then, x, y);
+      const Eigen::Vector2d truth = (H * Eigen::Vector3d(x, y, 1)).hnormalized();
+      Eigen::Matrix3d at = Eigen::Matrix3d::Identity();
+      at.topRightCorner<2, 1>() = Eigen::Vector2d(x, y);
+      const PatchWarp warp =
+          make_warp(plain ? Eigen::Matrix3d::Identity() : Eigen::Matrix3d(H * at));
+      const auto fit = fit_patch(*patch, warp, now, truth.x() + 0.7, truth.y() - 0.7);
+      if (!fit) continue;
+      ++found;
+      sum += (Eigen::Vector2d(fit->x, fit->y) - truth).squaredNorm();
+    }
+  }
+  return std::sqrt(sum / std::max(found, 1));
+}
+
+TEST(PatchTest, IsFoundToAFractionOfAPixel) {
+  Eigen::Matrix3d shift = Eigen::Matrix3d::Identity();
+  shift(0, 2) = 3.3;
+  shift(1, 2) = -2.6;
+  int found = 0;
+  // Noise of 1.5 grey levels over 81 pixels whose gradients are some 10 levels a pixel: 1.5 *
+  // sqrt(2) / (10 * 9) = 0.02 px; bilinear interpolation adds some hundredths.
+  EXPECT_LT(fit_error(shift, false, found), 0.08);
+  EXPECT_GT(found, 80);  // of 117
+}
+
+TEST(PatchTest, FollowsAWarpThatAPlainShiftCannot) {
+  // A surface that tilts: 20 % larger, and larger still towards the bottom.
+  Eigen::Matrix3d H = scaling(1.2);
+  H(2, 1) = -0.002;
+  H(0, 2) = -20;
+  H(1, 2) = -15;
+  int found = 0;
+  const double warped = fit_error(H, false, found);
+  EXPECT_LT(warped, 0.1);
+  EXPECT_GT(found, 50);
+  EXPECT_GT(fit_error(H, true, found), 2 * warped);
+}
+
+TEST(PatchTest, RefusesWhatCannotBePlaced) {
+  const cv::Mat picture = texture_picture();
+  EXPECT_FALSE(cut_patch(picture, 3, 60));
+  EXPECT_FALSE(cut_patch(picture, 80, 118));
+  const PatchWarp plain = make_warp(Eigen::Matrix3d::Identity());
+  const auto patch = cut_patch(picture, 80, 60);
+  EXPECT_FALSE(fit_patch(*patch, plain, picture, 2, 60));
+
+  // A flat surface, and an edge along which a patch slides.
+  const cv::Mat flat(kHeight, kWidth, CV_8UC1, cv::Scalar(90));
+  EXPECT_FALSE(fit_patch(*cut_patch(flat, 80, 60), plain, flat, 80, 60));
+  cv::Mat edge = flat.clone();
+  edge.colRange(80, kWidth).setTo(160);
+  EXPECT_FALSE(fit_patch(*cut_patch(edge, 80, 60), plain, edge, 80, 60));
+}
+
+TEST(PatchTest, TellsAnotherSurfaceByItsDifference) {
+  const cv::Mat picture = texture_picture();
+  const cv::Mat other = render_picture(kWidth, kHeight, SyntheticTexture(4), kNoise, 2);
+  const PatchWarp plain = make_warp(Eigen::Matrix3d::Identity());
+  const auto patch = cut_patch(picture, 80, 60);
+  const auto itself = fit_patch(*patch, plain, picture, 80.5, 60.5);
+  ASSERT_TRUE(itself);
+  EXPECT_LT(itself->difference, 0.1 * itself->contrast);
+  if (const auto wrong = fit_patch(*patch, plain, other, 80, 60)) {
+    EXPECT_GT(wrong->difference, 0.35 * wrong->contrast);
+  }
+}
+
+TEST(PatchTest, BrightnessDoesNotMatter) {
+  const cv::Mat picture = texture_picture();
+  const cv::Mat brighter = picture + 25;
+  const auto patch = cut_patch(picture, 80, 60);
+  const auto fit = fit_patch(*patch, make_warp(Eigen::Matrix3d::Identity()), brighter, 81, 60);
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(fit->x, 80, 0.05);  // px; a few pixels saturate
+  EXPECT_NEAR(fit->y, 60, 0.05);
+}
+
+}  // namespace
+}  // namespace vinebench
