@@ -14,9 +14,11 @@ namespace {
 constexpr int kInner = PatchWarp::kRadius;  // gradients need one pixel around
 constexpr int kPixels = PatchWarp::kSide * PatchWarp::kSide;
 constexpr int kMaxSteps = 8;
-constexpr float kConverged = 0.01F;   // px
-constexpr float kMaxRun = 2.0F;       // px
-constexpr float kMinTexture = 40.0F;  // mean squared gradient along the weaker direction
+constexpr float kConverged = 0.01F;  // px
+constexpr float kMaxRun = 2.0F;      // px
+/// Mean squared gradient along the weaker direction: noise of 2 grey levels over 81 pixels then
+/// leaves 2 sqrt(2) / sqrt(8 * 81) = 0.1 px.
+constexpr float kMinTexture = 8;
 
 /// Bilinear interpolation; the caller keeps the point inside.
 float sample(const cv::Mat& picture, float x, float y) {

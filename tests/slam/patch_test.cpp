@@ -89,8 +89,7 @@ TEST(PatchTest, RefusesWhatCannotBePlaced) {
   EXPECT_FALSE(cut_patch(picture, 3, 60));
   EXPECT_FALSE(cut_patch(picture, 80, 118));
   const PatchWarp plain = make_warp(Eigen::Matrix3d::Identity());
-  const auto patch = cut_patch(picture, 80, 60);
-  EXPECT_FALSE(fit_patch(*patch, plain, picture, 2, 60));
+  EXPECT_FALSE(fit_patch(*cut_patch(picture, 80, 60), plain, picture, 2, 60));
 
   // A flat surface, and an edge along which a patch slides.
   const cv::Mat flat(kHeight, kWidth, CV_8UC1, cv::Scalar(90));
