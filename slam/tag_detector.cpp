@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "slam/base/error.h"
+#include "slam/tag_corners.h"
 #include "slam/tag_pose.h"
 
 namespace vinebench {
@@ -58,6 +59,15 @@ using DetectionsPtr = std::unique_ptr<zarray_t, void (*)(zarray_t*)>;
 /// AprilTag takes the centre of the top left pixel for (0.5, 0.5), we for (0, 0).
 constexpr double kPixelCentre = 0.5;
 
+/// Least width of a module of the tag's border, px.
+double module_width(const std::array<Eigen::Vector2d, 4>& corners, int modules) {
+  double shortest = (corners[3] - corners[0]).norm();
+  for (std::size_t i = 0; i < 3; ++i) {
+    shortest = std::min(shortest, (corners[i + 1] - corners[i]).norm());
+  }
+  return shortest / modules;
+}
+
 }  // namespace
 
 struct TagDetector::Impl {
@@ -83,8 +93,8 @@ struct TagDetector::Impl {
     return found == sizes.end() ? config.size : found->second;
   }
 
-  TagSighting sighting(const apriltag_detection_t& found, const PinholeCamera& model,
-                       int camera) const {
+  TagSighting sighting(const apriltag_detection_t& found, const cv::Mat& grey,
+                       const PinholeCamera& model, int camera) const {
     TagSighting result;
     result.camera = camera;
     result.family = found.family->name;
@@ -92,6 +102,8 @@ struct TagDetector::Impl {
     for (std::size_t i = 0; i < 4; ++i) {
       result.corners[i] = {found.p[i][0] - kPixelCentre, found.p[i][1] - kPixelCentre};
     }
+    refine_tag_corners(grey, model, module_width(result.corners, found.family->width_at_border),
+                       result.corners);
     result.T_cam_tag = estimate_tag_pose(result.corners, model, size_of(result.family, result.id));
     return result;
   }
@@ -121,7 +133,7 @@ std::vector<TagSighting> TagDetector::detect(const cv::Mat& grey, const PinholeC
     const bool believed =
         static_cast<double>(detection->decision_margin) >= impl_->config.min_margin &&
         detection->hamming <= impl_->config.max_hamming;
-    if (believed) sightings.push_back(impl_->sighting(*detection, model, camera));
+    if (believed) sightings.push_back(impl_->sighting(*detection, grey, model, camera));
   }
   std::sort(sightings.begin(), sightings.end(), [](const TagSighting& a, const TagSighting& b) {
     return std::tuple(a.family, a.id, a.corners[0].x(), a.corners[0].y()) <

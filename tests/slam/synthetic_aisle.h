@@ -42,7 +42,7 @@ class SyntheticAisle {
 
   /// Pairs listed in `blind` see nothing.
   std::shared_ptr<FrameFeatures> frame(std::int64_t index, const Pose& T_world_body,
-                                             const std::vector<std::size_t>& blind = {}) const {
+                                       const std::vector<std::size_t>& blind = {}) const {
     auto features = std::make_shared<FrameFeatures>();
     features->index = index;
     features->stamp = stamp_of_frame(index, 15);
@@ -59,7 +59,7 @@ class SyntheticAisle {
 
   /// The same with a tag in the side camera's view.
   std::shared_ptr<FrameFeatures> frame_with_tag(std::int64_t index, const Pose& T_world_body,
-                                                      const Pose& T_world_tag) const {
+                                                const Pose& T_world_tag) const {
     auto features = std::make_shared<FrameFeatures>(*frame(index, T_world_body));
     const int camera = rig.tag_cameras.front();
     const RigCamera& side = rig.cameras[static_cast<std::size_t>(camera)];

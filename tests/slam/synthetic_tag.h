@@ -53,7 +53,7 @@ class SyntheticTag {
   }
 
   void draw(cv::Mat& picture, const PinholeCamera& camera, const Pose& T_cam_tag) const {
-    constexpr int kSamples = 6;
+    constexpr int kSamples = 12;  // edges fall on twelfths of a pixel
     const Pose T_tag_cam = T_cam_tag.inverse();
     // Only pixels near the tag: within the print's circumscribed circle.
     const Eigen::Vector2d middle = camera.project(T_cam_tag.translation);

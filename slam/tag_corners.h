@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <opencv2/core/mat.hpp>
+
+#include "slam/base/camera.h"
+
+namespace vinebench {
+
+/// Places the corners of a tag's black square anew, to a few hundredths of a pixel: the edge is
+/// found along each side where the grey level rises from black to white, lines are fitted to the
+/// four sides (in the undistorted picture) and intersected. AprilTag itself looks for edges in
+/// steps of a quarter of a pixel. `grey` is CV_8UC1, corners are px in AprilTag's order; `module`
+/// is the least width of the tag's modules, px. Corners stay as they are where a side is not found.
+void refine_tag_corners(const cv::Mat& grey, const PinholeCamera& model, double module,
+                        std::array<Eigen::Vector2d, 4>& corners);
+
+}  // namespace vinebench
