@@ -97,7 +97,7 @@ struct LoopConfig {
   bool enabled = true;
   double away_seconds = 3;     ///< a tag unseen for this long was left
   double away_distance = 1.0;  ///< m, the way driven meanwhile
-  double corner_sigma = 0.3;   ///< px, standard deviation of a tag's corner
+  double corner_sigma = 0.15;  ///< px, standard deviation of a tag's corner
 
   template <class Archive>
   void serialize(Archive& archive) {

@@ -59,6 +59,9 @@ using DetectionsPtr = std::unique_ptr<zarray_t, void (*)(zarray_t*)>;
 /// AprilTag takes the centre of the top left pixel for (0.5, 0.5), we for (0, 0).
 constexpr double kPixelCentre = 0.5;
 
+/// A corner nearer than this to the picture's edge is guessed, not seen.
+constexpr double kBorder = 5;  // px
+
 /// Least width of a module of the tag's border, px.
 double module_width(const std::array<Eigen::Vector2d, 4>& corners, int modules) {
   double shortest = (corners[3] - corners[0]).norm();
@@ -133,7 +136,12 @@ std::vector<TagSighting> TagDetector::detect(const cv::Mat& grey, const PinholeC
     const bool believed =
         static_cast<double>(detection->decision_margin) >= impl_->config.min_margin &&
         detection->hamming <= impl_->config.max_hamming;
-    if (believed) sightings.push_back(impl_->sighting(*detection, grey, model, camera));
+    if (!believed) continue;
+    TagSighting sighting = impl_->sighting(*detection, grey, model, camera);
+    const bool whole = std::ranges::all_of(sighting.corners, [&](const Eigen::Vector2d& corner) {
+      return model.contains(corner, kBorder);
+    });
+    if (whole) sightings.push_back(std::move(sighting));
   }
   std::sort(sightings.begin(), sightings.end(), [](const TagSighting& a, const TagSighting& b) {
     return std::tuple(a.family, a.id, a.corners[0].x(), a.corners[0].y()) <

@@ -39,7 +39,8 @@ class TagDetector {
   TagDetector& operator=(TagDetector&&) noexcept;
   ~TagDetector();
 
-  /// `grey` is CV_8UC1. Sightings in ascending order of (family, id); camera is copied into each.
+  /// `grey` is CV_8UC1. Tags cut by the picture's edge are left out. Sightings in ascending order
+  /// of (family, id); camera is copied into each.
   std::vector<TagSighting> detect(const cv::Mat& grey, const PinholeCamera& model, int camera);
 
  private:
