@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/gl_context.h"
 
-#include <cstdlib>
 #include <mutex>
-#include <string>
 
 #include "sim/gl.h"
 #include "slam/base/error.h"
@@ -29,30 +27,23 @@ GlFunctions load_functions(const GlContext& context) {
   return loaded;
 }
 
-/// One platform a process: read once, so that a later change of the environment mixes nothing.
-const std::string& platform() {
-  static const std::string name = [] {
-    const char* value = std::getenv("VINEBENCH_GL");
-    return std::string(value == nullptr ? "osmesa" : value);
-  }();
-  return name;
-}
-
 }  // namespace
 
 std::unique_ptr<GlContext> make_gl_context() {
   static std::once_flag loaded;
-  std::unique_ptr<GlContext> context;
-  if (platform() == "osmesa") {
-    context = make_osmesa_context();
-  } else if (platform() == "egl") {
-    context = make_egl_context();
-  } else {
-    fail("VINEBENCH_GL={}: expected osmesa or egl", platform());
-  }
+  std::unique_ptr<GlContext> context = make_osmesa_context();
   const CurrentContext current(*context);
   std::call_once(loaded, [&] { gl = load_functions(*context); });
   return context;
+}
+
+std::string gl_version() {
+  const std::unique_ptr<GlContext> context = make_osmesa_context();
+  const CurrentContext current(*context);
+  PFNGLGETSTRINGPROC get_string = nullptr;
+  load(*context, "glGetString", get_string);
+  const GLubyte* text = get_string(GL_VERSION);
+  return text == nullptr ? "unknown" : reinterpret_cast<const char*>(text);
 }
 
 }  // namespace vinebench

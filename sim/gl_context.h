@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 namespace vinebench {
 
@@ -21,12 +22,11 @@ class GlContext {
 /// Makes a software context through OSMesa. Throws Error when there is none to be had.
 std::unique_ptr<GlContext> make_osmesa_context();
 
-/// The same through EGL's surfaceless platform, for systems whose Mesa has no OSMesa any more.
-std::unique_ptr<GlContext> make_egl_context();
-
-/// A context of the platform that the environment variable VINEBENCH_GL names, "osmesa" (the
-/// default) or "egl", with the entry points of sim/gl.h loaded.
+/// A context with the entry points of sim/gl.h loaded. The one place that chooses a platform.
 std::unique_ptr<GlContext> make_gl_context();
+
+/// What OpenGL says of itself: "4.5 (Core Profile) Mesa 22.3.6".
+std::string gl_version();
 
 /// Makes a context current for a scope.
 class CurrentContext {

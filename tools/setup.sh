@@ -10,13 +10,13 @@ packages=(
   # tools
   g++ cmake ninja-build git pkg-config ccache clang-format
   # simulation (qhull: Debian's MuJoCo package names its headers)
-  libmujoco-dev libqhull-dev libosmesa6-dev libegl-dev libepoxy-dev libassimp-dev libtinygltf-dev
+  libmujoco-dev libqhull-dev libosmesa6-dev libgl-dev libassimp-dev libtinygltf-dev
   # vision and optimisation
   libopencv-dev libeigen3-dev libceres-dev libapriltag-dev
   # files, text, command line
-  libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libspdlog-dev libxxhash-dev
+  libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libxxhash-dev
   # tests
-  libgtest-dev libgmock-dev libbenchmark-dev
+  libgtest-dev libgmock-dev
 )
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

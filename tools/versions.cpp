@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 #include <opencv2/core/utility.hpp>
 
+#include "sim/gl_context.h"
 #include "vinebench/version.h"
 
 namespace vinebench {
@@ -26,7 +27,7 @@ std::string versions_text() {
       fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));
   add("Ceres", CERES_VERSION_STRING);
   add("AprilTag", VINEBENCH_APRILTAG_VERSION);
-  add("OSMesa", VINEBENCH_OSMESA_VERSION);
+  add("OpenGL", gl_version());
   add("CLI11", CLI11_VERSION);
   add("fmt",
       fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100));

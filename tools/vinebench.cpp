@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
+#include <limits>
 #include <thread>
 
 #include "scenarios/scenarios.h"
@@ -131,7 +132,7 @@ void add_run(CLI::App& app, RunArguments& arguments) {
   CLI::App* run = app.add_subcommand("run", "Run a scenario and judge it");
   run->add_option("SCENARIO", arguments.scenario, "Scenario file (YAML)")->required();
   run->add_option("--seed", arguments.seed, "Seed in place of the scenario's")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
   run->add_option("--out", arguments.out,
                   "Folder for the results (default: out/<scenario's name>)");
   run->add_option(
