@@ -52,8 +52,7 @@ std::vector<Asset> cached_plants(const WorldConfig::Vines& vines, std::uint64_t 
     std::optional<Asset> plant = cached_plant(file);
     if (!plant) {
       if (textures.empty()) textures = plant_textures(seed);
-      write_file_atomically(file,
-                            to_glb(mesh_grapevine(grow_grapevine(vines, seed, i), textures)));
+      write_file_atomically(file, to_glb(mesh_grapevine(grow_grapevine(vines, seed, i), textures)));
       plant = load_asset(file);  // the first run sees what all later ones will
     }
     plants.push_back(*std::move(plant));
