@@ -78,11 +78,14 @@ Primitive ground_mesh(const WorldConfig& world, std::uint64_t seed) {
   return primitive;
 }
 
-/// Angle to a point of a wall round the origin.
+/// A point of a wall round the origin.
 Vector3f on_circle(double radius, int i, int n, double z) {
   const double turn = 2 * std::numbers::pi * (i % n) / n;
   return Eigen::Vector3d(radius * std::cos(turn), radius * std::sin(turn), z).cast<float>();
 }
+
+/// The picture of a wall repeats along it; from its very edges the other side would shine through.
+constexpr float kInset = 0.06f;
 
 /// A wall that faces the origin; `height(i)` of its top above `foot`.
 template <class Height>
@@ -92,8 +95,8 @@ Primitive ring_wall(double radius, double foot, int n, float u_repeat, const Hei
   for (int i = 0; i <= n; ++i) {
     const Vector3f inward = -on_circle(1, i, n, 0);
     const float u = u_repeat * static_cast<float>(i) / n;
-    builder.vertex(on_circle(radius, i, n, foot), inward, {u, 1}, 0.5f);
-    builder.vertex(on_circle(radius, i, n, foot + height(i % n)), inward, {u, 0});
+    builder.vertex(on_circle(radius, i, n, foot), inward, {u, 1 - kInset}, 0.5f);
+    builder.vertex(on_circle(radius, i, n, foot + height(i % n)), inward, {u, kInset});
   }
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(n); ++i) {
     builder.quad(2 * i, 2 * i + 1, 2 * i + 3, 2 * i + 2);
