@@ -21,5 +21,6 @@ using Command = std::function<int()>;
 void add_run_command(CLI::App& app, Command& chosen);
 void add_eval_command(CLI::App& app, Command& chosen);
 void add_render_command(CLI::App& app, Command& chosen);
+void add_bench_command(CLI::App& app, Command& chosen);
 
 }  // namespace vinebench
