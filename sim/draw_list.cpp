@@ -10,24 +10,23 @@ namespace vinebench {
 namespace {
 
 struct Visible {
-  int shell = 0;  // things in nearer shells are drawn first
+  int shell = 0;
   int model = 0;
   int level = 0;
   int order = 0;
-  double distance = 0;
-  InstanceMatrix cam_from_model;
+  InstanceRow row;
 
   auto batch_key() const { return std::tie(shell, model, level, order); }
 };
 
 /// Shells grow with the distance: few batches far away, a good order nearby.
 int shell_of(double distance) {
-  return static_cast<int>(std::floor(8 * std::log2(1 + distance)));
+  return static_cast<int>(std::floor(6 * std::log2(1 + distance)));
 }
 
-int level_of(const GpuModel& model, double distance, double lod_scale) {
+int level_of(const GpuModel& model, double distance) {
   for (std::size_t i = 0; i < model.levels.size(); ++i) {
-    if (distance < model.levels[i].until * lod_scale) return static_cast<int>(i);
+    if (distance < model.levels[i].until) return static_cast<int>(i);
   }
   return -1;
 }
@@ -38,19 +37,29 @@ DrawList make_draw_list(const GpuScene& scene, const PinholeCamera& camera, cons
                         double lod_scale) {
   const Frustum frustum(camera);
   const Eigen::Matrix4d cam_from_world = T_world_cam.inverse().matrix();
+  const double nearer = kLevelFocalLength / (lod_scale * std::max(camera.fx, camera.fy));
   std::vector<Visible> visible;
-  for (const Instance& instance : scene.instances) {
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const GpuInstance& instance = scene.instances[i];
     const GpuModel& model = scene.models[static_cast<std::size_t>(instance.model)];
-    const Eigen::Matrix4d cam_from_model = cam_from_world * world_from_model(instance);
-    if (model.bounds.isEmpty() || !frustum.may_see(model.bounds, cam_from_model)) continue;
+    const Eigen::Vector3d centre = (cam_from_world * instance.centre.homogeneous()).head<3>();
+    if (model.bounds.isEmpty() || !frustum.may_see(centre, instance.radius)) continue;
+    const double at_least = std::max(0.0, centre.norm() - instance.radius);
+    if (level_of(model, at_least * nearer) < 0) continue;
+    const Eigen::Matrix4d cam_from_model = cam_from_world * instance.world_from_model;
+    if (!frustum.may_see(model.bounds, cam_from_model)) continue;
     const Eigen::Vector3d eye =
-        instance.T_world_model.inverse() * T_world_cam.translation / instance.scale;
+        (instance.model_from_world * T_world_cam.translation.homogeneous()).head<3>();
     const Eigen::AlignedBox3d bounds = model.bounds.cast<double>();
     const double distance = bounds.exteriorDistance(eye) * instance.scale;
-    const int level = level_of(model, distance, lod_scale);
+    const int level = level_of(model, distance * nearer);
     if (level < 0) continue;
-    visible.push_back({shell_of(distance), instance.model, level, draw_order(eye - bounds.center()),
-                       distance, cam_from_model.topRows<3>().cast<float>()});
+    Visible& v = visible.emplace_back();
+    v.shell = shell_of(distance);
+    v.model = instance.model;
+    v.level = level;
+    v.order = draw_order(eye - bounds.center());
+    v.row = {cam_from_model.topRows<3>().cast<float>(), static_cast<std::uint32_t>(i + 1)};
   }
   std::stable_sort(visible.begin(), visible.end(), [](const Visible& a, const Visible& b) {
     return a.batch_key() < b.batch_key();
@@ -59,10 +68,10 @@ DrawList make_draw_list(const GpuScene& scene, const PinholeCamera& camera, cons
   for (std::size_t i = 0; i < visible.size(); ++i) {
     const Visible& v = visible[i];
     if (i == 0 || v.batch_key() != visible[i - 1].batch_key()) {
-      list.batches.push_back({v.model, v.level, v.order, i, 0});
+      list.batches.push_back({v.shell, v.model, v.level, v.order, i, 0});
     }
     ++list.batches.back().count;
-    list.cam_from_model.push_back(v.cam_from_model);
+    list.rows.push_back(v.row);
   }
   return list;
 }

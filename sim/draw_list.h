@@ -2,16 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "sim/frustum.h"
 #include "sim/gpu_scene.h"
+#include "slam/base/pose.h"
 
 namespace vinebench {
 
 /// Instances of one model at one level of detail that are drawn by one call a primitive.
 struct DrawBatch {
+  int shell = 0;  ///< of distance, the nearest first
   int model = 0;
   int level = 0;
   int order = 0;  ///< draw order of the triangles
@@ -22,11 +23,11 @@ struct DrawBatch {
 /// What one view draws, the nearest first.
 struct DrawList {
   std::vector<DrawBatch> batches;
-  std::vector<InstanceMatrix> cam_from_model;  ///< of the batches' instances
+  std::vector<InstanceRow> rows;  ///< of the batches' instances, the model to the camera
 };
 
 /// Culls the instances against the view, chooses each one's level of detail by the distance of its
-/// nearest point, and batches what is about as far away.
+/// nearest point and the camera's focal length, and batches what is about as far away.
 DrawList make_draw_list(const GpuScene& scene, const PinholeCamera& camera, const Pose& T_world_cam,
                         double lod_scale);
 

@@ -37,4 +37,12 @@ bool Frustum::may_see(const Eigen::AlignedBox3f& box, const Eigen::Matrix4d& cam
   return true;
 }
 
+bool Frustum::may_see(const Eigen::Vector3d& centre, double radius) const {
+  for (const Eigen::Vector4d& plane : planes_) {
+    const double distance = plane.head<3>().dot(centre) + plane.w();
+    if (distance < -radius * plane.head<3>().norm()) return false;
+  }
+  return true;
+}
+
 }  // namespace vinebench

@@ -26,6 +26,8 @@ class Frustum {
 
   /// Whether some of the box, placed by `cam_from_model`, may be in view. Never wrongly false.
   bool may_see(const Eigen::AlignedBox3f& box, const Eigen::Matrix4d& cam_from_model) const;
+  /// The same of a ball in the camera's frame; m.
+  bool may_see(const Eigen::Vector3d& centre, double radius) const;
 
  private:
   std::array<Eigen::Vector4d, 6> planes_;  // inside where the dot product is positive

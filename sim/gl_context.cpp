@@ -2,21 +2,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/gl_context.h"
 
-#include <mutex>
+#include <cstdlib>
+#include <map>
+#include <string_view>
 
 #include "sim/gl.h"
 #include "slam/base/error.h"
 
 namespace vinebench {
 
-GlFunctions gl;
+thread_local GlFunctions gl;
 
 namespace {
 
 template <class Pointer>
 void load(const GlContext& context, const char* name, Pointer& pointer) {
   pointer = reinterpret_cast<Pointer>(context.function(name));
-  if (pointer == nullptr) fail("renderer: this OpenGL has no {}, expected version 3.3", name);
+  if (pointer == nullptr) fail("renderer: this OpenGL has no {}, expected version 4.2", name);
 }
 
 GlFunctions load_functions(const GlContext& context) {
@@ -27,18 +29,42 @@ GlFunctions load_functions(const GlContext& context) {
   return loaded;
 }
 
+GlBackend chosen(GlBackend backend) {
+  const char* wanted = std::getenv("VINEBENCH_GL");
+  if (backend != GlBackend::kAuto || wanted == nullptr || *wanted == '\0') return backend;
+  if (std::string_view(wanted) == "osmesa") return GlBackend::kOsmesa;
+  if (std::string_view(wanted) == "egl") return GlBackend::kEgl;
+  fail("VINEBENCH_GL={}: expected osmesa or egl", wanted);
+}
+
 }  // namespace
 
-std::unique_ptr<GlContext> make_gl_context() {
-  static std::once_flag loaded;
-  std::unique_ptr<GlContext> context = make_osmesa_context();
-  const CurrentContext current(*context);
-  std::call_once(loaded, [&] { gl = load_functions(*context); });
-  return context;
+CurrentContext::CurrentContext(GlContext& context) : context_(context) {
+  context_.make_current();
+  gl = context_.functions();
+}
+
+const GlFunctions& GlContext::functions() {
+  if (!functions_) functions_ = std::make_unique<GlFunctions>(load_functions(*this));
+  return *functions_;
+}
+
+GlContext::GlContext() = default;
+GlContext::~GlContext() = default;
+
+std::unique_ptr<GlContext> make_gl_context(GlBackend backend) {
+  switch (chosen(backend)) {
+    case GlBackend::kOsmesa:
+      return make_osmesa_context();
+    case GlBackend::kEgl:
+      return make_egl_context();
+    default:
+      return has_osmesa() ? make_osmesa_context() : make_egl_context();
+  }
 }
 
 std::string gl_version() {
-  const std::unique_ptr<GlContext> context = make_osmesa_context();
+  const std::unique_ptr<GlContext> context = make_gl_context();
   const CurrentContext current(*context);
   PFNGLGETSTRINGPROC get_string = nullptr;
   load(*context, "glGetString", get_string);

@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
+#include "sim/gl_context.h"
+#include "slam/base/error.h"
+
+#ifdef VINEBENCH_HAS_OSMESA
+
 #include <GL/osmesa.h>
 
 #include <array>
 #include <cstdint>
 #include <mutex>
-
-#include "sim/gl_context.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {
@@ -32,20 +34,18 @@ class OsmesaContext : public GlContext {
                               OSMESA_PROFILE,
                               OSMESA_CORE_PROFILE,
                               OSMESA_CONTEXT_MAJOR_VERSION,
-                              3,
+                              4,
                               OSMESA_CONTEXT_MINOR_VERSION,
-                              3,
+                              2,
                               0};
     const std::scoped_lock lock(osmesa_mutex());
     context_ = OSMesaCreateContextAttribs(attributes, nullptr);
-    if (context_ == nullptr) fail("renderer: OSMesa gives no OpenGL 3.3 core context");
+    if (context_ == nullptr) fail("renderer: OSMesa gives no OpenGL 4.2 core context");
   }
   ~OsmesaContext() override {
     const std::scoped_lock lock(osmesa_mutex());
     OSMesaDestroyContext(context_);
   }
-  OsmesaContext(const OsmesaContext&) = delete;
-  OsmesaContext& operator=(const OsmesaContext&) = delete;
 
   void make_current() override {
     const std::scoped_lock lock(osmesa_mutex());
@@ -67,8 +67,28 @@ class OsmesaContext : public GlContext {
 
 }  // namespace
 
+bool has_osmesa() {
+  return true;
+}
+
 std::unique_ptr<GlContext> make_osmesa_context() {
   return std::make_unique<OsmesaContext>();
 }
 
 }  // namespace vinebench
+
+#else
+
+namespace vinebench {
+
+bool has_osmesa() {
+  return false;
+}
+
+std::unique_ptr<GlContext> make_osmesa_context() {
+  fail("renderer: this build has no OSMesa; install libosmesa6-dev and build again");
+}
+
+}  // namespace vinebench
+
+#endif

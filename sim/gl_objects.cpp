@@ -122,6 +122,19 @@ void vertex_attribute(GLuint index, int components, std::size_t stride, std::siz
   gl.VertexAttribDivisor(index, static_cast<GLuint>(divisor));
 }
 
+void byte_attribute(GLuint index, std::size_t stride, std::size_t offset) {
+  gl.EnableVertexAttribArray(index);
+  gl.VertexAttribPointer(index, 1, GL_UNSIGNED_BYTE, GL_FALSE, static_cast<GLsizei>(stride),
+                         reinterpret_cast<const void*>(offset));
+}
+
+void integer_attribute(GLuint index, std::size_t stride, std::size_t offset, int divisor) {
+  gl.EnableVertexAttribArray(index);
+  gl.VertexAttribIPointer(index, 1, GL_UNSIGNED_INT, static_cast<GLsizei>(stride),
+                          reinterpret_cast<const void*>(offset));
+  gl.VertexAttribDivisor(index, static_cast<GLuint>(divisor));
+}
+
 GlProgram::GlProgram(const std::string& name, const std::string& vertex,
                      const std::string& fragment)
     : program_(gl.CreateProgram()) {
@@ -142,22 +155,27 @@ GLint GlProgram::uniform(const char* name) const {
   return gl.GetUniformLocation(program_.get(), name);
 }
 
-GlTarget::GlTarget(int width, int height)
-    : width_(width),
-      height_(height),
-      colour_(generate(gl.GenRenderbuffers)),
-      depth_(generate(gl.GenRenderbuffers)),
-      framebuffer_(generate(gl.GenFramebuffers)) {
-  gl.BindRenderbuffer(GL_RENDERBUFFER, colour_.get());
-  gl.RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
-  gl.BindRenderbuffer(GL_RENDERBUFFER, depth_.get());
-  gl.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width, height);
+GlTarget::GlTarget(int width, int height, bool truth) : width_(width), height_(height) {
+  std::vector<GLenum> formats{GL_RGBA8};
+  if (truth) formats.insert(formats.end(), {GL_RGBA8, GL_RGBA32F, GL_RGBA32F});
+  framebuffer_ = GlFramebuffer(generate(gl.GenFramebuffers));
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
-  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.get());
-  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.get());
+  for (const GLenum format : formats) {
+    const auto index = static_cast<GLenum>(colours_.size());
+    attach(GL_COLOR_ATTACHMENT0 + index, format,
+           colours_.emplace_back(generate(gl.GenRenderbuffers)));
+  }
+  depth_ = GlRenderbuffer(generate(gl.GenRenderbuffers));
+  attach(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F, depth_);
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     fail("renderer: OpenGL gives no picture of {} x {} pixels", width, height);
   }
+}
+
+void GlTarget::attach(GLenum place, GLenum format, const GlRenderbuffer& buffer) const {
+  gl.BindRenderbuffer(GL_RENDERBUFFER, buffer.get());
+  gl.RenderbufferStorage(GL_RENDERBUFFER, format, width_, height_);
+  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer.get());
 }
 
 void GlTarget::bind() const {

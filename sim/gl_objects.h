@@ -64,6 +64,12 @@ GlTexture make_depth_texture(int size);
 void vertex_attribute(GLuint index, int components, std::size_t stride, std::size_t offset,
                       int divisor = 0);
 
+/// Enables attribute `index` of one byte, read as a float of 0 to 255.
+void byte_attribute(GLuint index, std::size_t stride, std::size_t offset);
+
+/// Enables attribute `index` of one unsigned 32-bit integer.
+void integer_attribute(GLuint index, std::size_t stride, std::size_t offset, int divisor);
+
 /// Vertex and fragment shader, linked. Throws Error with the compiler's log.
 class GlProgram {
  public:
@@ -76,18 +82,21 @@ class GlProgram {
   GlName<destroy_program> program_;
 };
 
-/// Where pictures are drawn: RGBA8 colour and 24-bit depth.
+/// Where pictures are drawn: RGBA8 colour and 32-bit depth; for the truth also RGBA8 for who is
+/// seen and two RGBA32F for normals and motion.
 class GlTarget {
  public:
-  GlTarget(int width, int height);
+  GlTarget(int width, int height, bool truth);
   void bind() const;
   int width() const { return width_; }
   int height() const { return height_; }
 
  private:
+  void attach(GLenum place, GLenum format, const GlRenderbuffer& buffer) const;
+
   int width_;
   int height_;
-  GlRenderbuffer colour_;
+  std::vector<GlRenderbuffer> colours_;
   GlRenderbuffer depth_;
   GlFramebuffer framebuffer_;
 };

@@ -50,20 +50,23 @@ void check_scene(const Scene& scene) {
   }
 }
 
-GpuPrimitive upload(const Primitive& primitive) {
-  GpuPrimitive gpu;
-  gpu.material = primitive.material;
-  gpu.count = static_cast<GLsizei>(primitive.indices.size());
-  gpu.array = make_vertex_array();
-  gpu.vertices = make_buffer(GL_ARRAY_BUFFER, primitive.vertices);
-  vertex_attribute(0, 3, sizeof(Vertex), offsetof(Vertex, position));
-  vertex_attribute(1, 3, sizeof(Vertex), offsetof(Vertex, normal));
-  vertex_attribute(2, 2, sizeof(Vertex), offsetof(Vertex, uv));
-  vertex_attribute(3, 1, sizeof(Vertex), offsetof(Vertex, occlusion));
-  gpu.indices = make_buffer(GL_ELEMENT_ARRAY_BUFFER, sorted_indices(primitive));
-  gl.BindVertexArray(0);
-  return gpu;
-}
+/// The vertices and indices of all primitives, one after the other.
+struct Geometry {
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;
+
+  GpuPrimitive add(const Primitive& primitive) {
+    GpuPrimitive gpu;
+    gpu.material = primitive.material;
+    gpu.first_vertex = static_cast<GLint>(vertices.size());
+    gpu.first_index = indices.size();
+    gpu.count = static_cast<GLsizei>(primitive.indices.size());
+    const std::vector<std::uint32_t> sorted = sorted_indices(primitive);
+    vertices.insert(vertices.end(), primitive.vertices.begin(), primitive.vertices.end());
+    indices.insert(indices.end(), sorted.begin(), sorted.end());
+    return gpu;
+  }
+};
 
 bool casts_shadow(const Model& model, const std::vector<Material>& materials) {
   for (const LevelOfDetail& level : model.levels) {
@@ -75,7 +78,7 @@ bool casts_shadow(const Model& model, const std::vector<Material>& materials) {
   return false;
 }
 
-GpuModel upload(const Model& model, const std::vector<Material>& materials) {
+GpuModel add_model(Geometry& geometry, const Model& model, const std::vector<Material>& materials) {
   GpuModel gpu;
   gpu.casts_shadow = casts_shadow(model, materials);
   for (const LevelOfDetail& level : model.levels) {
@@ -84,9 +87,24 @@ GpuModel upload(const Model& model, const std::vector<Material>& materials) {
     for (const Primitive& primitive : level.primitives) {
       if (primitive.indices.empty()) continue;
       for (const Vertex& vertex : primitive.vertices) gpu.bounds.extend(vertex.position);
-      to.primitives.push_back(upload(primitive));
+      to.primitives.push_back(geometry.add(primitive));
     }
   }
+  return gpu;
+}
+
+GpuInstance place(const Instance& instance, const GpuModel& model) {
+  GpuInstance gpu;
+  gpu.model = instance.model;
+  gpu.scale = static_cast<double>(instance.scale);
+  gpu.world_from_model = instance.T_world_model.matrix();
+  gpu.world_from_model.topLeftCorner<3, 3>() *= gpu.scale;
+  gpu.model_from_world = instance.T_world_model.inverse().matrix();
+  gpu.model_from_world.topRows<3>() /= gpu.scale;
+  if (model.bounds.isEmpty()) return gpu;
+  const Eigen::Vector3d centre = model.bounds.center().cast<double>();
+  gpu.centre = (gpu.world_from_model * centre.homogeneous()).head<3>();
+  gpu.radius = 0.5 * gpu.scale * model.bounds.sizes().cast<double>().norm();
   return gpu;
 }
 
@@ -170,31 +188,55 @@ std::vector<std::uint32_t> sorted_indices(const Primitive& primitive) {
 }
 
 GpuScene::GpuScene(const Scene& scene)
-    : materials(scene.materials), instances(scene.instances), light(scene.light) {
+    : materials(scene.materials), light(scene.light), wind(scene.wind) {
   check_scene(scene);
   for (std::size_t i = 0; i < scene.textures.size(); ++i) {
     const Texture& texture = scene.textures[i];
     const bool cutout = is_cutout(scene, static_cast<int>(i));
     textures.push_back(make_texture(mip_levels(texture.rgba, cutout), texture.repeat));
   }
-  for (const Model& model : scene.models) models.push_back(upload(model, scene.materials));
+  Geometry geometry;
+  for (const Model& model : scene.models) {
+    models.push_back(add_model(geometry, model, scene.materials));
+  }
+  for (const Instance& instance : scene.instances) {
+    instances.push_back(place(instance, models[static_cast<std::size_t>(instance.model)]));
+  }
+  array_ = make_vertex_array();
+  vertices_ = make_buffer(GL_ARRAY_BUFFER, geometry.vertices);
+  vertex_attribute(0, 3, sizeof(Vertex), offsetof(Vertex, position));
+  vertex_attribute(1, 3, sizeof(Vertex), offsetof(Vertex, normal));
+  vertex_attribute(2, 2, sizeof(Vertex), offsetof(Vertex, uv));
+  vertex_attribute(3, 1, sizeof(Vertex), offsetof(Vertex, occlusion));
+  byte_attribute(8, sizeof(Vertex), offsetof(Vertex, part));
+  indices_ = make_buffer(GL_ELEMENT_ARRAY_BUFFER, geometry.indices);
+  rows_ = make_buffer(GL_ARRAY_BUFFER, nullptr, 0);
+  for (GLuint row = 0; row < 3; ++row) {
+    vertex_attribute(4 + row, 4, sizeof(InstanceRow), row * 4 * sizeof(float), 1);
+  }
+  integer_attribute(7, sizeof(InstanceRow), offsetof(InstanceRow, number), 1);
+  gl.BindVertexArray(0);
   for (int i = 0; i < static_cast<int>(scene.materials.size()); ++i) {
     GpuWires pieces = upload_wires(scene, i);
     if (pieces.count > 0) wires.push_back(std::move(pieces));
   }
 }
 
-Eigen::Matrix4d world_from_model(const Instance& instance) {
-  Eigen::Matrix4d m = instance.T_world_model.matrix();
-  m.topLeftCorner<3, 3>() *= static_cast<double>(instance.scale);
-  return m;
+void GpuScene::set_instances(const std::vector<InstanceRow>& rows) const {
+  gl.BindVertexArray(array_.get());
+  gl.BindBuffer(GL_ARRAY_BUFFER, rows_.get());
+  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size() * sizeof(InstanceRow)),
+                rows.data(), GL_STREAM_DRAW);
 }
 
-void bind_instances(std::size_t first) {
-  for (GLuint row = 0; row < 3; ++row) {
-    vertex_attribute(4 + row, 4, sizeof(InstanceMatrix),
-                     first * sizeof(InstanceMatrix) + row * 4 * sizeof(float), 1);
-  }
+void GpuScene::draw(const GpuPrimitive& primitive, int order, std::size_t first,
+                    std::size_t count) const {
+  const std::size_t index =
+      primitive.first_index + static_cast<std::size_t>(order) * primitive.count;
+  gl.DrawElementsInstancedBaseVertexBaseInstance(
+      GL_TRIANGLES, primitive.count, GL_UNSIGNED_INT,
+      reinterpret_cast<const void*>(index * sizeof(std::uint32_t)), static_cast<GLsizei>(count),
+      primitive.first_vertex, static_cast<GLuint>(first));
 }
 
 }  // namespace vinebench

@@ -22,27 +22,33 @@ int draw_order(const Eigen::Vector3d& towards_camera);
 /// after the other. Coarsely, so that neighbours stay neighbours.
 std::vector<std::uint32_t> sorted_indices(const Primitive& primitive);
 
+/// Where a primitive lies in the scene's one buffer of vertices and one of indices.
 struct GpuPrimitive {
   int material = 0;
-  GlVertexArray array;
-  GlBuffer vertices;
-  GlBuffer indices;
+  GLint first_vertex = 0;
+  std::size_t first_index = 0;
   GLsizei count = 0;  ///< indices of one draw order
 };
 
 struct GpuLevel {
-  double until = 0;  ///< m
+  double until = 0;  ///< m, for kLevelFocalLength
   std::vector<GpuPrimitive> primitives;
 };
 
 struct GpuModel {
-  GpuModel() = default;
-  GpuModel(GpuModel&&) noexcept = default;
-  GpuModel& operator=(GpuModel&&) noexcept = default;
-
   std::vector<GpuLevel> levels;
   Eigen::AlignedBox3f bounds;  ///< of all levels
   bool casts_shadow = false;   ///< ground and grass do not
+};
+
+/// A thing in its place, and a ball around it for a first guess at whether it is in view.
+struct GpuInstance {
+  int model = 0;
+  Eigen::Matrix4d world_from_model;
+  Eigen::Matrix4d model_from_world;
+  double scale = 1;
+  Eigen::Vector3d centre;  ///< m, world frame
+  double radius = 0;       ///< m
 };
 
 /// Wires in pieces short enough that a strip's width can be interpolated along each.
@@ -53,26 +59,35 @@ struct GpuWires {
   GLsizei count = 0;
 };
 
-/// One row of an instance's matrix after the other, as the shaders read it.
-using InstanceMatrix = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
+/// What the shaders read of an instance: one row of its matrix after the other, and its number.
+struct InstanceRow {
+  Eigen::Matrix<float, 3, 4, Eigen::RowMajor> matrix;
+  std::uint32_t number = 0;  ///< its index among the scene's instances plus one
+};
 
 /// What of a scene lives in the GL context, and what is still needed to draw it. Throws Error when
 /// the scene refers to something that it has not.
 struct GpuScene {
   explicit GpuScene(const Scene& scene);
 
+  /// Puts the rows where the shaders read instances from.
+  void set_instances(const std::vector<InstanceRow>& rows) const;
+  /// Draws `count` of the rows from `first` on, in that order of triangles.
+  void draw(const GpuPrimitive& primitive, int order, std::size_t first, std::size_t count) const;
+
   std::vector<GlTexture> textures;
   std::vector<Material> materials;
   std::vector<GpuModel> models;
-  std::vector<Instance> instances;
+  std::vector<GpuInstance> instances;
   std::vector<GpuWires> wires;
   Light light;
+  Wind wind;
+
+ private:
+  GlVertexArray array_;
+  GlBuffer vertices_;
+  GlBuffer indices_;
+  GlBuffer rows_;
 };
-
-/// The model's matrix in the world, its scale included.
-Eigen::Matrix4d world_from_model(const Instance& instance);
-
-/// Points the bound array's instance attributes at the bound buffer, from that instance on.
-void bind_instances(std::size_t first);
 
 }  // namespace vinebench

@@ -124,6 +124,7 @@ void add_ground(Scene& scene, const WorldConfig& world, std::uint64_t seed) {
   Asset asset;
   asset.add(soil_texture(seed));
   asset.add(make_material("soil", Label::kGround, 0));
+  asset.materials[0].terrain = true;
   asset.model.name = "ground";
   asset.model.levels.push_back({1e9, {ground_mesh(world, seed)}});
   add_single(scene, std::move(asset));

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
-#include <vector>
-
 #include "sim/draw_list.h"
 #include "sim/gpu_scene.h"
-#include "sim/shaders.h"
+#include "sim/light_map.h"
+#include "sim/mesh_programs.h"
 #include "sim/shadow_map.h"
+#include "sim/view_block.h"
 
 namespace vinebench {
 
@@ -17,32 +16,30 @@ namespace vinebench {
 class Painter {
  public:
   Painter(const Scene& scene, int shadow_map_size);
-  void draw(const PinholeCamera& camera, const Pose& T_world_cam, double lod_scale);
+  /// `truth`: the target takes the truth too.
+  void draw(const PinholeCamera& camera, const Pose& T_world_cam, double lod_scale,
+            const ViewSettings& settings, bool truth);
 
  private:
-  struct MeshProgram {
-    GlProgram program;
-    GLint surface = -1;
-    GLint leaf = -1;
-  };
-  struct View;
-
-  void add_program(const Material& material);
-  void use_for(const MeshProgram& mesh, const Material& material) const;
-  void set_view(const GlProgram& program, const View& view) const;
-  void draw_meshes(const DrawList& list, bool ground) const;
-  void draw_primitive(const GpuPrimitive& primitive, const DrawBatch& batch) const;
-  void draw_sky(const View& view) const;
-  void draw_wires(const View& view) const;
+  void clear(bool truth) const;
+  void draw_meshes(const DrawList& list, bool terrain, bool truth);
+  void draw_sky(const ViewBlock& view) const;
+  void draw_wires() const;
+  void draw_wires_truth() const;
+  void draw_wire_pieces(const GlProgram& program) const;
+  MeshShader shader_of(const Material& material, bool truth) const;
 
   GpuScene scene_;
+  ViewBuffer view_;
+  MeshPrograms programs_;
   ShadowMap shadow_map_;
-  std::map<int, MeshProgram> programs_;  // by MeshShader::key()
+  LightMap light_map_;
   GlProgram sky_program_;
   GlTexture sky_;
   GlVertexArray no_vertices_;
   GlProgram wire_program_;
-  GlBuffer instances_;
+  GlProgram wire_truth_program_;
+  double ground_light_ = 1;  ///< brightness of the light map, encoded
 };
 
 }  // namespace vinebench

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <opencv2/imgproc.hpp>
+#include <tuple>
 #include <utility>
 
 #include "sim/frustum.h"
@@ -43,12 +44,26 @@ void linearise(cv::Mat& depth) {
   }
 }
 
+/// Bytes of instance number (low, middle, high) and part to Picture::instances.
+cv::Mat instance_numbers(const cv::Mat& bytes) {
+  cv::Mat numbers(bytes.size(), CV_32SC1);
+  for (int y = 0; y < bytes.rows; ++y) {
+    const auto* from = bytes.ptr<cv::Vec4b>(y);
+    auto* to = numbers.ptr<std::int32_t>(y);
+    for (int x = 0; x < bytes.cols; ++x) {
+      const int number = from[x][0] | from[x][1] << 8 | from[x][2] << 16;
+      to[x] = number << 8 | from[x][3];
+    }
+  }
+  return numbers;
+}
+
 }  // namespace
 
 class Renderer::Impl {
  public:
   Impl(const Scene& scene, const RendererConfig& config)
-      : config_(config), context_(make_gl_context()) {
+      : config_(config), context_(make_gl_context(config.backend)) {
     const CurrentContext current(*context_);
     painter_ = std::make_unique<Painter>(scene, config.shadow_map_size);
   }
@@ -62,41 +77,54 @@ class Renderer::Impl {
 
   Picture render(const PinholeCamera& camera, const Pose& T_world_cam, const Request& request) {
     check_camera(camera);
+    const bool truth = request.depth || request.instances || request.normals || request.motion;
     const CurrentContext current(*context_);
-    target(camera.width, camera.height).bind();
-    painter_->draw(camera, T_world_cam, config_.lod_scale);
+    target(camera.width, camera.height, truth).bind();
+    painter_->draw(camera, T_world_cam, config_.lod_scale,
+                   {request.exposure, request.time, request.other_time}, truth);
     Picture picture = read(camera, request);
     check_gl("drawing a picture");
     return picture;
   }
 
  private:
-  const GlTarget& target(int width, int height) {
-    return targets_.try_emplace({width, height}, width, height).first->second;
+  const GlTarget& target(int width, int height, bool truth) {
+    return targets_.try_emplace({width, height, truth}, width, height, truth).first->second;
   }
 
   /// The clip space is mirrored so that OpenGL's first row is the picture's top one.
   Picture read(const PinholeCamera& camera, const Request& request) {
     Picture picture;
-    pixels_.create(camera.height, camera.width, CV_8UC4);
-    gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
-    gl.ReadPixels(0, 0, camera.width, camera.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data);
+    const cv::Size size(camera.width, camera.height);
+    read_pixels(0, size, GL_RGBA, GL_UNSIGNED_BYTE, CV_8UC4, pixels_);
     cv::cvtColor(pixels_, picture.rgb, cv::COLOR_RGBA2RGB);
     if (request.labels) cv::extractChannel(pixels_, picture.labels, 3);
     if (request.depth) {
-      picture.depth.create(camera.height, camera.width, CV_32FC1);
-      gl.ReadPixels(0, 0, camera.width, camera.height, GL_DEPTH_COMPONENT, GL_FLOAT,
-                    picture.depth.data);
+      read_pixels(0, size, GL_DEPTH_COMPONENT, GL_FLOAT, CV_32FC1, picture.depth);
       linearise(picture.depth);
     }
+    if (request.instances) {
+      read_pixels(1, size, GL_RGBA, GL_UNSIGNED_BYTE, CV_8UC4, pixels_);
+      picture.instances = instance_numbers(pixels_);
+    }
+    if (request.normals) read_pixels(2, size, GL_RGB, GL_FLOAT, CV_32FC3, picture.normals);
+    if (request.motion) read_pixels(3, size, GL_RGB, GL_FLOAT, CV_32FC3, picture.motion);
     return picture;
+  }
+
+  static void read_pixels(int attachment, const cv::Size& size, GLenum format, GLenum type,
+                          int mat_type, cv::Mat& pixels) {
+    pixels.create(size, mat_type);
+    gl.ReadBuffer(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(attachment));
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
+    gl.ReadPixels(0, 0, size.width, size.height, format, type, pixels.data);
   }
 
   RendererConfig config_;
   std::unique_ptr<GlContext> context_;
   std::unique_ptr<Painter> painter_;
-  std::map<std::pair<int, int>, GlTarget> targets_;  // by width and height
-  cv::Mat pixels_;                                   // RGB and label
+  std::map<std::tuple<int, int, bool>, GlTarget> targets_;  // by width, height, truth
+  cv::Mat pixels_;                                          // RGB and label
 };
 
 Renderer::Renderer(const Scene& scene, const RendererConfig& config)

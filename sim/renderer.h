@@ -4,6 +4,8 @@
 
 #include <memory>
 #include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
 
 #include "sim/scene.h"
 #include "slam/base/camera.h"
@@ -12,18 +14,32 @@
 
 namespace vinebench {
 
-/// One rendered view.
+/// One rendered view. What was not asked for is empty.
 struct Picture {
   cv::Mat rgb;     ///< CV_8UC3, RGB, top row first
-  cv::Mat labels;  ///< CV_8UC1 of Label, when asked for; else empty
-  cv::Mat depth;   ///< CV_32FC1, z along the optical axis in m, 0 for sky, when asked for
+  cv::Mat labels;  ///< CV_8UC1 of Label
+  cv::Mat depth;   ///< CV_32FC1, z along the optical axis in m, 0 for sky
+  /// CV_32SC1: 256 * (index into Scene::instances + 1) + Vertex::part; 0 for sky and wires.
+  cv::Mat instances;
+  cv::Mat normals;  ///< CV_32FC3, unit, camera frame, towards the camera; 0 for sky
+  /// CV_32FC3, m, world frame: where the wind takes this point from `time` to `other_time`.
+  cv::Mat motion;
 };
 
+/// Which GL platform draws.
+enum class GlBackend { kAuto, kOsmesa, kEgl };
+inline std::vector<std::string> yaml_names(GlBackend) {
+  return {"auto", "osmesa", "egl"};
+}
+
 struct RendererConfig {
+  /// OSMesa and EGL give the same picture; `auto` takes $VINEBENCH_GL, else OSMesa, else EGL.
+  GlBackend backend = GlBackend::kAuto;
   double lod_scale = 1.0;      ///< distances of the levels of detail are multiplied by this
   int shadow_map_size = 2048;  ///< pixels a side; 0 draws no shadows
   template <class Archive>
   void serialize(Archive& archive) {
+    archive("backend", backend);
     archive("lod_scale", lod_scale, Range::between(0.05, 20));
     archive("shadow_map_size", shadow_map_size, Range::between(0, 8192));
   }
@@ -43,6 +59,12 @@ class Renderer {
   struct Request {
     bool labels = false;
     bool depth = false;
+    bool instances = false;
+    bool normals = false;
+    bool motion = false;
+    double exposure = 1;    ///< all light is multiplied by this before it is encoded
+    double time = 0;        ///< s, for what the wind moves
+    double other_time = 0;  ///< s, for motion
   };
   Picture render(const PinholeCamera& camera, const Pose& T_world_cam, const Request& request);
 

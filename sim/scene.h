@@ -44,13 +44,15 @@ struct Material {
   bool cutout = false;  ///< pixels of alpha below one half are not there
   bool double_sided = false;
   float translucency = 0;  ///< share of the sunlight that a leaf lets through, 0 to 1
+  bool terrain = false;    ///< the ground itself: it takes its shadows from a map from above
 };
 
 struct Vertex {
   Eigen::Vector3f position;  ///< m, model frame (z up)
   Eigen::Vector3f normal;
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
-  float occlusion = 1;  ///< share of the sky's light that arrives here, baked, 0 to 1
+  float occlusion = 1;    ///< share of the sky's light that arrives here, baked, 0 to 1
+  std::uint8_t part = 0;  ///< of its thing: 0 the whole, from 1 on a bunch of a plant
 };
 
 /// Triangles (counter-clockwise from the front) of one material.
@@ -60,8 +62,12 @@ struct Primitive {
   std::vector<std::uint32_t> indices;
 };
 
+inline constexpr double kLevelFocalLength = 500;  ///< px
+
 struct LevelOfDetail {
-  double until = 1e9;  ///< m from the camera; the next level is drawn beyond
+  /// m from a camera of kLevelFocalLength; the next level is drawn beyond. Longer lenses see the
+  /// finer level from further away.
+  double until = 1e9;
   std::vector<Primitive> primitives;
 };
 
@@ -87,12 +93,21 @@ struct Wire {
   int material = 0;
 };
 
-/// Light of the day; colours are linear RGB, 1 is the camera's mid exposure white.
+/// Light of the day; colours are linear RGB, 1 is white at the camera's nominal exposure.
 struct Light {
   Eigen::Vector3f towards_sun = Eigen::Vector3f::UnitZ();  ///< unit, world frame
   Eigen::Vector3f sun = Eigen::Vector3f::Constant(1.0f);
   Eigen::Vector3f sky = Eigen::Vector3f(0.45f, 0.5f, 0.6f);       ///< ambient from above
   Eigen::Vector3f bounce = Eigen::Vector3f(0.18f, 0.16f, 0.13f);  ///< ambient from below
+  float overcast = 0;  ///< share of the sky that cloud covers, 0 to 1
+  float haze = 0;      ///< extinction of the air, 1/m
+};
+
+/// What moves leaves, canes and bunches.
+struct Wind {
+  float speed = 0;                                     ///< m/s at the canopy; 0 is still air
+  Eigen::Vector2f towards = Eigen::Vector2f::UnitX();  ///< unit, world frame
+  std::uint64_t seed = 0;                              ///< of its gusts
 };
 
 /// Everything that can be drawn, in the world frame. Immutable once built.
@@ -103,6 +118,7 @@ struct Scene {
   std::vector<Instance> instances;
   std::vector<Wire> wires;
   Light light;
+  Wind wind;
   std::uint64_t seed = 0;  ///< for what the renderer draws by itself, such as clouds
 };
 

@@ -9,15 +9,30 @@ namespace vinebench {
 /// What a mesh's shader has to do; fragments are the cost of software rendering, so each material
 /// gets the leanest one.
 struct MeshShader {
+  /// Where the sunlight that arrives is looked up.
+  enum class Shadows {
+    kVertices,  ///< leaves and the like: small enough to be lit or shaded by their vertices
+    kPixels,    ///< large even faces show the edge of a shadow
+    kLightMap   ///< the ground: its light is baked into a map, seen from above
+  };
   bool textured = false;
-  bool cutout = false;         ///< discards where the texture's alpha is below one half
-  bool pixel_shadows = false;  ///< looks the shadow up at each pixel, else at each vertex
+  bool cutout = false;  ///< discards where the texture's alpha is below one half
+  Shadows shadows = Shadows::kVertices;
+  bool haze = false;
+  bool wind = false;
+  bool truth = false;   ///< also writes instance, part, normal and motion
+  bool baking = false;  ///< draws the light map itself: light alone, from above
 
-  int key() const { return (textured ? 1 : 0) | (cutout ? 2 : 0) | (pixel_shadows ? 4 : 0); }
+  /// Different for different shaders.
+  int key() const {
+    return (textured ? 1 : 0) | (cutout ? 2 : 0) | static_cast<int>(shadows) << 2 |
+           (haze ? 16 : 0) | (wind ? 32 : 0) | (truth ? 64 : 0) | (baking ? 128 : 0);
+  }
 };
 
-// Attributes of a mesh: 0 position, 1 normal, 2 texture coordinates, 3 occlusion, and for each
-// instance 4 to 6 the rows of the matrix that takes the model to the camera (or the light).
+// Attributes of a mesh: 0 position, 1 normal, 2 texture coordinates, 3 occlusion, 8 part, and for
+// each instance 4 to 6 the rows of the matrix that takes the model to the camera (or the light),
+// 7 its number. All shaders share the uniform block View; its layout is ViewBlock's.
 
 /// Lights in the vertices. Light enters the picture by c = texture * encode(light): with sRGB taken
 /// as the power 2.2, encode(a * b) = encode(a) * encode(b), so no pixel needs a power function.
@@ -33,8 +48,9 @@ std::string sky_vertex_shader();
 std::string sky_fragment_shader();
 
 /// Pieces of wire as strips that face the camera, one pixel wider than the wire; a pixel is covered
-/// by the share of its width that the wire takes.
+/// by the share of its width that the wire takes. For the truth a wire is where it covers half a
+/// pixel.
 std::string wire_vertex_shader();
-std::string wire_fragment_shader();
+std::string wire_fragment_shader(bool truth);
 
 }  // namespace vinebench

@@ -24,14 +24,13 @@ Eigen::Matrix3d sun_from_world(const Eigen::Vector3d& towards_sun) {
 /// What casts shadows, in the sun's axes.
 Eigen::AlignedBox3d casters(const GpuScene& scene, const Eigen::Matrix3d& R_sun_world) {
   Eigen::AlignedBox3d box;
-  for (const Instance& instance : scene.instances) {
+  for (const GpuInstance& instance : scene.instances) {
     const GpuModel& model = scene.models[static_cast<std::size_t>(instance.model)];
     if (!model.casts_shadow || model.bounds.isEmpty()) continue;
-    const Eigen::Matrix4d world = world_from_model(instance);
     for (int i = 0; i < 8; ++i) {
       const auto corner = static_cast<Eigen::AlignedBox3f::CornerType>(i);
       const Eigen::Vector3d p = model.bounds.corner(corner).cast<double>();
-      box.extend(R_sun_world * (world * p.homogeneous()).head<3>());
+      box.extend(R_sun_world * (instance.world_from_model * p.homogeneous()).head<3>());
     }
   }
   return box;
@@ -47,6 +46,16 @@ Eigen::Matrix4d light_matrix(const Eigen::Matrix3d& R_sun_world, const Eigen::Al
     m(axis, 3) = -box.center()[axis] / half;
   }
   return m;
+}
+
+/// Finer than a texel need not be drawn: the level that a camera would draw at whose pixels are as
+/// large.
+const GpuLevel& caster_level(const GpuModel& model, double texel) {
+  const double distance = texel * kLevelFocalLength;
+  for (const GpuLevel& level : model.levels) {
+    if (distance < level.until) return level;
+  }
+  return model.levels.back();
 }
 
 GlFramebuffer depth_framebuffer(const GlTexture& texture) {
@@ -95,13 +104,15 @@ void ShadowMap::draw(const GpuScene& scene, const Eigen::Matrix4d& light_from_wo
   gl.Enable(GL_POLYGON_OFFSET_FILL);
   gl.PolygonOffset(1.5f, 2.0f);
   gl.ActiveTexture(GL_TEXTURE0);
-  for (const Instance& instance : scene.instances) {
-    const GpuModel& model = scene.models[static_cast<std::size_t>(instance.model)];
-    if (!model.casts_shadow || model.levels.empty()) continue;
-    const InstanceMatrix matrix =
-        (light_from_world * world_from_model(instance)).topRows<3>().cast<float>();
-    const GlBuffer buffer = make_buffer(GL_ARRAY_BUFFER, matrix.data(), sizeof(matrix));
-    for (const GpuPrimitive& primitive : model.levels.front().primitives) {
+  std::vector<InstanceRow> rows;
+  for (const GpuInstance& instance : scene.instances) {
+    rows.push_back({(light_from_world * instance.world_from_model).topRows<3>().cast<float>(), 0});
+  }
+  scene.set_instances(rows);
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const GpuModel& model = scene.models[static_cast<std::size_t>(scene.instances[i].model)];
+    if (!model.casts_shadow) continue;
+    for (const GpuPrimitive& primitive : caster_level(model, texel_).primitives) {
       const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
       const bool holes = material.cutout && material.texture >= 0;
       (holes ? cutout : opaque).use();
@@ -109,10 +120,7 @@ void ShadowMap::draw(const GpuScene& scene, const Eigen::Matrix4d& light_from_wo
         gl.BindTexture(GL_TEXTURE_2D,
                        scene.textures[static_cast<std::size_t>(material.texture)].get());
       }
-      gl.BindVertexArray(primitive.array.get());
-      gl.BindBuffer(GL_ARRAY_BUFFER, buffer.get());
-      bind_instances(0);
-      gl.DrawElementsInstanced(GL_TRIANGLES, primitive.count, GL_UNSIGNED_INT, nullptr, 1);
+      scene.draw(primitive, 0, i, 1);
     }
   }
   gl.BindVertexArray(0);
