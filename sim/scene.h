@@ -50,7 +50,8 @@ struct Vertex {
   Eigen::Vector3f position;  ///< m, model frame (z up)
   Eigen::Vector3f normal;
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
-  float occlusion = 1;  ///< share of the sky's light that arrives here, baked, 0 to 1
+  float occlusion = 1;    ///< share of the sky's light that arrives here, baked, 0 to 1
+  std::uint8_t part = 0;  ///< which part of the thing: of a plant 0, of its bunches 1 and up
 };
 
 /// Triangles (counter-clockwise from the front) of one material.
