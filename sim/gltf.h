@@ -19,7 +19,8 @@ inline constexpr const char* kUntil = "until";
 // Extras of a material.
 inline constexpr const char* kLabel = "label";
 inline constexpr const char* kTranslucency = "translucency";
-// Attribute of a vertex.
+// Attributes of a vertex.
 inline constexpr const char* kOcclusion = "_OCCLUSION";
+inline constexpr const char* kPart = "_PART";
 
 }  // namespace vinebench

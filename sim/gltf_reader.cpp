@@ -221,6 +221,10 @@ class GltfReader {
     });
     read(kOcclusion, TINYGLTF_TYPE_SCALAR,
          [](Vertex& v, const GltfNumbers& n, std::size_t i) { v.occlusion = n.real(i, 0); });
+    read(kPart, TINYGLTF_TYPE_SCALAR, [&](Vertex& v, const GltfNumbers& n, std::size_t i) {
+      if (n.whole(i) > 255) fail("{}: part {}, expected 0 to 255", file_, n.whole(i));
+      v.part = static_cast<std::uint8_t>(n.whole(i));
+    });
     return read("NORMAL", TINYGLTF_TYPE_VEC3, [](Vertex& v, const GltfNumbers& n, std::size_t i) {
       v.normal = {n.real(i, 0), n.real(i, 1), n.real(i, 2)};
     });

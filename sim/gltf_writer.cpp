@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
@@ -18,7 +19,21 @@ Eigen::Vector3f y_up(const Eigen::Vector3f& v) {
   return {v.x(), v.z(), -v.y()};
 }
 
-static_assert(sizeof(Vertex) == 36, "vertices are written as they lie in memory");
+/// A vertex as it lies in the file, where no byte is left to chance.
+struct PackedVertex {
+  explicit PackedVertex(const Vertex& vertex)
+      : position(y_up(vertex.position)),
+        normal(y_up(vertex.normal)),
+        uv(vertex.uv),
+        occlusion(vertex.occlusion),
+        part(vertex.part) {}
+  Eigen::Vector3f position, normal;
+  Eigen::Vector2f uv;
+  float occlusion;
+  std::uint8_t part;
+  std::array<std::uint8_t, 3> unused{};
+};
+static_assert(sizeof(PackedVertex) == 40, "vertices are written as they lie in memory");
 
 class GltfWriter {
  public:
@@ -101,28 +116,27 @@ class GltfWriter {
   }
 
   tinygltf::Primitive part(const Primitive& primitive) {
-    std::vector<Vertex> vertices = primitive.vertices;
+    const std::vector<PackedVertex> vertices(primitive.vertices.begin(), primitive.vertices.end());
     Eigen::AlignedBox3f box;
-    for (Vertex& vertex : vertices) {
-      vertex.position = y_up(vertex.position);
-      vertex.normal = y_up(vertex.normal);
-      box.extend(vertex.position);
-    }
-    const int view = add_view(vertices.data(), vertices.size() * sizeof(Vertex),
-                              TINYGLTF_TARGET_ARRAY_BUFFER, sizeof(Vertex));
-    const auto attribute = [&](std::size_t offset, int type) {
-      return add_accessor(view, offset, vertices.size(), TINYGLTF_COMPONENT_TYPE_FLOAT, type);
+    for (const PackedVertex& vertex : vertices) box.extend(vertex.position);
+    const int view = add_view(vertices.data(), vertices.size() * sizeof(PackedVertex),
+                              TINYGLTF_TARGET_ARRAY_BUFFER, sizeof(PackedVertex));
+    const auto attribute = [&](std::size_t offset, int type,
+                               int component = TINYGLTF_COMPONENT_TYPE_FLOAT) {
+      return add_accessor(view, offset, vertices.size(), component, type);
     };
     tinygltf::Primitive out;
     out.mode = TINYGLTF_MODE_TRIANGLES;
     out.material = primitive.material;
-    out.attributes["POSITION"] = attribute(offsetof(Vertex, position), TINYGLTF_TYPE_VEC3);
+    out.attributes["POSITION"] = attribute(offsetof(PackedVertex, position), TINYGLTF_TYPE_VEC3);
     tinygltf::Accessor& position = model_.accessors.back();
     position.minValues = {box.min().x(), box.min().y(), box.min().z()};
     position.maxValues = {box.max().x(), box.max().y(), box.max().z()};
-    out.attributes["NORMAL"] = attribute(offsetof(Vertex, normal), TINYGLTF_TYPE_VEC3);
-    out.attributes["TEXCOORD_0"] = attribute(offsetof(Vertex, uv), TINYGLTF_TYPE_VEC2);
-    out.attributes[kOcclusion] = attribute(offsetof(Vertex, occlusion), TINYGLTF_TYPE_SCALAR);
+    out.attributes["NORMAL"] = attribute(offsetof(PackedVertex, normal), TINYGLTF_TYPE_VEC3);
+    out.attributes["TEXCOORD_0"] = attribute(offsetof(PackedVertex, uv), TINYGLTF_TYPE_VEC2);
+    out.attributes[kOcclusion] = attribute(offsetof(PackedVertex, occlusion), TINYGLTF_TYPE_SCALAR);
+    out.attributes[kPart] = attribute(offsetof(PackedVertex, part), TINYGLTF_TYPE_SCALAR,
+                                      TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE);
     const std::vector<std::uint32_t>& indices = primitive.indices;
     const int list = add_view(indices.data(), indices.size() * sizeof(std::uint32_t),
                               TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/grapevine_wood.h"
 #include "sim/textures.h"
 #include "slam/base/random.h"
 
@@ -14,34 +15,50 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr float kShootSpacing = 0.085f;   // m along the cordon
-constexpr float kInternode = 0.072f;      // m between leaves of a shoot
-constexpr float kShootStep = 0.09f;       // m between points of its path
-constexpr float kBunchClearance = 0.07f;  // m between neighbouring bunches
+constexpr float kShootStep = 0.09f;       // m between points of a shoot's path
+constexpr float kFruitZone = 0.26f;       // m above the wire
+constexpr float kBunchClearance = 0.06f;  // m between neighbouring bunches' tops
+constexpr int kFirstFruitNode = 1, kLastFruitNode = 4;
+constexpr std::size_t kMostBunches = 255;  // what a vertex's part can name
+constexpr float kLeafBelowFruit = 0.02f;   // m that leaves may hang below the lowest bunch
 
-constexpr float kLeafBelowFruit = 0.02f;  // m that leaves may hang below the lowest bunch
-constexpr int kLeafOfDraw[12] = {0, 0, 1, 1, 2, 2, 3, 4, 5, 5, 3, 7};  // turned leaves are rare
+/// A node of a shoot where a leaf may stand.
+struct Node {
+  Vector3f at;
+  float side = 1;   ///< of the row, +1 or -1
+  float swing = 0;  ///< rad, of the shoot's two ranks of leaves about the vertical
+  float grown = 0;  ///< 0 foot of the shoot, 1 its tip
+  float size = 0;   ///< m, of the leaf
+  int rank = 0;     ///< counted from the foot
+};
 
 class Grower {
  public:
-  Grower(const WorldConfig::Vines& vines, std::uint64_t seed, int index)
-      : random_(RandomStream(seed, "grapevine", static_cast<std::uint64_t>(index))),
-        spacing_(static_cast<float>(vines.spacing)),
-        fruit_(static_cast<float>(vines.lowest_bunch)),
-        top_(static_cast<float>(vines.canopy_top)) {
-    plant_.half_depth = static_cast<float>(vines.canopy_depth / 2 / kLargestPlantScale);
+  Grower(const PlantBrief& brief, std::uint64_t seed, int index)
+      : brief_(brief),
+        stage_(brief.stage),
+        random_(RandomStream(seed, brief.young ? "young grapevine" : "grapevine",
+                             static_cast<std::uint64_t>(index))),
+        fruit_(static_cast<float>(brief.vines.lowest_bunch)),
+        top_(static_cast<float>(brief.vines.canopy_top)),
+        lobes_(static_cast<float>(brief.cultivar.leaf.lobes)) {
+    plant_.half_depth = static_cast<float>(brief.vines.canopy_depth / 2 / kLargestPlantScale);
+    plant_.half_share = static_cast<float>(brief.vines.spacing / 2);
+    leaf_size_ =
+        static_cast<float>(std::sqrt(brief.cultivar.leaf.area / leaf_outline_area(lobes_)));
   }
 
   Grapevine grow() {
-    grow_trunk();
-    grow_cordon(-1);
-    grow_cordon(1);
-    const int shoots = std::max(2, static_cast<int>(spacing_ / kShootSpacing + 0.5f));
-    for (int i = 0; i < shoots; ++i) {
-      const float along = (static_cast<float>(i) + 0.5f + uniform(-0.3f, 0.3f)) / shoots - 0.5f;
-      grow_shoot(0.97f * along * spacing_);
+    const std::vector<Bud> buds = brief_.young ? grow_young_wood(plant_, brief_, random_)
+                                               : grow_old_wood(plant_, brief_, random_);
+    if (stage_.shoot > 0) {
+      for (const Bud& bud : buds) grow_shoot(bud);
     }
-    lower_one_bunch();
+    if (stage_.leaf > 0) grow_leaves();
+    if (stage_.bunch > 0 && !brief_.young) {
+      grow_bunches();
+      lower_one_bunch();
+    }
     return std::move(plant_);
   }
 
@@ -49,114 +66,139 @@ class Grower {
   float uniform(float low, float high) { return static_cast<float>(random_.uniform(low, high)); }
   float normal(float sigma) { return static_cast<float>(random_.normal(0, sigma)); }
 
-  /// Crooked, thicker at foot and head, with the swellings of old wood.
-  void grow_trunk() {
-    constexpr int kPoints = 11;
-    const float phase = uniform(0, 6.28f), sway = uniform(0.012f, 0.032f);
-    const float thickness = uniform(0.020f, 0.027f);
-    Tube trunk;
-    for (int i = 0; i < kPoints; ++i) {
-      const float t = static_cast<float>(i) / (kPoints - 1);
-      const float free = std::sin(t * std::numbers::pi_v<float>);  // foot and head stay in place
-      trunk.path.emplace_back(sway * free * std::sin(phase + 5 * t) + free * normal(0.004f),
-                              0.7f * sway * free * std::cos(phase + 4 * t) + free * normal(0.004f),
-                              -0.03f + t * (fruit_ + 0.025f));
-      const float swelling = 0.45f * std::exp(-12 * t) + 0.35f * std::exp(-10 * (1 - t));
-      trunk.radii.push_back(thickness * (1 + swelling + normal(0.07f)) *
-                            (i + 1 == kPoints ? 0.6f : 1));
-    }
-    plant_.wood.push_back(std::move(trunk));
-  }
-
-  void grow_cordon(float side) {
-    constexpr int kPoints = 9;
-    Tube arm;
-    const float length = 0.49f * spacing_;
-    for (int i = 0; i < kPoints; ++i) {
-      const float t = static_cast<float>(i) / (kPoints - 1);
-      const float bow = 0.05f * std::exp(-9 * t);  // leaves the head from below
-      arm.path.emplace_back(side * length * t, normal(0.004f),
-                            fruit_ - 0.005f - bow + normal(0.005f));
-      arm.radii.push_back(0.017f - 0.008f * t + std::abs(normal(0.0015f)));
-    }
-    plant_.wood.push_back(std::move(arm));
-  }
-
-  void grow_shoot(float x) {
-    Tube cane;
-    const float end = top_ - uniform(0.0f, 0.16f);
-    const float room = 0.3f * plant_.half_depth;
+  /// Upwards from its bud, held near the row's plane by the wires.
+  void grow_shoot(const Bud& bud) {
+    const float full = std::max(0.3f, top_ - uniform(0.0f, 0.16f) - bud.at.z());
+    const float length = stage_.shoot * full * (brief_.young ? uniform(0.3f, 0.55f) : 1.0f);
+    const float step = std::min(kShootStep, length / 3);
+    const float room = 0.3f * plant_.half_depth, reach = 1.04f * plant_.half_share;
+    const auto vigour = static_cast<float>(brief_.cultivar.vigour) * (brief_.young ? 0.7f : 1.0f);
+    Tube shoot;
+    Vector3f at = bud.at, towards = bud.towards.normalized();
     const float lean = normal(0.05f);
-    Vector3f at(x, normal(0.003f), fruit_ - 0.004f);
-    float y_drift = 0;
-    while (at.z() < end) {
-      cane.path.push_back(at);
-      const float grown = (at.z() - fruit_) / (top_ - fruit_);
-      cane.radii.push_back(0.0046f - 0.0028f * std::clamp(grown, 0.0f, 1.0f));
-      y_drift = 0.6f * y_drift + normal(0.008f);
-      at += Vector3f(lean * kShootStep + normal(0.007f), y_drift, kShootStep);
-      at.y() = std::clamp(0.9f * at.y(), -room, room);
-      at.x() = std::clamp(at.x(), -0.52f * spacing_, 0.52f * spacing_);
+    for (float grown = 0; grown < length + 0.5f * step; grown += step) {
+      shoot.path.push_back(at);
+      shoot.radii.push_back(vigour * (0.0046f - 0.0030f * std::min(1.0f, grown / full)) *
+                            (stage_.shoot < 0.1f ? 0.6f : 1.0f));
+      const Vector3f up(lean + normal(0.06f), normal(0.08f) - 1.2f * at.y(), 1);
+      towards = (0.45f * towards + 0.55f * up).normalized();
+      at += step * towards;
+      at.y() = std::clamp(at.y(), -room, room);
+      at.x() = std::clamp(at.x(), -reach, reach);
     }
-    if (cane.path.size() < 2) return;
-    grow_nodes(cane);
-    plant_.canes.push_back(std::move(cane));
+    add_nodes(shoot);
+    plant_.shoots.push_back(std::move(shoot));
   }
 
-  static Vector3f point_at(const Tube& cane, float distance) {
-    for (std::size_t i = 1; i < cane.path.size(); ++i) {
-      const float length = (cane.path[i] - cane.path[i - 1]).norm();
+  static Vector3f point_at(const Tube& shoot, float distance) {
+    for (std::size_t i = 1; i < shoot.path.size(); ++i) {
+      const float length = (shoot.path[i] - shoot.path[i - 1]).norm();
       if (distance <= length) {
-        return cane.path[i - 1] + distance / length * (cane.path[i] - cane.path[i - 1]);
+        return shoot.path[i - 1] + distance / length * (shoot.path[i] - shoot.path[i - 1]);
       }
       distance -= length;
     }
-    return cane.path.back();
+    return shoot.path.back();
   }
 
-  /// A leaf at each node, left and right in turn; bunches opposite the leaves of the lowest nodes.
-  void grow_nodes(const Tube& cane) {
-    const float length = cane.path.back().z() - cane.path.front().z();
-    float side = random_.below(2) == 0 ? 1.0f : -1.0f;
-    int node = 0;
-    for (float s = uniform(0.03f, 0.07f); s < length; s += kInternode * uniform(0.85f, 1.15f)) {
-      const Vector3f at = point_at(cane, s);
-      const float grown = s / std::max(length, 0.2f);
-      const bool fruit_zone = at.z() < fruit_ + 0.26f;
-      // Growers strip about half of the leaves round the fruit.
-      if (!fruit_zone || random_.uniform() < 0.5) grow_leaf(at, side, grown, 1.0f);
-      if (!fruit_zone && random_.uniform() < 0.5) grow_leaf(at, -side, grown, uniform(0.5f, 0.75f));
-      if (node >= 1 && node <= 3 && random_.uniform() < 0.45) grow_bunch(at, -side);
-      side = -side;
-      ++node;
+  /// Nodes stand in two ranks, left and right in turn; the lowest lie closer together.
+  void add_nodes(const Tube& shoot) {
+    float length = 0;
+    for (std::size_t i = 1; i < shoot.path.size(); ++i) {
+      length += (shoot.path[i] - shoot.path[i - 1]).norm();
+    }
+    const auto internode =
+        static_cast<float>(brief_.cultivar.internode) * std::min(1.0f, 0.2f + stage_.shoot);
+    Node node;
+    node.side = random_.below(2) == 0 ? 1.0f : -1.0f;
+    node.swing = normal(0.45f);
+    for (float s = 0.5f * internode; s < length;
+         s += internode * uniform(0.85f, 1.15f) * (node.rank < 3 ? 0.75f : 1.0f)) {
+      node.at = point_at(shoot, s);
+      node.grown = s / length;
+      const float unfolded = node.grown > 0.7f ? 1 - 1.6f * (node.grown - 0.7f) : 1.0f;
+      node.size = leaf_size_ * stage_.leaf * unfolded * (node.rank < 2 ? 0.8f : 1.0f);
+      nodes_.push_back(node);
+      node.side = -node.side;
+      ++node.rank;
     }
   }
 
-  void grow_leaf(const Vector3f& node, float side, float grown, float vigour) {
-    const float swing = normal(0.75f);
-    const Vector3f out(std::sin(swing), side * std::cos(swing), 0);
+  float spread() {
+    const float draw = normal(static_cast<float>(brief_.cultivar.leaf.variation) / 2);
+    return std::clamp(1 + draw, 0.6f, 1.4f);
+  }
+
+  /// A leaf at each node, then those of side shoots until the canopy has its area; then what the
+  /// grower takes off round the fruit, and what has fallen.
+  void grow_leaves() {
+    const float per_square = leaf_outline_area(lobes_);
+    const bool falling = stage_.autumn > 0.5f;
+    double wanted = brief_.vines.leaf_area * brief_.vines.spacing * (falling ? 1 : stage_.foliage);
+    std::vector<std::pair<Node, bool>> leaves;
+    for (const Node& node : nodes_) {
+      leaves.emplace_back(node, false);
+      leaves.back().first.size *= spread();
+    }
+    double area = 0;
+    for (const auto& [node, side] : leaves) area += per_square * node.size * node.size;
+    const bool bare = brief_.young || stage_.foliage == 0;
+    while (!bare && area < wanted && leaves.size() < 4 * nodes_.size()) {
+      Node node =
+          nodes_.at(static_cast<std::size_t>(random_.below(static_cast<int>(nodes_.size()))));
+      if (node.grown > 0.85f) continue;
+      node.size *= uniform(0.62f, 0.88f);
+      node.side = -node.side;
+      node.swing += normal(0.4f);
+      area += per_square * node.size * node.size;
+      leaves.emplace_back(node, true);
+    }
+    const float share = bare ? 1.0f : static_cast<float>(std::min(1.0, wanted / area));
+    for (const auto& [node, side] : leaves) {
+      const bool fruit_zone = node.at.z() < fruit_ + kFruitZone;
+      const double stripped =
+          fruit_zone && !brief_.young && stage_.bunch > 0 ? brief_.vines.leaf_removal : 0.0;
+      const double kept = falling ? stage_.foliage : 1.0;
+      if (random_.uniform() < stripped || random_.uniform() > kept) continue;
+      grow_leaf(node, std::sqrt(share), side);
+    }
+  }
+
+  void grow_leaf(const Node& node, float scale, bool lateral) {
+    const float swing = node.swing + normal(0.4f);
+    const Vector3f out(std::sin(swing), node.side * std::cos(swing), 0);
     BladePlacement leaf;
-    leaf.size = uniform(0.082f, 0.122f) * vigour * (grown > 0.75f ? 1.5f - 0.75f * grown : 1.0f);
-    leaf.foot = node + uniform(0.45f, 0.95f) * leaf.size * (0.8f * out + Vector3f(0, 0, 0.45f));
-    leaf.curl = uniform(0.08f, 0.32f);
+    leaf.lobes = std::clamp(lobes_ + normal(0.08f), 0.0f, 1.0f);
+    leaf.size = scale * node.size;
+    const float stalk = leaf.size * uniform(0.45f, 0.95f);
+    leaf.foot = node.at + stalk * (0.8f * out + Vector3f(0, 0, 0.45f));
+    leaf.curl = uniform(0.06f, 0.30f) + 0.25f * stage_.autumn * uniform(0, 1);
     const Vector3f face =
         out * uniform(0.5f, 1.1f) + Vector3f(normal(0.25f), normal(0.15f), uniform(0.15f, 0.8f));
     const Vector3f midrib = 0.5f * out + Vector3f(normal(0.45f), 0, -uniform(0.5f, 1.0f));
     const Axes axes = axes_along(face, midrib);
     leaf.axes = {-axes.y, axes.x, axes.z};
-    const bool young = grown > 0.85f || vigour < 0.6f;
-    leaf.cell = leaf_cell(young ? 6 : kLeafOfDraw[random_.below(12)]);
+    leaf.cell = leaf_cell(variant(node, lateral));
     keep_within_canopy(leaf);
     const float outward = leaf.foot.y() / plant_.half_depth;
-    leaf.shading_normal = 0.8f * Vector3f(0, outward, 0.45f).normalized();
-    if (vigour > 0.9f) plant_.stalks.push_back({{node, leaf.foot}, {0.0015f, 0.0011f}});
+    leaf.shading_normal = 0.55f * Vector3f(0, outward, 0.45f).normalized();
+    plant_.petioles.push_back({node.at, leaf.foot, lateral ? 0.0011f : 0.0016f});
     plant_.leaves.push_back(leaf);
+  }
+
+  /// Which of the atlas' leaves: 0 to 3 in their prime, 4 and 5 old, 6 young, 7 turned.
+  int variant(const Node& node, bool lateral) {
+    const float turned = std::clamp(stage_.autumn * (1.6f - 1.2f * node.grown), 0.0f, 1.0f);
+    if (random_.uniform() < turned) return stage_.autumn > 0.5f ? 4 + random_.below(4) : 7;
+    if (node.grown > 0.88f || stage_.shoot < 0.5f) return 6;
+    if (lateral) return random_.below(3);
+    return random_.below(stage_.autumn > 0 && node.rank < 5 ? 6 : 4);
   }
 
   /// Shifts a blade until none of its rim passes the canopy's face or hangs below its foot.
   void keep_within_canopy(BladePlacement& leaf) const {
     float low = leaf.foot.y(), high = leaf.foot.y(), bottom = leaf.foot.z();
-    for (const Eigen::Vector2f& p : leaf_outline(2)) {
+    for (const Eigen::Vector2f& p : leaf_outline(2, leaf.lobes)) {
       const float y =
           leaf.foot.y() + leaf.size * (p.x() * leaf.axes.x.y() + p.y() * leaf.axes.y.y());
       const float sag = leaf.curl * p.squaredNorm() * leaf.axes.z.z();
@@ -165,25 +207,72 @@ class Grower {
       low = std::min(low, y);
       high = std::max(high, y);
     }
-    leaf.foot.z() += std::max(0.0f, fruit_ - kLeafBelowFruit - bottom);
+    if (!brief_.young) leaf.foot.z() += std::max(0.0f, fruit_ - kLeafBelowFruit - bottom);
     if (high > plant_.half_depth) leaf.foot.y() -= high - plant_.half_depth;
     if (low < -plant_.half_depth) leaf.foot.y() -= low + plant_.half_depth;
   }
 
-  void grow_bunch(const Vector3f& node, float side) {
-    Bunch bunch;
-    bunch.length = uniform(0.10f, 0.15f);
-    bunch.radius = uniform(0.030f, 0.040f);
-    const float reach = std::min(0.06f, plant_.half_depth - bunch.radius);
-    bunch.top =
-        node + Vector3f(normal(0.012f), side * std::max(0.0f, reach) * uniform(0.5f, 1.0f), -0.03f);
-    bunch.top.z() = std::max(bunch.top.z(), fruit_ + bunch.length + uniform(0.0f, 0.04f));
-    bunch.berry_seed = static_cast<std::uint64_t>(random_.below(1 << 30));
-    for (const Bunch& other : plant_.bunches) {
-      if ((other.top - bunch.top).norm() < kBunchClearance) return;
+  /// Opposite the leaves of the lowest nodes, so many as a shoot bears on average; tendrils higher.
+  void grow_bunches() {
+    const double wanted = brief_.vines.bunches * static_cast<double>(plant_.shoots.size());
+    std::size_t fruitful = 0;
+    for (const Node& node : nodes_) fruitful += is_fruitful(node) ? 1 : 0;
+    for (int round = 0; round < 3; ++round) {
+      for (const Node& node : nodes_) {
+        const double left = wanted - static_cast<double>(plant_.bunches.size());
+        if (!is_fruitful(node) || left < 0.5) continue;
+        if (random_.uniform() < 1.4 * left / static_cast<double>(fruitful)) grow_bunch(node);
+      }
     }
-    plant_.stalks.push_back({{node, bunch.top}, {0.0022f, 0.0018f}});
+    for (const Node& node : nodes_) {
+      if (node.rank > 5 && node.rank % 3 != 0 && random_.uniform() < 0.3) grow_tendril(node);
+    }
+  }
+
+  static bool is_fruitful(const Node& node) {
+    return node.rank >= kFirstFruitNode && node.rank <= kLastFruitNode;
+  }
+
+  void grow_bunch(const Node& node) {
+    const Cultivar::Bunch& look = brief_.cultivar.bunch;
+    const float size = std::clamp(1 + normal(0.13f), 0.65f, 1.35f);
+    const float swollen = 0.35f + 0.65f * stage_.berry;  // flowers and small berries stand closer
+    Bunch bunch;
+    bunch.length = static_cast<float>(look.length) * size * stage_.bunch;
+    bunch.radius = static_cast<float>(look.width) / 2 * std::sqrt(size) * swollen;
+    bunch.berry_radius = static_cast<float>(brief_.cultivar.berry.diameter) / 2 * stage_.berry;
+    bunch.shoulder =
+        static_cast<float>(std::clamp(look.shoulder + random_.normal(0, 0.12), 0.0, 1.0));
+    const float side = -node.side;
+    const float reach = std::max(0.0f, std::min(0.07f, plant_.half_depth - bunch.radius));
+    bunch.top = node.at + Vector3f(normal(0.015f), side * reach * uniform(0.45f, 1.0f), -0.03f);
+    bunch.top.z() = std::max(bunch.top.z(), fruit_ + bunch.length + uniform(0.0f, 0.05f));
+    bunch.berry_seed = static_cast<std::uint64_t>(random_.below(1 << 30));
+    if (bunch.shoulder > 0.6f && random_.uniform() < 0.6) {
+      bunch.wing = {(random_.below(2) == 0 ? 1.0f : -1.0f) * 0.95f * bunch.radius, 0.0f};
+    }
+    const float clearance = std::max(kBunchClearance, 1.5f * bunch.radius);
+    for (const Bunch& other : plant_.bunches) {
+      if ((other.top - bunch.top).norm() < clearance) return;
+    }
+    if (plant_.bunches.size() == kMostBunches) return;
+    const Vector3f knee = 0.5f * (node.at + bunch.top) + Vector3f(0, 0.2f * side * reach, 0.012f);
+    plant_.stalks.push_back(
+        {{node.at, knee, bunch.top - Vector3f(0, 0, 0.01f)}, {0.0024f, 0.0022f, 0.002f}});
     plant_.bunches.push_back(bunch);
+  }
+
+  void grow_tendril(const Node& node) {
+    Tube tendril;
+    Vector3f at = node.at, towards = Vector3f(normal(0.6f), -0.6f * node.side, 0.6f).normalized();
+    for (int i = 0; i < 5; ++i) {
+      tendril.path.push_back(at);
+      tendril.radii.push_back(0.0011f - 0.0002f * static_cast<float>(i));
+      at += 0.028f * towards;
+      at.y() = std::clamp(at.y(), -plant_.half_depth, plant_.half_depth);
+      towards = (towards + Vector3f(normal(0.5f), normal(0.3f), -0.1f)).normalized();
+    }
+    plant_.stalks.push_back(std::move(tendril));
   }
 
   /// The lowest bunch hangs exactly at the height that the world asks for.
@@ -196,15 +285,27 @@ class Grower {
     lowest->top.z() = fruit_ + lowest->length;
   }
 
+  const PlantBrief& brief_;
+  const GrowthStage& stage_;
   RandomSequence random_;
-  float spacing_, fruit_, top_;
+  float fruit_, top_, lobes_;
+  float leaf_size_ = 0.09f;
+  std::vector<Node> nodes_;
   Grapevine plant_;
 };
 
 }  // namespace
 
-Grapevine grow_grapevine(const WorldConfig::Vines& vines, std::uint64_t seed, int index) {
-  return Grower(vines, seed, index).grow();
+Grapevine grow_grapevine(const PlantBrief& brief, std::uint64_t seed, int index) {
+  return Grower(brief, seed, index).grow();
+}
+
+double leaf_area(const Grapevine& plant) {
+  double area = 0;
+  for (const BladePlacement& leaf : plant.leaves) {
+    area += static_cast<double>(leaf_outline_area(leaf.lobes) * leaf.size * leaf.size);
+  }
+  return area;
 }
 
 }  // namespace vinebench

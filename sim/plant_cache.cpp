@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/plant_cache.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "sim/asset_file.h"
@@ -13,11 +14,15 @@
 namespace vinebench {
 namespace {
 
+constexpr int kYoungTemplates = 2;
+
 /// Of the generator's sources, the seed and what it is told.
-std::string plant_name(const WorldConfig::Vines& vines, std::uint64_t seed, int index) {
-  const std::string key =
-      fmt::format("{} {} {} {} {} {}", VINEBENCH_PLANT_HASH, seed, vines.spacing,
-                  vines.lowest_bunch, vines.canopy_top, vines.canopy_depth);
+std::string plant_name(const PlantBrief& brief, std::uint64_t seed, int index) {
+  VinesConfig vines = brief.vines;
+  vines.cultivar.clear();  // its content counts, not its name
+  vines.meshes.clear();
+  const std::string key = fmt::format("{} {}\n{}{}", VINEBENCH_PLANT_HASH, seed, format_yaml(vines),
+                                      format_yaml(brief.cultivar));
   return fmt::format("vine-{:016x}-{}.glb", fnv1a(key), index);
 }
 
@@ -40,24 +45,42 @@ std::optional<Asset> cached_plant(const std::filesystem::path& file) {
   }
 }
 
-}  // namespace
-
-std::vector<Asset> cached_plants(const WorldConfig::Vines& vines, std::uint64_t seed,
-                                 const std::filesystem::path& cache) {
-  make_folder(cache);
-  std::vector<Texture> textures;
-  std::vector<Asset> plants;
-  for (int i = 0; i < vines.templates; ++i) {
-    const std::filesystem::path file = cache / plant_name(vines, seed, i);
-    std::optional<Asset> plant = cached_plant(file);
-    if (!plant) {
-      if (textures.empty()) textures = plant_textures(seed);
-      write_file_atomically(file, to_glb(mesh_grapevine(grow_grapevine(vines, seed, i), textures)));
-      plant = load_asset(file);  // the first run sees what all later ones will
-    }
-    plants.push_back(*std::move(plant));
+std::vector<Grapevine> grow(PlantBrief brief, std::uint64_t seed, int count) {
+  std::vector<Grapevine> plants;
+  for (int i = 0; i < count; ++i) {
+    brief.young = i >= brief.vines.templates;
+    plants.push_back(grow_grapevine(brief, seed, brief.young ? i - brief.vines.templates : i));
   }
   return plants;
+}
+
+}  // namespace
+
+PlantSet cached_plants(const VinesConfig& vines, std::uint64_t seed,
+                       const std::filesystem::path& cache) {
+  const PlantBrief brief{vines, load_cultivar(vines.cultivar), growth_stage(vines.bbch), false};
+  make_folder(cache);
+  const int count = vines.templates + (vines.young > 0 ? kYoungTemplates : 0);
+  std::vector<std::optional<Asset>> plants;
+  for (int i = 0; i < count; ++i)
+    plants.push_back(cached_plant(cache / plant_name(brief, seed, i)));
+  const bool whole =
+      std::ranges::all_of(plants, [](const auto& plant) { return plant.has_value(); });
+  if (!whole) {
+    const auto textures = plant_textures(brief.cultivar, brief.stage, seed);
+    const std::vector<Asset> assets = mesh_grapevines(grow(brief, seed, count), textures);
+    for (int i = 0; i < count; ++i) {
+      const std::filesystem::path file = cache / plant_name(brief, seed, i);
+      write_file_atomically(file, to_glb(assets.at(static_cast<std::size_t>(i))));
+      plants.at(static_cast<std::size_t>(i)) = load_asset(file);  // as all later runs will see it
+    }
+  }
+  PlantSet set;
+  for (int i = 0; i < count; ++i) {
+    std::vector<Asset>& to = i < vines.templates ? set.grown : set.young;
+    to.push_back(*std::move(plants.at(static_cast<std::size_t>(i))));
+  }
+  return set;
 }
 
 }  // namespace vinebench

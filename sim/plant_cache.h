@@ -6,14 +6,20 @@
 #include <vector>
 
 #include "sim/asset.h"
-#include "sim/world.h"
+#include "sim/vines.h"
 
 namespace vinebench {
 
-/// The plants of a world, one for each template: read from the folder `cache`, or grown from the
-/// seed and kept there as .glb files. Their names hold a hash of all that shapes them; a file that
-/// is damaged is grown anew. Throws Error when the folder cannot be written.
-std::vector<Asset> cached_plants(const WorldConfig::Vines& vines, std::uint64_t seed,
-                                 const std::filesystem::path& cache);
+/// The plants of a world, one for each template.
+struct PlantSet {
+  std::vector<Asset> grown;
+  std::vector<Asset> young;  ///< of the second year; none where the world has none
+};
+
+/// Read from the folder `cache`, or grown from the seed and kept there as .glb files. Their names
+/// hold a hash of all that shapes them; when one is missing or damaged all are grown anew. Throws
+/// Error when the folder cannot be written or the cultivar's file cannot be read.
+PlantSet cached_plants(const VinesConfig& vines, std::uint64_t seed,
+                       const std::filesystem::path& cache);
 
 }  // namespace vinebench

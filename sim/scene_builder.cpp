@@ -16,17 +16,24 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0;
 
+/// Models to choose from for each place of a row.
+struct PlantModels {
+  std::vector<int> grown;
+  std::vector<int> young;
+};
+
 /// The world's own meshes, or the plants that are grown for it.
-std::vector<int> add_plants(Scene& scene, const WorldConfig& world, std::uint64_t seed,
-                            const std::filesystem::path& cache) {
-  std::vector<int> models;
+PlantModels add_plants(Scene& scene, const WorldConfig& world, std::uint64_t seed,
+                       const std::filesystem::path& cache) {
+  PlantModels models;
   for (const std::filesystem::path& mesh : world.vines.meshes) {
-    models.push_back(add_asset(scene, load_asset(mesh)));
+    models.grown.push_back(add_asset(scene, load_asset(mesh)));
   }
-  if (!models.empty()) return models;
-  for (Asset& plant : cached_plants(world.vines, seed, cache)) {
-    models.push_back(add_asset(scene, std::move(plant)));
-  }
+  models.young = models.grown;
+  if (!models.grown.empty()) return models;
+  PlantSet plants = cached_plants(world.vines, seed, cache);
+  for (Asset& plant : plants.grown) models.grown.push_back(add_asset(scene, std::move(plant)));
+  for (Asset& plant : plants.young) models.young.push_back(add_asset(scene, std::move(plant)));
   return models;
 }
 
@@ -42,16 +49,24 @@ std::vector<double> vine_headings(const WorldConfig& world) {
   return headings;
 }
 
-/// Plants in their rows: which template, which way round and how tall is drawn for each place.
+/// Plants in their rows: which template, which way round and how tall is drawn for each place. Wood
+/// that is led to one side only points the same way all along a row.
 void add_vines(Scene& scene, const WorldConfig& world, std::uint64_t seed,
                const std::filesystem::path& cache) {
-  const std::vector<int> models = add_plants(scene, world, seed, cache);
+  const PlantModels models = add_plants(scene, world, seed, cache);
   const std::vector<Eigen::Vector2d> places = vine_positions(world);
   const std::vector<double> headings = vine_headings(world);
+  const bool one_sided = world.vines.training == Training::kUnilateralCordon ||
+                         world.vines.training == Training::kSingleGuyot;
+  const RandomStream gaps(seed, "vine gaps");
   for (std::size_t i = 0; i < places.size(); ++i) {
     RandomSequence random(RandomStream(seed, "vine", i));
-    const int model = models.at(random.below(static_cast<int>(models.size())));
-    const double turn = headings[i] + random.below(2) * std::numbers::pi;
+    const double stands = gaps.uniform(i);
+    if (stands < world.vines.missing) continue;
+    const bool young = stands < world.vines.missing + world.vines.young;
+    const std::vector<int>& choice = young ? models.young : models.grown;
+    const int model = choice.at(random.below(static_cast<int>(choice.size())));
+    const double turn = headings[i] + (one_sided ? 0 : random.below(2)) * std::numbers::pi;
     const Pose pose{from_roll_pitch_yaw({0, 0, turn}), {places[i].x(), places[i].y(), 0}};
     const auto scale = static_cast<float>(random.uniform(1.0, kLargestPlantScale));
     scene.instances.push_back({model, pose, scale, static_cast<int>(i)});

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
 
+#include "sim/cultivar.h"
+#include "sim/grapevine_stage.h"
 #include "sim/plant_geometry.h"
 #include "sim/scene.h"
 #include "slam/base/random.h"
@@ -30,20 +32,25 @@ cv::Mat mix(const cv::Mat& amount, const cv::Mat& a, const cv::Mat& b);
 /// CV_32FC3 of 0 to 255 (and 8-bit alpha, opaque where empty) to the CV_8UC4 of a Texture.
 cv::Mat to_rgba(const cv::Mat& rgb, const cv::Mat& alpha = {});
 
-/// Atlas of eight vine leaves, alpha outside the blade.
-Texture leaf_texture(std::uint64_t seed);
+/// Atlas of eight vine leaves, alpha outside the blade: 0 to 3 in their prime, 4 and 5 old, 6
+/// young, 7 turned; once leaves fall, 4 to 7 are yellow to brown.
+Texture leaf_texture(std::uint64_t seed, const Cultivar& cultivar = {},
+                     const GrowthStage& stage = {});
 inline constexpr int kLeafVariants = 8;
 TextureCell leaf_cell(int variant);
 
-/// Atlas of four clumps of leaves for far plants, made of leaf_texture's.
-Texture foliage_texture(std::uint64_t seed, const Texture& leaves);
-inline constexpr int kFoliageVariants = 4;
-TextureCell foliage_cell(int variant);
-
 Texture bark_texture(std::uint64_t seed);
-Texture cane_texture(std::uint64_t seed);
-Texture berry_texture(std::uint64_t seed);  ///< one berry seen along its dome's axis
-Texture bunch_texture(std::uint64_t seed);  ///< many berries, for bunches seen from afar
+
+/// Shoots of this year in the left half, canes of last year in the right one.
+Texture cane_texture(std::uint64_t seed, const GrowthStage& stage = {});
+
+/// Packed berries round a bunch in the left half, four berries seen from outside in the right one;
+/// flowers before fruit set.
+Texture bunch_texture(std::uint64_t seed, const Cultivar& cultivar = {},
+                      const GrowthStage& stage = {});
+inline constexpr int kBerryVariants = 4;
+TextureCell berry_cell(int variant);
+TextureCell packed_berries_cell();
 
 Texture soil_texture(std::uint64_t seed);  ///< for kSoilTile metres a side
 inline constexpr double kSoilTile = 2.3;   ///< m; no multiple of usual spacings

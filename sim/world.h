@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/scene.h"
+#include "sim/vines.h"
 #include "slam/base/pose.h"
 #include "slam/base/slam_system.h"
 #include "slam/base/yaml.h"
@@ -28,25 +29,7 @@ struct WorldConfig {
       archive.require((end - start).norm() > 0.1, "end", "expected a row of at least 0.1 m");
     }
   };
-  struct Vines {
-    double spacing = 1.0;        ///< m between plants
-    double lowest_bunch = 0.60;  ///< m above ground
-    double canopy_top = 1.5;     ///< m above ground
-    double canopy_depth = 0.30;  ///< m across the row
-    int templates = 6;           ///< different plants that are grown
-    /// Meshes to use in place of grown plants (.glb .gltf .stl .obj .dae), z up (glTF: y up), m.
-    std::vector<std::filesystem::path> meshes;
-    template <class Archive>
-    void serialize(Archive& archive) {
-      archive("spacing", spacing, Range::between(0.2, 20));
-      archive("lowest_bunch", lowest_bunch, Range::between(0.1, 3));
-      archive("canopy_top", canopy_top, Range::between(0.3, 5));
-      archive("canopy_depth", canopy_depth, Range::between(0.05, 3));
-      archive("templates", templates, Range::between(1, 64));
-      archive("meshes", meshes);
-      archive.require(canopy_top > lowest_bunch, "canopy_top", "expected more than lowest_bunch");
-    }
-  };
+  using Vines = VinesConfig;
   struct Trellis {
     double post_spacing = 2.0;                      ///< m; one always stands at either end of a row
     double post_height = 1.6;                       ///< m

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "sim/grapevine.h"
+
+namespace vinebench {
+
+/// How finely a bunch is drawn.
+struct BunchDetail {
+  int triangles = 0;  ///< of all the berries of a bunch, at most; 0 draws one solid
+  bool fine = false;  ///< berries that are round to their backs, where they face outwards
+  int sides = 6;      ///< of the solid, the core of the berries
+  int rings = 4;
+};
+
+/// Appends a bunch; its vertices carry `part`. The lowest one lies at the bunch's very bottom.
+void add_bunch(Primitive& primitive, const Bunch& bunch, int part, const BunchDetail& detail);
+
+/// Berries on the surface of the bunch, those inside left out.
+int visible_berries(const Bunch& bunch);
+
+}  // namespace vinebench

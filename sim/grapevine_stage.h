@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace vinebench {
+
+/// A vine at one point of its year, after the extended BBCH scale for grapes (Lorenz et al. 1995).
+/// Shares are of what the vine reaches in full leaf at harvest.
+struct GrowthStage {
+  int bbch = 89;
+  const char* name = "harvest";
+  float shoot = 1;         ///< length of the shoots
+  float leaf = 1;          ///< length of the leaves
+  float foliage = 1;       ///< leaf area
+  float autumn = 0;        ///< leaves that have turned
+  float bunch = 1;         ///< length of the bunches; 0 without any
+  float berry = 1;         ///< diameter of the berries
+  float ripe = 1;          ///< berries that have their colour
+  float lignified = 0.5f;  ///< shoots from green to brown
+};
+
+/// Stages 0, 9, 65, 75, 83, 89 and 95. Throws Error that names them for any other.
+const GrowthStage& growth_stage(int bbch);
+
+}  // namespace vinebench

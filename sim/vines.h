@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "slam/base/yaml.h"
+
+namespace vinebench {
+
+/// How the vine's old wood is led along the wire.
+enum class Training { kBilateralCordon, kUnilateralCordon, kSingleGuyot, kDoubleGuyot };
+
+inline std::vector<std::string> yaml_names(Training) {
+  return {"bilateral_cordon", "unilateral_cordon", "single_guyot", "double_guyot"};
+}
+
+/// Why `bbch` names no growth stage that can be grown; empty when it does.
+std::string bbch_problem(int bbch);
+
+/// The vines of a vineyard. What is usual, and who says so, stands in docs/plants.md.
+struct VinesConfig {
+  std::filesystem::path cultivar;  ///< YAML file; empty for a red wine grape built in
+  Training training = Training::kBilateralCordon;
+  int bbch = 89;               ///< growth stage: 0, 9, 65, 75, 83, 89 or 95
+  double spacing = 1.0;        ///< m between plants
+  double lowest_bunch = 0.60;  ///< m above ground
+  double canopy_top = 1.5;     ///< m above ground
+  double canopy_depth = 0.30;  ///< m across the row
+  double shoots = 13;          ///< of this year, a metre of row
+  double bunches = 1.0;        ///< a shoot, on average
+  double leaf_area = 2.0;      ///< m^2, one side of every blade of a metre of row in full leaf
+  double leaf_removal = 0.5;   ///< share of the leaves round the fruit that are taken off
+  double missing = 0;          ///< share of the places where no vine stands
+  double young = 0;            ///< share of the places with a vine of its second year
+  int templates = 6;           ///< different plants that are grown
+  /// Meshes to use in place of grown plants (.glb .gltf .stl .obj .dae), z up (glTF: y up), m.
+  std::vector<std::filesystem::path> meshes;
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("cultivar", cultivar);
+    archive("training", training);
+    archive("bbch", bbch);
+    archive("spacing", spacing, Range::between(0.2, 20));
+    archive("lowest_bunch", lowest_bunch, Range::between(0.1, 3));
+    archive("canopy_top", canopy_top, Range::between(0.3, 5));
+    archive("canopy_depth", canopy_depth, Range::between(0.05, 3));
+    archive("shoots", shoots, Range::between(1, 40));
+    archive("bunches", bunches, Range::between(0, 4));
+    archive("leaf_area", leaf_area, Range::between(0.1, 8));
+    archive("leaf_removal", leaf_removal, Range::between(0, 1));
+    archive("missing", missing, Range::between(0, 1));
+    archive("young", young, Range::between(0, 1));
+    archive("templates", templates, Range::between(1, 64));
+    archive("meshes", meshes);
+    archive.require(canopy_top > lowest_bunch, "canopy_top", "expected more than lowest_bunch");
+    archive.require(missing + young <= 1, "young", "expected at most 1 together with missing");
+    const std::string problem = bbch_problem(bbch);
+    archive.require(problem.empty(), "bbch", problem);
+  }
+};
+
+}  // namespace vinebench
