@@ -98,6 +98,11 @@ GlTexture make_texture(const std::vector<cv::Mat>& levels, bool repeat) {
   return texture;
 }
 
+void bind_texture(GLint unit, const GlTexture& texture) {
+  gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  gl.BindTexture(GL_TEXTURE_2D, texture.get());
+}
+
 GlTexture make_depth_texture(int size) {
   GlTexture texture(generate(gl.GenTextures));
   gl.BindTexture(GL_TEXTURE_2D, texture.get());

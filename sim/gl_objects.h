@@ -57,6 +57,9 @@ GlVertexArray make_vertex_array();
 /// A texture of the given mip levels (CV_8UC4, finest first): bilinear in the nearest level.
 GlTexture make_texture(const std::vector<cv::Mat>& levels, bool repeat);
 
+/// Makes it the texture of that unit, and the unit the active one.
+void bind_texture(GLint unit, const GlTexture& texture);
+
 /// A depth texture to draw into and to compare with; 1 (nothing there) outside of it.
 GlTexture make_depth_texture(int size);
 

@@ -14,11 +14,6 @@ constexpr std::array<GLenum, 4> kTargets{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHME
 constexpr std::array<GLenum, 4> kTruthTargets{GL_NONE, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2,
                                               GL_COLOR_ATTACHMENT3};
 
-void bind_texture(GLint unit, const GlTexture& texture) {
-  gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-  gl.BindTexture(GL_TEXTURE_2D, texture.get());
-}
-
 }  // namespace
 
 Painter::Painter(const Scene& scene, int shadow_map_size)
@@ -107,6 +102,7 @@ void Painter::draw_wires() const {
   gl.BlendFunc(GL_SRC1_COLOR, GL_ONE_MINUS_SRC1_COLOR);
   draw_wire_pieces(wire_program_);
   gl.Disable(GL_BLEND);
+  gl.BlendFunc(GL_ONE, GL_ZERO);  // two sources forbid several targets even where nothing blends
   gl.DepthMask(GL_TRUE);
 }
 
