@@ -76,6 +76,10 @@ namespace vinebench {
   X(DRAWBUFFERS, DrawBuffers)                                                                 \
   X(DRAWELEMENTSINSTANCEDBASEVERTEXBASEINSTANCE, DrawElementsInstancedBaseVertexBaseInstance) \
   X(VERTEXATTRIBIPOINTER, VertexAttribIPointer)                                               \
+  X(GENSAMPLERS, GenSamplers)                                                                 \
+  X(DELETESAMPLERS, DeleteSamplers)                                                           \
+  X(BINDSAMPLER, BindSampler)                                                                 \
+  X(SAMPLERPARAMETERI, SamplerParameteri)                                                     \
   X(BINDBUFFERBASE, BindBufferBase)                                                           \
   X(CLEARBUFFERFV, ClearBufferfv)                                                             \
   X(GETERROR, GetError)

@@ -65,6 +65,10 @@ void destroy_program(GLuint name) {
   gl.DeleteProgram(name);
 }
 
+void destroy_sampler(GLuint name) {
+  gl.DeleteSamplers(1, &name);
+}
+
 GlBuffer make_buffer(GLenum target, const void* data, std::size_t bytes) {
   GlBuffer buffer(generate(gl.GenBuffers));
   gl.BindBuffer(target, buffer.get());
@@ -117,6 +121,17 @@ GlTexture make_depth_texture(int size) {
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
   return texture;
+}
+
+GlSampler make_coarse_depth_sampler() {
+  GlSampler sampler(generate(gl.GenSamplers));
+  gl.SamplerParameteri(sampler.get(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl.SamplerParameteri(sampler.get(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  gl.SamplerParameteri(sampler.get(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  gl.SamplerParameteri(sampler.get(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl.SamplerParameteri(sampler.get(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  gl.SamplerParameteri(sampler.get(), GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  return sampler;
 }
 
 void vertex_attribute(GLuint index, int components, std::size_t stride, std::size_t offset,

@@ -40,12 +40,14 @@ void destroy_vertex_array(GLuint name);
 void destroy_framebuffer(GLuint name);
 void destroy_renderbuffer(GLuint name);
 void destroy_program(GLuint name);
+void destroy_sampler(GLuint name);
 
 using GlBuffer = GlName<destroy_buffer>;
 using GlTexture = GlName<destroy_texture>;
 using GlVertexArray = GlName<destroy_vertex_array>;
 using GlFramebuffer = GlName<destroy_framebuffer>;
 using GlRenderbuffer = GlName<destroy_renderbuffer>;
+using GlSampler = GlName<destroy_sampler>;
 
 GlBuffer make_buffer(GLenum target, const void* data, std::size_t bytes);
 template <class T>
@@ -62,6 +64,9 @@ void bind_texture(GLint unit, const GlTexture& texture);
 
 /// A depth texture to draw into and to compare with; 1 (nothing there) outside of it.
 GlTexture make_depth_texture(int size);
+
+/// Compares with one texel of a depth texture in place of four.
+GlSampler make_coarse_depth_sampler();
 
 /// Enables attribute `index` of `components` floats of the bound array and buffer.
 void vertex_attribute(GLuint index, int components, std::size_t stride, std::size_t offset,

@@ -14,6 +14,7 @@ namespace vinebench {
 inline constexpr GLint kPictureUnit = 0;
 inline constexpr GLint kShadowUnit = 1;
 inline constexpr GLint kGroundLightUnit = 2;
+inline constexpr GLint kCoarseShadowUnit = 3;
 
 /// The leanest shader that shows the material.
 MeshShader shader_for(const Material& material);

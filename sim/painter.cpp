@@ -20,6 +20,7 @@ Painter::Painter(const Scene& scene, int shadow_map_size)
     : scene_(scene),
       shadow_map_(scene_, shadow_map_size),
       light_map_(scene_, shadow_map_, programs_, view_, shadow_map_size),
+      coarse_shadows_(make_coarse_depth_sampler()),
       sky_program_("sky", sky_vertex_shader(), sky_fragment_shader()),
       sky_(make_texture({sky_picture(scene.light, scene.seed)}, false)),
       no_vertices_(make_vertex_array()),
@@ -129,6 +130,8 @@ void Painter::draw(const PinholeCamera& camera, const Pose& T_world_cam, double 
   clear(truth);
   bind_texture(kGroundLightUnit, light_map_.texture());
   bind_texture(kShadowUnit, shadow_map_.texture());
+  bind_texture(kCoarseShadowUnit, shadow_map_.texture());
+  gl.BindSampler(kCoarseShadowUnit, coarse_shadows_.get());
   gl.ActiveTexture(GL_TEXTURE0 + kPictureUnit);
   draw_meshes(list, false, truth);
   draw_meshes(list, true, truth);

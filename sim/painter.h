@@ -34,6 +34,7 @@ class Painter {
   MeshPrograms programs_;
   ShadowMap shadow_map_;
   LightMap light_map_;
+  GlSampler coarse_shadows_;  ///< for vertices
   GlProgram sky_program_;
   GlTexture sky_;
   GlVertexArray no_vertices_;

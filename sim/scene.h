@@ -62,7 +62,7 @@ struct Primitive {
   std::vector<std::uint32_t> indices;
 };
 
-inline constexpr double kLevelFocalLength = 500;  ///< px
+inline constexpr double kLevelFocalLength = 750;  ///< px
 
 struct LevelOfDetail {
   /// m from a camera of kLevelFocalLength; the next level is drawn beyond. Longer lenses see the

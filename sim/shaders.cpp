@@ -28,7 +28,7 @@ layout(std140, binding = 0) uniform View {
 )";
 
 constexpr const char* kLighting = R"(
-layout(binding = 1) uniform sampler2DShadow shadow_map;
+layout(binding = 3) uniform sampler2DShadow coarse_shadow_map;
 
 vec3 encode(vec3 light) { return pow(light, vec3(1.0 / 2.2)); }
 
@@ -133,7 +133,7 @@ void main() {
   v_sun = encode(shade + lit) - v_shade;
   v_shadow = p_shadow;
 #else
-  v_light = encode(shade + lit * textureLod(shadow_map, p_shadow, 0.0));
+  v_light = encode(shade + lit * textureLod(coarse_shadow_map, p_shadow, 0.0));
 #endif
 #endif
 }
