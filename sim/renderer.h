@@ -43,6 +43,7 @@ class Renderer {
   struct Request {
     bool labels = false;
     bool depth = false;
+    double exposure = 1;  ///< all light is multiplied by this before it is encoded
   };
   Picture render(const PinholeCamera& camera, const Pose& T_world_cam, const Request& request);
 
