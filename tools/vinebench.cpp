@@ -1,175 +1,33 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <signal.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <iostream>
-#include <limits>
-#include <thread>
 
-#include "scenarios/scenarios.h"
 #include "slam/base/error.h"
+#include "tools/commands.h"
 #include "tools/versions.h"
 
 namespace vinebench {
 namespace {
 
-constexpr int kExpectationFailed = 1;
-constexpr int kBadInput = 2;
-constexpr int kInternalError = 3;
-constexpr int kSignalBase = 128;  // a shell's convention for a program that a signal ended
-
-volatile sig_atomic_t g_signal = 0;
-
-/// The first ^C ends the run after its frame; a second one ends the program at once.
-void catch_interrupts() {
-  struct sigaction action {};
-  action.sa_handler = [](int signal) { g_signal = signal; };
-  action.sa_flags = SA_RESETHAND;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
-
-struct RunArguments {
-  std::string scenario;
-  std::optional<std::int64_t> seed;
-  std::string out;
-  std::vector<std::string> overrides;
-  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  bool verify_determinism = false;
-};
-
-ScenarioConfig scenario_of(const RunArguments& arguments) {
-  std::vector<Override> overrides;
-  for (const std::string& text : arguments.overrides) overrides.push_back(parse_override(text));
-  ScenarioConfig scenario = load_scenario(arguments.scenario, overrides);
-  if (arguments.seed) scenario.seed = *arguments.seed;
-  return scenario;
-}
-
-RunOptions options_of(const ScenarioConfig& scenario, const char* title) {
-  RunOptions options;
-  options.progress = &std::cerr;
-  options.terminal = isatty(STDERR_FILENO) == 1;
-  options.title = fmt::format("{}{}", scenario.name, title);
-  options.stopped = [] { return g_signal != 0; };
-  return options;
-}
-
-void print_verdict(const ScenarioConfig& scenario, const RunOutcome& outcome,
-                   const std::filesystem::path& folder) {
-  fmt::print("\n{}: {} ({} frames in {:.0f} s, hash {})\n{}results: {}\n", scenario.name,
-             all_hold(outcome.checks) ? "PASSED" : "FAILED", outcome.frames,
-             outcome.metrics["wall_seconds"].get<double>(), outcome.hash,
-             format_checks(outcome.checks), std::filesystem::absolute(folder).string());
-}
-
-int report_interruption(const RunOutcome& outcome, const std::filesystem::path& folder) {
-  fmt::print(stderr, "vinebench: stopped after {} frames; what there is of them is in {}\n",
-             outcome.frames, folder.string());
-  return kSignalBase + g_signal;
-}
-
-/// Runs once more, without files, and compares.
-int verify_determinism(const ScenarioConfig& scenario, int threads, const std::string& first) {
-  const RunOutcome again = run_scenario(scenario, threads, options_of(scenario, " (again)"));
-  if (again.interrupted) {
-    fmt::print(stderr, "vinebench: stopped in the second run; determinism is not verified\n");
-    return kSignalBase + g_signal;
-  }
-  if (again.hash == first) {
-    fmt::print("determinism: both runs have hash {}\n", first);
-    return 0;
-  }
-  fmt::print("determinism: FAILED, the first run has hash {}, the second {}\n", first, again.hash);
-  return kExpectationFailed;
-}
-
-int run(const RunArguments& arguments) {
-  const ScenarioConfig scenario = scenario_of(arguments);
-  const std::filesystem::path folder = arguments.out.empty()
-                                           ? std::filesystem::path("out") / scenario.name
-                                           : std::filesystem::path(arguments.out);
-  prepare_run_folder(folder, scenario);
-  catch_interrupts();
-  RunOptions options = options_of(scenario, "");
-  options.folder = folder;
-  const RunOutcome outcome = run_scenario(scenario, arguments.threads, options);
-  if (outcome.interrupted) return report_interruption(outcome, folder);
-  print_verdict(scenario, outcome, folder);
-  std::fflush(stdout);
-  const int repeated = arguments.verify_determinism
-                           ? verify_determinism(scenario, arguments.threads, outcome.hash)
-                           : 0;
-  return repeated != 0 ? repeated : all_hold(outcome.checks) ? 0 : kExpectationFailed;
-}
-
-int eval(const std::string& truth_file, const std::string& estimate_file) {
-  const Trajectory truth = read_tum(truth_file);
-  const Trajectory estimate = read_tum(estimate_file);
-  const std::optional<Evaluation> evaluation = evaluate(truth, estimate);
-  if (!evaluation) {
-    fail("{}: fewer than three of its {} poses are within 0.01 s of one of {}", estimate_file,
-         estimate.size(), truth_file);
-  }
-  const auto print = [](const char* name, double value) {
-    fmt::print("{:<20} {:.9f}\n", name, value);
-  };
-  fmt::print("{:<20} {}\n", "poses", evaluation->pairs);
-  print("ate_rmse_m", evaluation->ate.rmse);
-  print("ate_mean_m", evaluation->ate.mean);
-  print("ate_median_m", evaluation->ate.median);
-  print("ate_max_m", evaluation->ate.max);
-  print("ate_origin_rmse_m", evaluation->origin.rmse);
-  if (evaluation->rpe_trans_percent) print("rpe_trans_percent", *evaluation->rpe_trans_percent);
-  return 0;
-}
-
-void add_run(CLI::App& app, RunArguments& arguments) {
-  CLI::App* run = app.add_subcommand("run", "Run a scenario and judge it");
-  run->add_option("SCENARIO", arguments.scenario, "Scenario file (YAML)")->required();
-  run->add_option("--seed", arguments.seed, "Seed in place of the scenario's")
-      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
-  run->add_option("--out", arguments.out,
-                  "Folder for the results (default: out/<scenario's name>)");
-  run->add_option(
-         "--set", arguments.overrides,
-         "Set a key of the scenario, e.g. world.sun.elevation_deg=20; may stand many times")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  run->add_option("--threads", arguments.threads, "Threads to share the work; changes no result")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
-  run->add_flag("--verify-determinism", arguments.verify_determinism,
-                "Run twice and fail unless both runs are the same to the byte");
-  run->footer(
-      "Exit code: 0 when the scenario's expectations hold, 1 when they do not (or two runs "
-      "differ), "
-      "2 for bad input, 130 when interrupted.");
-}
-
 int dispatch(int argc, char** argv) {
   CLI::App app{"Deterministic test bench for multicamera visual SLAM in vineyards", "vinebench"};
   app.require_subcommand(0, 1);
   app.set_version_flag("--version", versions_text());
-  RunArguments arguments;
-  add_run(app, arguments);
-  CLI::App* eval_command = app.add_subcommand("eval", "Compare two trajectories in TUM format");
-  std::string truth;
-  std::string estimate;
-  eval_command->add_option("GROUNDTRUTH", truth, "True trajectory (TUM)")->required();
-  eval_command->add_option("ESTIMATE", estimate, "Estimated trajectory (TUM)")->required();
+  Command chosen;
+  add_run_command(app, chosen);
+  add_eval_command(app, chosen);
+  add_render_command(app, chosen);
+  add_bench_command(app, chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kBadInput;
   }
-  if (app.get_subcommands().empty()) fail("expected a sub-command, run or eval (see --help)");
-  return eval_command->parsed() ? eval(truth, estimate) : run(arguments);
+  if (!chosen) fail("expected a sub-command, such as run or render (see --help)");
+  return chosen();
 }
 
 }  // namespace

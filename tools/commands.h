@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace vinebench {
+
+inline constexpr int kExpectationFailed = 1;
+inline constexpr int kBadInput = 2;
+inline constexpr int kInternalError = 3;
+
+/// What the command line asks for; its result is the program's exit code.
+using Command = std::function<int()>;
+
+// Each adds its sub-command to the program; parsing one of them sets `chosen`.
+void add_run_command(CLI::App& app, Command& chosen);
+void add_eval_command(CLI::App& app, Command& chosen);
+void add_render_command(CLI::App& app, Command& chosen);
+void add_bench_command(CLI::App& app, Command& chosen);
+
+}  // namespace vinebench

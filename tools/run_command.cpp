@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <thread>
+
+#include "scenarios/scenarios.h"
+#include "tools/commands.h"
+
+namespace vinebench {
+namespace {
+
+constexpr int kSignalBase = 128;  // a shell's convention for a program that a signal ended
+
+volatile sig_atomic_t g_signal = 0;
+
+/// The first ^C ends the run after its frame; a second one ends the program at once.
+void catch_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = [](int signal) { g_signal = signal; };
+  action.sa_flags = SA_RESETHAND;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+struct RunArguments {
+  std::string scenario;
+  std::optional<std::int64_t> seed;
+  std::string out;
+  std::vector<std::string> overrides;
+  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  bool verify_determinism = false;
+};
+
+ScenarioConfig scenario_of(const RunArguments& arguments) {
+  std::vector<Override> overrides;
+  for (const std::string& text : arguments.overrides) overrides.push_back(parse_override(text));
+  ScenarioConfig scenario = load_scenario(arguments.scenario, overrides);
+  if (arguments.seed) scenario.seed = *arguments.seed;
+  return scenario;
+}
+
+RunOptions options_of(const ScenarioConfig& scenario, const char* title) {
+  RunOptions options;
+  options.progress = &std::cerr;
+  options.terminal = isatty(STDERR_FILENO) == 1;
+  options.title = fmt::format("{}{}", scenario.name, title);
+  options.stopped = [] { return g_signal != 0; };
+  return options;
+}
+
+void print_verdict(const ScenarioConfig& scenario, const RunOutcome& outcome,
+                   const std::filesystem::path& folder) {
+  fmt::print("\n{}: {} ({} frames in {:.0f} s, hash {})\n{}results: {}\n", scenario.name,
+             all_hold(outcome.checks) ? "PASSED" : "FAILED", outcome.frames,
+             outcome.metrics["wall_seconds"].get<double>(), outcome.hash,
+             format_checks(outcome.checks), std::filesystem::absolute(folder).string());
+}
+
+int report_interruption(const RunOutcome& outcome, const std::filesystem::path& folder) {
+  fmt::print(stderr, "vinebench: stopped after {} frames; what there is of them is in {}\n",
+             outcome.frames, folder.string());
+  return kSignalBase + g_signal;
+}
+
+/// Runs once more, without files, and compares.
+int verify_determinism(const ScenarioConfig& scenario, int threads, const std::string& first) {
+  const RunOutcome again = run_scenario(scenario, threads, options_of(scenario, " (again)"));
+  if (again.interrupted) {
+    fmt::print(stderr, "vinebench: stopped in the second run; determinism is not verified\n");
+    return kSignalBase + g_signal;
+  }
+  if (again.hash == first) {
+    fmt::print("determinism: both runs have hash {}\n", first);
+    return 0;
+  }
+  fmt::print("determinism: FAILED, the first run has hash {}, the second {}\n", first, again.hash);
+  return kExpectationFailed;
+}
+
+int run(const RunArguments& arguments) {
+  const ScenarioConfig scenario = scenario_of(arguments);
+  const std::filesystem::path folder = arguments.out.empty()
+                                           ? std::filesystem::path("out") / scenario.name
+                                           : std::filesystem::path(arguments.out);
+  prepare_run_folder(folder, scenario);
+  catch_interrupts();
+  RunOptions options = options_of(scenario, "");
+  options.folder = folder;
+  const RunOutcome outcome = run_scenario(scenario, arguments.threads, options);
+  if (outcome.interrupted) return report_interruption(outcome, folder);
+  print_verdict(scenario, outcome, folder);
+  std::fflush(stdout);
+  const int repeated = arguments.verify_determinism
+                           ? verify_determinism(scenario, arguments.threads, outcome.hash)
+                           : 0;
+  return repeated != 0 ? repeated : all_hold(outcome.checks) ? 0 : kExpectationFailed;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, Command& chosen) {
+  const auto arguments = std::make_shared<RunArguments>();
+  CLI::App* run = app.add_subcommand("run", "Run a scenario and judge it");
+  run->add_option("SCENARIO", arguments->scenario, "Scenario file (YAML)")->required();
+  run->add_option("--seed", arguments->seed, "Seed in place of the scenario's")
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
+  run->add_option("--out", arguments->out,
+                  "Folder for the results (default: out/<scenario's name>)");
+  run->add_option(
+         "--set", arguments->overrides,
+         "Set a key of the scenario, e.g. world.sun.elevation_deg=20; may stand many times")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  run->add_option("--threads", arguments->threads, "Threads to share the work; changes no result")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  run->add_flag("--verify-determinism", arguments->verify_determinism,
+                "Run twice and fail unless both runs are the same to the byte");
+  run->footer(
+      "Exit code: 0 when the scenario's expectations hold, 1 when they do not (or two runs "
+      "differ), "
+      "2 for bad input, 130 when interrupted.");
+  run->callback(
+      [&chosen, arguments] { chosen = [arguments] { return vinebench::run(*arguments); }; });
+}
+
+}  // namespace vinebench
