@@ -50,7 +50,8 @@ cv::Mat mosaic(const cv::Mat& rgb, BayerPattern pattern) {
     const auto* from = rgb.ptr<cv::Vec3b>(y);
     auto* to = sites.ptr<std::uint8_t>(y);
     const std::size_t row = 2 * static_cast<std::size_t>(y % 2);
-    for (int x = 0; x < rgb.cols; ++x) to[x] = from[x][channel[row + static_cast<std::size_t>(x % 2)]];
+    for (int x = 0; x < rgb.cols; ++x)
+      to[x] = from[x][channel[row + static_cast<std::size_t>(x % 2)]];
   }
   return sites;
 }

@@ -13,13 +13,13 @@
 
 namespace vinebench {
 
-/// How the true rig, which takes the pictures, differs from the one that its users are told of. None
-/// by default.
+/// How the true rig, which takes the pictures, differs from the one that its users are told of.
+/// None by default.
 struct CalibrationErrorConfig {
   /// One camera's own difference, added to the drawn one.
   struct Camera {
     std::string name;
-    Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, along the camera's x, y, z
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< m, along the camera's x, y, z
     Eigen::Vector3d rotation_deg = Eigen::Vector3d::Zero();  ///< rotation vector in its own axes
     Eigen::Vector2d focal_px = Eigen::Vector2d::Zero();
     Eigen::Vector2d principal_point_px = Eigen::Vector2d::Zero();

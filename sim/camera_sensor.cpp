@@ -104,7 +104,8 @@ Stamp CameraSensor::readout_delay(const LensBand& band) const {
 
 bool CameraSensor::changes_light(Stamp instant) const {
   return !vignette_.empty() || fixed_pattern_ ||
-         std::ranges::any_of(covers_, [&](const LensCover& c) { return c.scope.holds_at(instant); });
+         std::ranges::any_of(covers_,
+                             [&](const LensCover& c) { return c.scope.holds_at(instant); });
 }
 
 void CameraSensor::develop(cv::Mat& picture, const Shot& shot) {

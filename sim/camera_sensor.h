@@ -26,11 +26,11 @@ struct CameraSensorConfig {
   ExposureConfig exposure;
   PhotonTransferConfig noise;
   FixedPatternConfig fixed_pattern;
-  double gamma = 2.2;           ///< code / 255 = signal^(1 / gamma); 1 is linear
+  double gamma = 2.2;  ///< code / 255 = signal^(1 / gamma); 1 is linear
   VignettingConfig vignetting;
-  int blur_subframes = 1;       ///< instants that an exposure is the mean of; 1 draws no blur
-  double readout_time = 0;      ///< s from the first row's exposure to the last's; 0: all at once
-  int readout_bands = 16;       ///< bands of rows, each drawn as of one instant
+  int blur_subframes = 1;   ///< instants that an exposure is the mean of; 1 draws no blur
+  double readout_time = 0;  ///< s from the first row's exposure to the last's; 0: all at once
+  int readout_bands = 16;   ///< bands of rows, each drawn as of one instant
   BayerPattern bayer = BayerPattern::kNone;
   std::vector<LensDirtConfig> dirt;
   std::vector<LensLeafConfig> leaves;
@@ -76,8 +76,8 @@ class CameraSensor {
   };
   /// The body's pose at an instant within half_window() of the shot's.
   using PoseAt = std::function<Pose(Stamp)>;
-  using Render =
-      std::function<Picture(const PinholeCamera&, const Pose& T_world_cam, const Renderer::Request&)>;
+  using Render = std::function<Picture(const PinholeCamera&, const Pose& T_world_cam,
+                                       const Renderer::Request&)>;
 
   /// Labels and depth are those of the middle sub-frame, through the same lens.
   Picture capture(const Shot& shot, const PoseAt& T_world_body, const Render& render);

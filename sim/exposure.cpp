@@ -60,7 +60,8 @@ void ExposureControl::observe(const std::vector<cv::Mat>& images) {
 
 void ExposureControl::steer(Group& group, double brightness) const {
   Exposure& now = group.exposure;
-  const double wanted = light_of_code(config_.target) / light_of_code(std::max(brightness, kDarkest));
+  const double wanted =
+      light_of_code(config_.target) / light_of_code(std::max(brightness, kDarkest));
   const double product = now.time * from_db(now.gain_db) * std::pow(wanted, step_);
   now.time = std::clamp(product, config_.min_time, config_.max_time);
   now.gain_db = std::clamp(20 * std::log10(product / now.time), 0.0, config_.max_gain_db);

@@ -28,7 +28,7 @@ cv::Mat normal_map(cv::Size size, double mean, double sigma, const RandomStream&
 
 FixedPattern::FixedPattern(const FixedPatternConfig& config, cv::Size size, std::uint64_t seed,
                            int camera) {
-  const std::string end = "." + std::to_string(camera);
+  const std::string end = fmt::format(".{}", camera);
   response_ =
       normal_map(size, 1, config.response, RandomStream(seed, "sensor.pixel_response" + end));
   offset_ = normal_map(size, 0, config.offset, RandomStream(seed, "sensor.pixel_offset" + end));

@@ -12,10 +12,10 @@ namespace vinebench {
 
 /// What a sensor's pixels have each of their own, the same in every picture. Off by default.
 struct FixedPatternConfig {
-  double response = 0;            ///< standard deviation of a pixel's sensitivity, share (PRNU)
-  double offset = 0;              ///< standard deviation of a pixel's black, electrons (DSNU)
-  double hot_pixels = 0;          ///< share of pixels that leak
-  double hot_pixel_current = 1e6; ///< electrons/s, mean of the leaks (exponentially distributed)
+  double response = 0;             ///< standard deviation of a pixel's sensitivity, share (PRNU)
+  double offset = 0;               ///< standard deviation of a pixel's black, electrons (DSNU)
+  double hot_pixels = 0;           ///< share of pixels that leak
+  double hot_pixel_current = 1e6;  ///< electrons/s, mean of the leaks (exponentially distributed)
   template <class Archive>
   void serialize(Archive& archive) {
     archive("response", response, Range::between(0, 0.5));

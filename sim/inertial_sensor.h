@@ -14,12 +14,12 @@ namespace vinebench {
 
 /// Three axes of a gyroscope (unit u = rad/s) or an accelerometer (u = m/s^2).
 struct InertialAxesConfig {
-  double noise_density = 0;      ///< u/sqrt(Hz), white noise (Allan's N)
-  double bias_random_walk = 0;   ///< u/s/sqrt(Hz), white noise of the bias's rate (Allan's K)
-  double bias_instability = 0;   ///< u, standard deviation of a bias that wanders and comes back
-  double correlation_time = 100; ///< s, in which that one does
-  double initial_bias = 0;       ///< u, standard deviation of an axis's bias at the start
-  double range = 0;              ///< u, beyond which it saturates; 0: it never does
+  double noise_density = 0;       ///< u/sqrt(Hz), white noise (Allan's N)
+  double bias_random_walk = 0;    ///< u/s/sqrt(Hz), white noise of the bias's rate (Allan's K)
+  double bias_instability = 0;    ///< u, standard deviation of a bias that wanders and comes back
+  double correlation_time = 100;  ///< s, in which that one does
+  double initial_bias = 0;        ///< u, standard deviation of an axis's bias at the start
+  double range = 0;               ///< u, beyond which it saturates; 0: it never does
   template <class Archive>
   void serialize(Archive& archive) {
     archive("noise_density", noise_density, Range::between(0, 100));

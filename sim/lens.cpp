@@ -11,8 +11,8 @@
 namespace vinebench {
 namespace {
 
-constexpr int kLargestView = 8192;   // pixels a side
-constexpr int kMargin = 2;           // pixels around what the lens sees
+constexpr int kLargestView = 8192;  // pixels a side
+constexpr int kMargin = 2;          // pixels around what the lens sees
 constexpr double kMostStretch = 1.5;
 
 /// The point of the plane z = 1 that each pixel sees, CV_64FC2.
@@ -44,8 +44,8 @@ double magnification(const PinholeCamera& camera, const cv::Mat& points) {
       const cv::Vec2d here = points.at<cv::Vec2d>(y, x);
       const cv::Vec2d left = points.at<cv::Vec2d>(y, x - 1);
       const cv::Vec2d above = points.at<cv::Vec2d>(y - 1, x);
-      most = std::max({most, 1 / (camera.fx * (here[0] - left[0])),
-                       1 / (camera.fy * (here[1] - above[1]))});
+      most = std::max(
+          {most, 1 / (camera.fx * (here[0] - left[0])), 1 / (camera.fy * (here[1] - above[1]))});
     }
   }
   return std::min(most, kMostStretch);

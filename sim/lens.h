@@ -11,11 +11,11 @@ namespace vinebench {
 
 /// Some rows of a camera's picture and the ideal pinhole view that shows them.
 struct LensBand {
-  int top = 0;          ///< first row
+  int top = 0;  ///< first row
   int rows = 0;
-  PinholeCamera view;   ///< without distortion; what is to be rendered
-  cv::Mat map;          ///< CV_16SC2 and CV_16UC1 as cv::convertMaps makes them: for each pixel of
-  cv::Mat map_fraction; ///< the rows its place in the view; empty where the view is the rows
+  PinholeCamera view;    ///< without distortion; what is to be rendered
+  cv::Mat map;           ///< CV_16SC2 and CV_16UC1 as cv::convertMaps makes them: for each pixel of
+  cv::Mat map_fraction;  ///< the rows its place in the view; empty where the view is the rows
 
   /// From the view to the rows: between pixels for colours, the nearest pixel for everything else.
   cv::Mat resample(const cv::Mat& picture, bool nearest) const;

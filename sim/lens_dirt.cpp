@@ -34,7 +34,8 @@ std::vector<cv::Point> speck_outline(const Eigen::Vector2d& middle, double radiu
   std::vector<cv::Point> outline;
   for (int i = 0; i < kCorners; ++i) {
     const double a = 2 * std::numbers::pi * i / kCorners;
-    const double r = radius * (1 + dent * std::cos(2 * a + phase_2) + dent * std::cos(3 * a + phase_3));
+    const double r =
+        radius * (1 + dent * std::cos(2 * a + phase_2) + dent * std::cos(3 * a + phase_3));
     outline.push_back(fixed_point(middle.x() + r * std::cos(a), middle.y() + r * std::sin(a)));
   }
   return outline;
@@ -47,8 +48,11 @@ double leaf_radius(double angle) {
   struct Lobe {
     double angle, length, width;
   };
-  constexpr std::array<Lobe, 5> kLobes{
-      {{0, 1.0, 0.46}, {1.05, 0.88, 0.48}, {-1.05, 0.88, 0.48}, {2.15, 0.70, 0.55}, {-2.15, 0.70, 0.55}}};
+  constexpr std::array<Lobe, 5> kLobes{{{0, 1.0, 0.46},
+                                        {1.05, 0.88, 0.48},
+                                        {-1.05, 0.88, 0.48},
+                                        {2.15, 0.70, 0.55},
+                                        {-2.15, 0.70, 0.55}}};
   double radius = 0.12;
   for (const Lobe& lobe : kLobes) {
     const double off = (a - lobe.angle) / lobe.width;
@@ -83,7 +87,8 @@ LensCover make_lens_dirt(const LensDirtConfig& config, cv::Size size, std::uint6
   for (int i = 0; i < config.count; ++i) {
     const Eigen::Vector2d middle(random.uniform(0, size.width), random.uniform(0, size.height));
     const double share = random.uniform();
-    const double radius = config.radius_px[0] + (config.radius_px[1] - config.radius_px[0]) * share * share;
+    const double radius =
+        config.radius_px[0] + (config.radius_px[1] - config.radius_px[0]) * share * share;
     const double opacity = config.opacity * random.uniform(0.35, 1);
     cv::Mat speck = cv::Mat::zeros(size, CV_32FC1);
     cv::fillPoly(speck, std::vector<std::vector<cv::Point>>{speck_outline(middle, radius, random)},

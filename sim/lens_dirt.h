@@ -20,8 +20,8 @@ struct LensDirtConfig {
   std::array<double, 2> radius_px{4, 18};  ///< least and greatest, px; small ones are many
   double opacity = 0.6;                    ///< greatest share of the light that a speck takes
   double blur_px = 4;                      ///< standard deviation of its edge, px
-  double glow = 0.35;  ///< light that a speck scatters into the lens, of the picture's mean
-  std::int64_t pattern = 0;                ///< another number, another pattern
+  double glow = 0.35;        ///< light that a speck scatters into the lens, of the picture's mean
+  std::int64_t pattern = 0;  ///< another number, another pattern
   template <class Archive>
   void serialize(Archive& archive) {
     scope.serialize(archive);
@@ -57,8 +57,8 @@ struct LensLeafConfig {
 /// Something on the glass: it takes light and shines with a colour of its own, lit by the scene.
 struct LensCover {
   FaultScope scope;
-  cv::Mat opacity;         ///< CV_32FC1, 0 to 1
-  cv::Vec3f glow{0, 0, 0}; ///< linear colour where it is opaque, of the picture's mean light
+  cv::Mat opacity;          ///< CV_32FC1, 0 to 1
+  cv::Vec3f glow{0, 0, 0};  ///< linear colour where it is opaque, of the picture's mean light
 
   /// Onto linear light (CV_32FC3), in place.
   void apply(cv::Mat& light) const;

@@ -87,7 +87,8 @@ void PhotonTransfer::apply(cv::Mat& image, const RandomStream& stream) const {
   const std::uint8_t* table = table_.data();
   for (int y = 0; y < image.rows; ++y) {
     auto* row = image.ptr<std::uint8_t>(y);
-    std::uint64_t index = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(hashes_per_row);
+    std::uint64_t index =
+        static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(hashes_per_row);
     int x = 0;
     for (; x + kDrawsPerHash <= values; x += kDrawsPerHash) {
       const std::uint64_t bits = stream.bits(index++);
