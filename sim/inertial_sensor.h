@@ -31,9 +31,9 @@ struct InertialAxesConfig {
   }
 };
 
-/// An inertial unit. The defaults are those of a Bosch BMI088 (data sheet BST-BMI088-DS001: gyro
-/// 0.014 deg/s/sqrt(Hz), accelerometer 175 ug/sqrt(Hz), ranges 500 deg/s and 6 g), with biases as
-/// a calibration at rest leaves them.
+/// An inertial unit. The defaults are of the class of Bosch's BMI088 (0.014 deg/s/sqrt(Hz), 175
+/// ug/sqrt(Hz), set to 500 deg/s and 6 g); bias walk and initial bias are assumed, as a calibration
+/// at rest leaves them.
 struct InertialSensorConfig {
   InertialAxesConfig gyroscope{2.44e-4, 2e-6, 0, 100, 1e-3, 8.727};
   InertialAxesConfig accelerometer{1.72e-3, 1e-4, 0, 100, 2e-2, 58.84};

@@ -112,7 +112,7 @@ void add_map(LensBand& band, const PinholeCamera& whole, const cv::Mat& places) 
 cv::Mat LensBand::resample(const cv::Mat& picture, bool nearest) const {
   if (map.empty() || picture.empty()) return picture;
   cv::Mat rows_seen;
-  cv::remap(picture, rows_seen, map, map_fraction, nearest ? cv::INTER_NEAREST : cv::INTER_LINEAR,
+  cv::remap(picture, rows_seen, map, map_fraction, nearest ? cv::INTER_NEAREST : cv::INTER_CUBIC,
             cv::BORDER_REPLICATE);
   return rows_seen;
 }
