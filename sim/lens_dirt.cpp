@@ -41,25 +41,23 @@ std::vector<cv::Point> speck_outline(const Eigen::Vector2d& middle, double radiu
   return outline;
 }
 
-/// Radius of a five-lobed leaf at an angle off its tip, 1 at the tip: three lobes ahead, two behind
-/// and the notch at the stalk, each with teeth.
+/// Radius of a vine leaf's outline at an angle off its tip, 1 at the tip: a broad blade with five
+/// toothed lobes and a deep notch at the stalk.
 double leaf_radius(double angle) {
-  const double a = std::remainder(angle, 2 * std::numbers::pi);
   struct Lobe {
-    double angle, length, width;
+    double angle, length;
   };
-  constexpr std::array<Lobe, 5> kLobes{{{0, 1.0, 0.46},
-                                        {1.05, 0.88, 0.48},
-                                        {-1.05, 0.88, 0.48},
-                                        {2.15, 0.70, 0.55},
-                                        {-2.15, 0.70, 0.55}}};
-  double radius = 0.12;
+  constexpr std::array<Lobe, 5> kLobes{
+      {{0, 1.0}, {1.02, 0.92}, {-1.02, 0.92}, {2.05, 0.80}, {-2.05, 0.80}}};
+  const double a = std::remainder(angle, 2 * std::numbers::pi);
+  double blade = 0;
   for (const Lobe& lobe : kLobes) {
-    const double off = (a - lobe.angle) / lobe.width;
-    radius = std::max(radius, lobe.length * (0.42 + 0.58 * std::exp(-0.7 * off * off)) *
-                                  std::exp(-0.12 * off * off * off * off));
+    const double off = (a - lobe.angle) / 0.40;
+    blade = std::max(blade, lobe.length * (0.66 + 0.34 * std::exp(-off * off)));
   }
-  return radius * (1 + 0.05 * std::cos(34 * a));
+  const double from_stalk = (std::numbers::pi - std::abs(a)) / 0.42;
+  const double notch = 1 - 0.85 * std::exp(-from_stalk * from_stalk);
+  return blade * notch * (1 + 0.045 * std::cos(38 * a));
 }
 
 }  // namespace
@@ -111,7 +109,7 @@ LensCover make_lens_leaf(const LensLeafConfig& config, cv::Size size) {
     outline.push_back(fixed_point(config.position.x() * size.width + r * std::sin(a + turn),
                                   config.position.y() * size.height - r * std::cos(a + turn)));
   }
-  const cv::Vec3f backlit(0.18f, 0.30f, 0.05f);
+  const cv::Vec3f backlit(0.13f, 0.24f, 0.04f);
   LensCover cover{config.scope, cv::Mat::zeros(size, CV_32FC1), backlit};
   cv::fillPoly(cover.opacity, std::vector<std::vector<cv::Point>>{outline}, config.opacity,
                cv::LINE_8, kShift);

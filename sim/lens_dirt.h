@@ -17,9 +17,9 @@ namespace vinebench {
 struct LensDirtConfig {
   FaultScope scope;
   int count = 40;
-  std::array<double, 2> radius_px{4, 18};  ///< least and greatest, px; small ones are many
-  double opacity = 0.6;                    ///< greatest share of the light that a speck takes
-  double blur_px = 4;                      ///< standard deviation of its edge, px
+  std::array<double, 2> radius_px{5, 30};  ///< least and greatest, px; small ones are many
+  double opacity = 0.5;                    ///< greatest share of the light that a speck takes
+  double blur_px = 7;                      ///< standard deviation of its edge, px
   double glow = 0.35;        ///< light that a speck scatters into the lens, of the picture's mean
   std::int64_t pattern = 0;  ///< another number, another pattern
   template <class Archive>
@@ -41,7 +41,7 @@ struct LensLeafConfig {
   Eigen::Vector2d position{0.5, 0.5};  ///< of its middle, shares of the picture's width and height
   double size = 0.5;                   ///< its length, share of the picture's height
   double angle_deg = 0;                ///< its tip points up at 0, to the right at 90
-  double opacity = 0.97;               ///< share of the light that it takes
+  double opacity = 1;                  ///< share of the light that it takes
   double blur_px = 6;                  ///< standard deviation of its edge, px
   template <class Archive>
   void serialize(Archive& archive) {

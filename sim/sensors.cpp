@@ -6,17 +6,10 @@
 
 namespace vinebench {
 
-SensorsConfig perfect_sensors() {
-  SensorsConfig config;
-  config.camera.noise.enabled = false;
-  config.inertial.gyroscope = {};
-  config.inertial.accelerometer = {};
-  config.wheels.counts_per_turn = 0;
-  return config;
-}
+namespace {
 
-void check_camera_names(const SensorsConfig& config, const Rig& rig) {
-  std::vector<std::string> violations;
+void check_names(const SensorsConfig& config, const Rig& rig,
+                 std::vector<std::string>& violations) {
   const auto check = [&](const std::string& place, const std::string& camera) {
     if (rig.find_camera(camera) >= 0) return;
     violations.push_back(
@@ -40,6 +33,29 @@ void check_camera_names(const SensorsConfig& config, const Rig& rig) {
   for (std::size_t i = 0; i < config.calibration.cameras.size(); ++i) {
     check(fmt::format("calibration.cameras.{}", i), config.calibration.cameras[i].name);
   }
+}
+
+}  // namespace
+
+SensorsConfig perfect_sensors() {
+  SensorsConfig config;
+  config.camera.noise.enabled = false;
+  config.inertial.gyroscope = {};
+  config.inertial.accelerometer = {};
+  config.wheels.counts_per_turn = 0;
+  return config;
+}
+
+void check_sensors(const SensorsConfig& config, const Rig& rig) {
+  std::vector<std::string> violations;
+  const double taken = config.camera.exposure.longest() + config.camera.readout_time;
+  if (!(taken * rig.rate_hz <= 1)) {
+    violations.push_back(
+        fmt::format("sensors.camera: exposure and readout take up to {} s, expected at most the {} "
+                    "s between two frames of rig '{}'",
+                    taken, 1 / rig.rate_hz, rig.name));
+  }
+  check_names(config, rig, violations);
   throw_violations(violations);
 }
 

@@ -35,7 +35,8 @@ struct SensorsConfig {
 /// Perfect sensors: pictures as they are rendered, readings as the physics has them.
 SensorsConfig perfect_sensors();
 
-/// Throws one Error that lists every camera named in the configuration that is not in the rig.
-void check_camera_names(const SensorsConfig& config, const Rig& rig);
+/// Throws one Error that lists what does not go with the rig: names of cameras that it has not, and
+/// an exposure and readout that take longer than the time between its frames.
+void check_sensors(const SensorsConfig& config, const Rig& rig);
 
 }  // namespace vinebench

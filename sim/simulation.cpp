@@ -15,7 +15,7 @@ namespace {
 
 Rig checked_rig(const SimulationConfig& config) {
   Rig rig = load_rig(config.rover.rig);
-  check_camera_names(config.sensors, rig);
+  check_sensors(config.sensors, rig);
   return rig;
 }
 

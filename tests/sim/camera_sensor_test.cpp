@@ -374,7 +374,8 @@ class LensTest : public testing::Test {
   Renderer renderer_;
 };
 
-/// With squares of 150 px, more than two to a texel: edges so soft that the search does not feel the grid.
+/// With squares of 150 px, more than two to a texel: edges so soft that the search does not feel
+/// the grid.
 TEST_F(LensTest, PointsAreWhereTheCameraProjectsThem) {
   const Pose near = look_at({0.02, -0.24, 0.03}, {0.01, 0, 0}, 0.05);
   for (const std::array<double, 4>& distortion :

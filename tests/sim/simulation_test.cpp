@@ -200,6 +200,10 @@ TEST_F(SimulationTest, UnknownCamerasAndNumbersThatAreNoneAreRefused) {
                                  "'nobody'"));
   EXPECT_THAT(message, HasSubstr("sensors.drops.bursts.0.cameras"));
   wrong = config();
+  wrong.sensors.camera.exposure.time = 0.06;
+  wrong.sensors.camera.readout_time = 0.02;
+  EXPECT_THAT(test::error_of([&] { run(wrong); }), HasSubstr("take up to 0.08 s"));
+  wrong = config();
   wrong.sensors.camera.noise.full_well = std::nan("");
   wrong.sensors.calibration.focal_px = std::numeric_limits<double>::infinity();
   const std::string numbers = test::error_of([&] { run(wrong); });
