@@ -17,8 +17,8 @@ namespace vinebench {
 struct LensDirtConfig {
   FaultScope scope;
   int count = 40;
-  std::array<double, 2> radius_px{5, 30};  ///< least and greatest, px; small ones are many
-  double opacity = 0.5;                    ///< greatest share of the light that a speck takes
+  std::array<double, 2> radius_px{8, 45};  ///< least and greatest, px; small ones are many
+  double opacity = 0.8;                    ///< greatest share of the light that a speck takes
   double blur_px = 7;                      ///< standard deviation of its edge, px
   double glow = 0.35;        ///< light that a speck scatters into the lens, of the picture's mean
   std::int64_t pattern = 0;  ///< another number, another pattern
