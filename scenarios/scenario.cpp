@@ -47,6 +47,7 @@ ScenarioConfig load_scenario(const std::filesystem::path& file,
   }
   auto scenario = document.read<ScenarioConfig>();
   const Rig rig = load_rig(scenario.simulation.rover.rig);
+  check_sensors(scenario.simulation.sensors, rig);
   if (const auto& blind = scenario.expectations.blind) find_cameras(rig, blind->cameras);
   move_into(scenario.boxes, scenario.simulation.world.boxes);
   move_into(scenario.tags, scenario.simulation.world.tags);

@@ -7,28 +7,38 @@
 #include <chrono>
 #include <cmath>
 
+#include "sim/driven_rover.h"
 #include "sim/truth.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {
 
-/// The position loop runs at 50 Hz.
-constexpr Stamp kControlPeriod = kNanosecondsPerSecond / 50;
+Rig checked_rig(const SimulationConfig& config) {
+  Rig rig = load_rig(config.rover.rig);
+  check_sensors(config.sensors, rig);
+  return rig;
+}
 
 class Simulation : public FrameSource {
  public:
   Simulation(const SimulationConfig& config, std::uint64_t seed, const std::filesystem::path& cache,
              WorkerPool& pool)
       : config_(config),
-        seed_(seed),
         pool_(pool),
-        rig_(load_rig(config.rover.rig)),
-        route_(config.route),
-        rover_(config.rover, config.world, route_.start(), seed) {
+        told_rig_(checked_rig(config)),
+        rig_(true_rig(told_rig_, config.sensors.calibration, seed)),
+        rover_(config.rover, config.world, config.route, seed),
+        timing_(config.sensors.timing, config.sensors.drops, rig_, seed),
+        exposure_(config.sensors.camera.exposure, rig_),
+        inertial_(config.sensors.inertial, config.rover.imu_rate_hz, seed),
+        wheels_(config.sensors.wheels) {
+    for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
+      cameras_.emplace_back(config.sensors.camera, rig_.cameras[i], static_cast<int>(i), seed);
+    }
+    window_ = from_seconds(config.sensors.camera.half_window()) + timing_.longest_delay();
     const Scene scene = build_scene(config.world, seed, cache);
     for (int i = 0; i < pool.threads(); ++i) renderers_.emplace_back(scene, config.renderer);
-    const double route_seconds = to_seconds(route_.duration());
+    const double route_seconds = to_seconds(rover_.route().duration());
     const double seconds = std::min(config.duration.value_or(route_seconds), route_seconds);
     frames_ = static_cast<std::int64_t>(std::floor(seconds * rig_.rate_hz + 1e-9)) + 1;
   }
@@ -37,26 +47,36 @@ class Simulation : public FrameSource {
     if (index_ >= frames_) return std::nullopt;
     Sample sample;
     sample.frame.index = index_;
-    sample.frame.stamp = stamp_of_frame(index_, rig_.rate_hz);
+    sample.frame.stamp = timing_.stamp(index_);
     drive(sample.frame);
-    sample.truth.T_world_body = rover_.T_world_body();
+    sample.truth.T_world_body = rover_.T_world_body(timing_.instant(index_));
     render(sample);
+    exposure_.observe(sample.frame.images);
     ++index_;
     return sample;
   }
 
   std::int64_t size() const override { return frames_; }
-  const Rig& rig() const override { return rig_; }
+  const Rig& rig() const override { return told_rig_; }
   const StageTimes& times() const override { return times_; }
 
  private:
+  /// Past the frame's instant, where a picture's exposure or the stamps ask for it; readings are
+  /// handed out up to the stamp.
   void drive(Frame& frame) {
     const ScopedTimer timer(times_, "physics");
-    for (; next_control_ <= frame.stamp; next_control_ += kControlPeriod) {
-      rover_.advance_to(next_control_, frame.imu, frame.wheels);
-      rover_.command(follow(route_.at(next_control_), rover_.T_world_body()));
+    const Stamp instant = timing_.instant(frame.index);
+    rover_.forget_before(instant - window_);
+    if (window_ > 0) {
+      rover_.advance_and_remember(instant);
+      rover_.advance_and_remember(instant + window_);
+    } else {
+      rover_.advance_to(instant);
     }
-    rover_.advance_to(frame.stamp, frame.imu, frame.wheels);
+    if (frame.stamp > instant + window_) rover_.advance_and_remember(frame.stamp);
+    rover_.hand_out(frame.stamp, frame.imu, frame.wheels);
+    for (ImuSample& reading : frame.imu) inertial_.measure(reading);
+    for (WheelSample& reading : frame.wheels) wheels_.measure(reading);
   }
 
   /// Each renderer draws every so-manieth camera; who draws what changes no pixel.
@@ -71,6 +91,7 @@ class Simulation : public FrameSource {
     pool_.for_each(renderers_.size(), [&](std::size_t lane) {
       for (std::size_t i = next++; i < cameras; i = next++) {
         const std::size_t camera = order[i];
+        if (timing_.is_dropped(index_, camera)) continue;
         const auto start = std::chrono::steady_clock::now();
         render_camera(renderers_[lane], camera, sample, visible[camera]);
         spent[camera] =
@@ -88,24 +109,35 @@ class Simulation : public FrameSource {
   }
 
   void render_camera(Renderer& renderer, std::size_t camera, Sample& sample,
-                     std::vector<int>& visible) const {
-    const RigCamera& mounted = rig_.cameras[camera];
-    const Pose T_world_cam = sample.truth.T_world_body * mounted.T_body_cam;
+                     std::vector<int>& visible) {
     const bool reads_tags = std::ranges::count(rig_.tag_cameras, static_cast<int>(camera)) > 0;
-    Renderer::Request request;
-    request.labels = reads_tags || !config_.world.boxes.empty();
-    Picture picture = renderer.render(mounted.model, T_world_cam, request);
-    if (request.labels) sample.truth.box_share[camera] = label_share(picture.labels, Label::kBox);
-    if (reads_tags) {
-      for (std::size_t t = 0; t < config_.world.tags.size(); ++t) {
-        if (is_tag_visible(config_.world.tags[t], mounted.model, T_world_cam, picture.labels)) {
-          visible.push_back(static_cast<int>(t));
-        }
+    CameraSensor::Shot shot;
+    shot.frame = index_;
+    shot.instant = timing_.instant(index_, camera);
+    shot.exposure = exposure_.of(camera);
+    shot.request.labels = reads_tags || !config_.world.boxes.empty();
+    Picture picture = cameras_[camera].capture(
+        shot, [&](Stamp stamp) { return rover_.T_world_body(stamp); },
+        [&](const PinholeCamera& view, const Pose& T_world_cam, const Renderer::Request& request) {
+          return renderer.render(view, T_world_cam, request);
+        });
+    if (shot.request.labels) {
+      sample.truth.box_share[camera] = label_share(picture.labels, Label::kBox);
+    }
+    if (reads_tags) visible = tags_seen(camera, shot.instant, picture.labels);
+    sample.frame.images[camera] = std::move(picture.rgb);
+  }
+
+  std::vector<int> tags_seen(std::size_t camera, Stamp instant, const cv::Mat& labels) const {
+    const RigCamera& mounted = rig_.cameras[camera];
+    const Pose T_world_cam = rover_.T_world_body(instant) * mounted.T_body_cam;
+    std::vector<int> seen;
+    for (std::size_t t = 0; t < config_.world.tags.size(); ++t) {
+      if (is_tag_visible(config_.world.tags[t], mounted.model, T_world_cam, labels)) {
+        seen.push_back(static_cast<int>(t));
       }
     }
-    add_image_noise(picture.rgb, config_.noise, seed_, static_cast<int>(camera),
-                    sample.frame.index);
-    sample.frame.images[camera] = std::move(picture.rgb);
+    return seen;
   }
 
   std::vector<std::size_t> largest_first() const {
@@ -120,16 +152,20 @@ class Simulation : public FrameSource {
   }
 
   SimulationConfig config_;
-  std::uint64_t seed_;
   WorkerPool& pool_;
-  Rig rig_;
-  Route route_;
-  Rover rover_;
+  Rig told_rig_;
+  Rig rig_;  ///< the true one
+  DrivenRover rover_;
+  FrameTiming timing_;
+  ExposureControl exposure_;
+  InertialSensor inertial_;
+  WheelSensor wheels_;
+  std::vector<CameraSensor> cameras_;
   std::vector<Renderer> renderers_;
   StageTimes times_;
+  Stamp window_ = 0;  ///< the most that a picture is exposed before or after the frame's instant
   std::int64_t frames_ = 0;
   std::int64_t index_ = 0;
-  Stamp next_control_ = 0;
 };
 
 }  // namespace

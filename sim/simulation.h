@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "sim/image_noise.h"
 #include "sim/renderer.h"
 #include "sim/route.h"
 #include "sim/rover.h"
+#include "sim/sensors.h"
 #include "sim/world.h"
 #include "slam/base/frame.h"
 #include "slam/base/rig.h"
@@ -42,6 +42,7 @@ class FrameSource {
   virtual std::optional<Sample> next() = 0;
   /// How many there will be.
   virtual std::int64_t size() const = 0;
+  /// The cameras as a SLAM system is told of them.
   virtual const Rig& rig() const = 0;
   virtual const StageTimes& times() const = 0;
 };
@@ -51,7 +52,7 @@ struct SimulationConfig {
   RoverConfig rover;
   RouteConfig route;
   RendererConfig renderer;
-  ImageNoiseConfig noise;
+  SensorsConfig sensors;
   std::optional<double> duration;  ///< s; the whole route where absent
   template <class Archive>
   void serialize(Archive& archive) {
@@ -59,12 +60,16 @@ struct SimulationConfig {
     archive("rover", rover);
     archive("route", route);
     archive("renderer", renderer);
-    archive("noise", noise);
+    archive("sensors", sensors);
     archive("duration", duration, Range::positive());
   }
 };
 
-/// Drives the rover along its route and renders every camera at each frame's instant.
+/// Drives the rover along its route and takes a picture with every camera at each frame's instant.
+/// rig() is what a SLAM system is told; the pictures are taken by the true one, which differs by
+/// the calibration error. Stamps are what the cameras say; the truth is that of the frame's
+/// instant. A picture that is dropped is empty and shows nothing: its box share is 0 and no tag is
+/// visible.
 std::unique_ptr<FrameSource> make_simulation(const SimulationConfig& config, std::uint64_t seed,
                                              const std::filesystem::path& cache, WorkerPool& pool);
 

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+
+#include "slam/base/frame.h"
+#include "slam/base/random.h"
+#include "slam/base/yaml.h"
+
+namespace vinebench {
+
+/// Three axes of a gyroscope (unit u = rad/s) or an accelerometer (u = m/s^2).
+struct InertialAxesConfig {
+  double noise_density = 0;       ///< u/sqrt(Hz), white noise (Allan's N)
+  double bias_random_walk = 0;    ///< u/s/sqrt(Hz), white noise of the bias's rate (Allan's K)
+  double bias_instability = 0;    ///< u, standard deviation of a bias that wanders and comes back
+  double correlation_time = 100;  ///< s, in which that one does
+  double initial_bias = 0;        ///< u, standard deviation of an axis's bias at the start
+  double range = 0;               ///< u, beyond which it saturates; 0: it never does
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("noise_density", noise_density, Range::between(0, 100));
+    archive("bias_random_walk", bias_random_walk, Range::between(0, 100));
+    archive("bias_instability", bias_instability, Range::between(0, 100));
+    archive("correlation_time", correlation_time, Range::between(1e-3, 1e6));
+    archive("initial_bias", initial_bias, Range::between(0, 100));
+    archive("range", range, Range::between(0, 1e5));
+  }
+};
+
+/// An inertial unit. The defaults are of the class of Bosch's BMI088 (0.014 deg/s/sqrt(Hz), 175
+/// ug/sqrt(Hz), set to 500 deg/s and 6 g); bias walk and initial bias are assumed, as a calibration
+/// at rest leaves them.
+struct InertialSensorConfig {
+  InertialAxesConfig gyroscope{2.44e-4, 2e-6, 0, 100, 1e-3, 8.727};
+  InertialAxesConfig accelerometer{1.72e-3, 1e-4, 0, 100, 2e-2, 58.84};
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("gyroscope", gyroscope);
+    archive("accelerometer", accelerometer);
+  }
+};
+
+/// Errors of three axes of one kind, reading after reading.
+class InertialAxes {
+ public:
+  InertialAxes(const InertialAxesConfig& config, const std::string& name, double rate_hz,
+               std::uint64_t seed);
+  /// What the sensor says of the next true value.
+  Eigen::Vector3d measure(const Eigen::Vector3d& truth);
+
+ private:
+  Eigen::Vector3d draw(const RandomStream& stream, std::uint64_t index) const;
+
+  InertialAxesConfig config_;
+  double period_;  ///< s
+  RandomStream noise_;
+  RandomStream walk_;
+  RandomStream wander_;
+  Eigen::Vector3d bias_;
+  Eigen::Vector3d wandering_bias_;
+  std::uint64_t index_ = 0;
+};
+
+/// Turns the physics' true readings, in order, into an inertial unit's. A draw is a function of
+/// seed, axis and the reading's index.
+class InertialSensor {
+ public:
+  InertialSensor(const InertialSensorConfig& config, double rate_hz, std::uint64_t seed);
+  void measure(ImuSample& sample);
+
+ private:
+  InertialAxes gyroscope_;
+  InertialAxes accelerometer_;
+};
+
+}  // namespace vinebench

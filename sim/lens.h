@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "slam/base/camera.h"
+
+namespace vinebench {
+
+/// Some rows of a camera's picture and the ideal pinhole view that shows them.
+struct LensBand {
+  int top = 0;  ///< first row
+  int rows = 0;
+  PinholeCamera view;    ///< without distortion; what is to be rendered
+  cv::Mat map;           ///< CV_16SC2 and CV_16UC1 as cv::convertMaps makes them: for each pixel of
+  cv::Mat map_fraction;  ///< the rows its place in the view; empty where the view is the rows
+
+  /// From the view to the rows: bicubic for colours, the nearest pixel for everything else.
+  cv::Mat resample(const cv::Mat& picture, bool nearest) const;
+};
+
+/// Cuts a camera's picture into `count` bands of rows, top first. The view of a distorted lens is a
+/// pinhole's of the same focal length, or one up to 1.5 times as long where the lens magnifies, so
+/// that no detail is lost. Throws Error for a distortion that folds over within the picture or
+/// needs a view of more than 8192 pixels a side.
+std::vector<LensBand> make_lens_bands(const PinholeCamera& camera, int count);
+
+}  // namespace vinebench

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <opencv2/core/mat.hpp>
+
+#include "slam/base/camera.h"
+#include "slam/base/yaml.h"
+
+namespace vinebench {
+
+/// How light falls off towards the picture's corners; both laws multiply.
+struct VignettingConfig {
+  /// Share of the natural law of cos^4 of the angle to the optical axis: 0 none of it, 1 all.
+  double natural = 0;
+  /// a, b, c of 1 + a r^2 + b r^4 + c r^6, where r = 1 in the corner farthest from the principal
+  /// point.
+  std::array<double, 3> polynomial{};
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("natural", natural, Range::between(0, 1));
+    archive("polynomial", polynomial, Range::between(-10, 10));
+  }
+  bool is_off() const { return natural == 0 && polynomial == std::array<double, 3>{}; }
+};
+
+/// What share of its light each pixel gets, CV_32FC1, at least 0.
+cv::Mat vignette(const VignettingConfig& config, const PinholeCamera& camera);
+
+}  // namespace vinebench
