@@ -15,6 +15,8 @@ namespace {
 
 using Eigen::Vector3f;
 
+constexpr double kHillsWithin = 165;  // m; whatever the rover's place, nearer than the far plane
+
 /// A point of a wall round the origin.
 Vector3f on_circle(double radius, int i, int n, double z) {
   const double turn = 2 * std::numbers::pi * (i % n) / n;
@@ -73,7 +75,8 @@ void add_backdrop(Scene& scene, const WorldConfig& world, const Terrain& terrain
   hills.add(make_material("hills", Label::kGrass, -1));
   hills.materials[0].colour = {0.16f, 0.22f, 0.20f};
   hills.model.name = "hills";
-  const double far = 4 * edge;
+  const double far = std::min(4 * edge, kHillsWithin);
+  if (far < 1.1 * edge) return;  // the hedge hides them
   const auto height = [&](int i) {
     const double a = 2 * std::numbers::pi * i / 96;
     const double wave = std::sin(3 * a + random.uniform(0, 0, 6)) +

@@ -188,6 +188,17 @@ class Strewer {
     }
   }
 
+  /// Longer grass where the aisles end and the headland begins: mowers turn there.
+  void strew_ends() {
+    const Eigen::Vector2d size = terrain_.frame().rows.sizes();
+    const double beyond = terrain_.frame().spacing / 2;
+    for (double t = -beyond; t <= size.y() + beyond; t += 0.5) {
+      for (const double s : {-kRowEnd, size.x() + kRowEnd}) {
+        put_in_frame(kWeeds, s + random_.uniform(-0.15, 0.15), t, std::numbers::pi / 2);
+      }
+    }
+  }
+
   /// What fills the rest, patch beside patch.
   void strew_field() {
     constexpr double kMargin = 4;  // m of grass round the rows
@@ -207,9 +218,9 @@ class Strewer {
   }
 
  private:
-  void put_in_frame(PatchKind kind, double s, double t) {
+  void put_in_frame(PatchKind kind, double s, double t, double turn = 0) {
     const RowFrame& frame = terrain_.frame();
-    put(kind, frame.to_world(frame.rows.min() + Eigen::Vector2d(s, t)), frame.heading());
+    put(kind, frame.to_world(frame.rows.min() + Eigen::Vector2d(s, t)), frame.heading() + turn);
   }
 
   void put(PatchKind kind, const Eigen::Vector2d& at, double yaw) {
@@ -239,7 +250,10 @@ void add_ground_cover(Scene& scene, const WorldConfig& world, const Terrain& ter
                       std::uint64_t seed) {
   Strewer strewer(scene, world, terrain, seed);
   strewer.strew_rows();
-  if (world.ground.aisles == WorldConfig::Ground::Aisles::kGrass) strewer.strew_aisles();
+  if (world.ground.aisles == WorldConfig::Ground::Aisles::kGrass) {
+    strewer.strew_aisles();
+    strewer.strew_ends();
+  }
   strewer.strew_field();
 }
 

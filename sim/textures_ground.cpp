@@ -80,10 +80,30 @@ void scatter_leaves(cv::Mat& rgb, RandomSequence& random, int count, double size
   }
 }
 
+/// Fine noise of a piece of a picture, laid side by side until it fills it.
+cv::Mat repeated_noise(cv::Size size, cv::Size pieces, cv::Size cells, int octaves, double gain,
+                       std::uint64_t seed, std::string_view name) {
+  const cv::Size piece(size.width / pieces.width, size.height / pieces.height);
+  return cv::repeat(fractal_noise(piece, cells, octaves, gain, seed, name), pieces.height,
+                    pieces.width);
+}
+
+/// Coarse noise, made small and enlarged; `gain` as for fractal_noise.
+cv::Mat coarse_noise(cv::Size size, cv::Size cells, int octaves, double gain, std::uint64_t seed,
+                     std::string_view name) {
+  constexpr int kRim = 4;  // px of the next tile, so that the enlarged picture has no seam
+  const cv::Size small(size.width / 4, size.height / 4);
+  cv::Mat wrapped, large;
+  cv::copyMakeBorder(fractal_noise(small, cells, octaves, gain, seed, name), wrapped, kRim, kRim,
+                     kRim, kRim, cv::BORDER_WRAP);
+  cv::resize(wrapped, large, wrapped.size() * 4, 0, 0, cv::INTER_LINEAR);
+  return large(cv::Rect(cv::Point(4 * kRim, 4 * kRim), size)).clone();
+}
+
 /// Short grass seen from above, without its single blades.
 cv::Mat turf(cv::Size size, int cells, std::uint64_t seed, std::string_view name) {
   const cv::Size grid(cells, cells * size.height / size.width);
-  return blend(fractal_noise(size, grid, 5, 0.8, seed, name), {44, 56, 22}, {122, 130, 66});
+  return blend(fractal_noise(size, grid, 5, 0.8, seed, name), {30, 40, 14}, {132, 136, 72});
 }
 
 /// Blades of grass, 2 to 7 cm long, where `share` says so.
@@ -101,6 +121,32 @@ void scatter_blades(cv::Mat& rgb, RandomSequence& random, const cv::Mat& share, 
     const cv::Point2d way(length * std::cos(angle), length * std::sin(angle));
     draw_wrapped(rgb, at, 2 * length,
                  [&](const cv::Point2d& p) { cv::line(rgb, p, p + way, skin, 1, cv::LINE_AA); });
+  }
+}
+
+/// Tufts as they look from above: a dark heart and bright tips all round, `reach` m at most.
+void scatter_tufts(cv::Mat& rgb, RandomSequence& random, const cv::Mat& share, int count,
+                   double reach_px) {
+  for (int i = 0; i < count; ++i) {
+    const cv::Point2d at = somewhere(random, rgb);
+    const double reach = reach_px * random.uniform(0.35, 1.0);
+    const cv::Vec3d tip(random.uniform(78, 126), random.uniform(96, 134), random.uniform(40, 66));
+    const cv::Vec3d heart(34, 46, 18);
+    const double first = random.uniform(0, 2 * std::numbers::pi);
+    const int blades = 12 + random.below(10);
+    if (share.at<float>(at) < random.uniform()) continue;
+    draw_wrapped(rgb, at, 2 * reach, [&](const cv::Point2d& p) {
+      cv::circle(rgb, p, cvRound(0.2 * reach), heart, cv::FILLED, cv::LINE_AA);
+    });
+    for (int b = 0; b < blades; ++b) {
+      const double turn = first + 2 * std::numbers::pi * b / blades + random.uniform(-0.3, 0.3);
+      const double length = reach * random.uniform(0.5, 1.0);
+      const cv::Point2d way(length * std::cos(turn), length * std::sin(turn));
+      const cv::Scalar skin = jitter(random, tip, 0.3);
+      draw_wrapped(rgb, at, 2 * reach, [&](const cv::Point2d& p) {
+        cv::line(rgb, p + 0.25 * way, p + way, skin, 1 + b % 2, cv::LINE_AA);
+      });
+    }
   }
 }
 
@@ -122,7 +168,7 @@ float below_edge(double value, double edge, double softness) {
 
 /// Share of grass on an aisle: none under the vines, worn in the wheel tracks, edges frayed.
 cv::Mat grass_share(cv::Size size, const AisleProfile& aisle, std::uint64_t seed) {
-  const cv::Mat fray = fractal_noise(size, {12, 24}, 5, 0.7, seed, "fray");
+  const cv::Mat fray = coarse_noise(size, {12, 24}, 5, 0.7, seed, "fray");
   cv::Mat share(size, CV_32F);
   for (int x = 0; x < size.width; ++x) {
     const double off = std::abs((x + 0.5) / size.width - 0.5) * aisle.width;  // m from the middle
@@ -139,7 +185,7 @@ cv::Mat grass_share(cv::Size size, const AisleProfile& aisle, std::uint64_t seed
 }
 
 cv::Mat track_share(cv::Size size, const AisleProfile& aisle, std::uint64_t seed) {
-  const cv::Mat fray = fractal_noise(size, {6, 12}, 4, 0.6, seed, "track");
+  const cv::Mat fray = coarse_noise(size, {6, 12}, 4, 0.6, seed, "track");
   cv::Mat share(size, CV_32F);
   for (int x = 0; x < size.width; ++x) {
     const double off = std::abs((x + 0.5) / size.width - 0.5) * aisle.width;
@@ -175,30 +221,33 @@ Texture meadow_texture(std::uint64_t seed) {
   RandomSequence random(RandomStream(seed, "meadow"));
   const cv::Mat everywhere(size, CV_32F, cv::Scalar(1));
   scatter_blades(rgb, random, everywhere, 9000, size.width / kSoilTile);
+  scatter_tufts(rgb, random, everywhere, 420, 0.09 * size.width / kSoilTile);
   scatter_straws(rgb, random, 160, {150, 136, 84}, 40);
   scatter_flowers(rgb, random, 40);
   return {"meadow", to_rgba(rgb), true};
 }
 
 Texture aisle_texture(std::uint64_t seed, const AisleProfile& profile) {
-  const cv::Size size(1024, static_cast<int>(1024 * kAisleLength));
+  const cv::Size size(1536, static_cast<int>(1536 * kAisleLength));
   const double scale = size.width / profile.width;  // px per m
-  const cv::Size cells(10, static_cast<int>(10 * kAisleLength));
+  const cv::Size pieces(2, 4);
   const cv::Mat grass = grass_share(size, profile, seed);
   const cv::Mat track = track_share(size, profile, seed);
-  const cv::Mat clods = fractal_noise(size, cells * 3, 6, 0.72, seed, "aisle clods");
-  const cv::Mat damp = fractal_noise(size, {2, 4}, 4, 0.55, seed, "aisle damp");
-  const cv::Mat soil = mix(damp, blend(clods, {62, 45, 32}, {158, 128, 96}),
-                           blend(clods, {78, 60, 42}, {186, 158, 124}));
+  const cv::Mat clods = repeated_noise(size, pieces, {18, 18}, 6, 0.72, seed, "aisle clods");
+  const cv::Mat damp = coarse_noise(size, {2, 4}, 4, 0.55, seed, "aisle damp");
+  const cv::Mat soil = mix(damp, blend(clods, {50, 36, 24}, {166, 134, 100}),
+                           blend(clods, {66, 50, 34}, {194, 166, 130}));
   // Wheels press clods flat and leave them paler.
   const cv::Mat pressed = blend(clods, {112, 92, 70}, {156, 132, 104});
-  cv::Mat rgb = mix(grass, mix(track, soil, pressed), turf(size, 24, seed, "aisle turf"));
+  cv::Mat rgb = mix(grass, mix(track, soil, pressed),
+                    cv::repeat(turf(size / 2, 12, seed, "aisle turf"), 2, 2));
   RandomSequence random(RandomStream(seed, "aisle"));
   const cv::Mat bare = 1 - grass;
-  scatter_stones(rgb, random, 1500, 1.5, 12, &bare);
-  scatter_leaves(rgb, random, 90, 22);
-  scatter_blades(rgb, random, grass, 26000, scale);
-  scatter_straws(rgb, random, 500, {150, 134, 88}, 26);
+  scatter_stones(rgb, random, 3200, 0.003 * scale, 0.028 * scale, &bare);
+  scatter_leaves(rgb, random, 70, 0.05 * scale);
+  scatter_blades(rgb, random, grass, 30000, scale);
+  scatter_tufts(rgb, random, grass, 1500, 0.075 * scale);
+  scatter_straws(rgb, random, 500, {150, 134, 88}, 0.09 * scale);
   return {"aisle", to_rgba(rgb), true};
 }
 
