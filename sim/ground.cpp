@@ -51,7 +51,7 @@ class GroundMesher {
   std::vector<LevelOfDetail> tile(int tx, int ty) {
     corner_x_ = tx * terrain_.cells_x();
     corner_y_ = ty * terrain_.cells_y();
-    const int quarter = terrain_.cells_aisle() / 4;
+    const int quarter = (grass_ ? terrain_.cells_aisle() : terrain_.cells_y()) / 4;
     const std::array<Eigen::Array2i, kLevels> steps{
         {{1, 1}, {2, 2}, {10, quarter}, {20, 2 * quarter}}};
     std::vector<LevelOfDetail> levels;
@@ -73,9 +73,11 @@ class GroundMesher {
   LevelOfDetail level(double until, const Eigen::Array2i& step) {
     std::array<Primitive, 2> parts;
     parts[kAisle].material = kAisle;
-    const int half = terrain_.cells_aisle() / 2;  // strips end in the middle of aisles, too
-    for (int y = corner_y_; y < corner_y_ + terrain_.cells_y(); y += half) {
-      const Strip strip{corner_x_, corner_x_ + terrain_.cells_x(), step.x(), y, y + half, step.y()};
+    // Pictures of aisles end at the rows and, outside these, in the middle of aisles.
+    const int width = grass_ ? terrain_.cells_aisle() / 2 : terrain_.cells_y();
+    for (int y = corner_y_; y < corner_y_ + terrain_.cells_y(); y += width) {
+      const Strip strip{corner_x_, corner_x_ + terrain_.cells_x(), step.x(), y, y + width,
+                        step.y()};
       add_strip(parts[in_aisles(strip) ? kAisle : kPlain], strip);
     }
     LevelOfDetail level{until, {}};
@@ -203,6 +205,14 @@ std::vector<double> apron_lines(double low, double high, double half) {
   return lines;
 }
 
+/// Far grass is drawn larger and askew, so that its repetition does not show.
+Vector2d apron_uv(const WorldConfig& world, const Vector2d& p) {
+  const Vector2d uv(p.x() / kSoilTile, -p.y() / kSoilTile);
+  if (world.ground.aisles == WorldConfig::Ground::Aisles::kSoil) return uv;
+  constexpr double kLarger = 1.7, kAskew = 0.6;
+  return Eigen::Rotation2Dd(kAskew) * uv / kLarger;
+}
+
 /// The ground between the tiles and the world's edge, in the rows' frame.
 Primitive apron_mesh(const WorldConfig& world, const Terrain& terrain) {
   const Eigen::AlignedBox2d box = terrain.box();
@@ -219,8 +229,8 @@ Primitive apron_mesh(const WorldConfig& world, const Terrain& terrain) {
       const Vector2d on = box.min().cwiseMax(box.max().cwiseMin(Vector2d(x, y)));
       const bool edge = on == Vector2d(x, y);
       const double z = terrain.height(terrain.frame().to_world({x, y})) - (edge ? 0.001 : 0);
-      builder.vertex(Vector3d(x, y, z).cast<float>(), up,
-                     Vector2d(x / kSoilTile, -y / kSoilTile).cast<float>(), 0.9f);
+      builder.vertex(Vector3d(x, y, z).cast<float>(), up, apron_uv(world, {x, y}).cast<float>(),
+                     0.9f);
     }
   }
   const auto columns = static_cast<std::uint32_t>(xs.size());

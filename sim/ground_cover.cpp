@@ -34,7 +34,7 @@ enum PatchKind { kWeeds, kLitter, kGrass, kMown, kFringe };
 constexpr std::array<PatchSpec, 5> kPatches{{
     {"weeds", 0.50f, 0.13f, 11, 12, 0.04f, 0.17f, 8, 4},
     {"litter", 0.50f, 0.50f, 7, 7, 0.015f, 0.05f, 16, 9},
-    {"grass", 0.50f, 0.50f, 16, 12, 0.05f, 0.16f, 5, 2},
+    {"grass", 0.50f, 0.50f, 20, 12, 0.05f, 0.16f, 5, 2},
     {"mown", 0.50f, 0.38f, 26, 10, 0.025f, 0.07f, 0, 3},
     {"fringe", 0.50f, 0.10f, 10, 11, 0.04f, 0.13f, 4, 3},
 }};
@@ -201,13 +201,13 @@ class Strewer {
 
   /// What fills the rest, patch beside patch.
   void strew_field() {
-    constexpr double kMargin = 4;  // m of grass round the rows
     const RowFrame& frame = terrain_.frame();
     const bool grass = world_.ground.aisles == WorldConfig::Ground::Aisles::kGrass;
+    const double margin = grass ? std::min(world_.terrain.margin, kMostMargin) : 4;  // m
     const Eigen::Vector2d size = frame.rows.sizes();
     const Eigen::Vector2d inner(grass ? kRowEnd + 0.5 : -1e9, frame.spacing / 2 + 0.4);
-    for (double t = -kMargin; t < size.y() + kMargin; t += 1) {
-      for (double s = -kMargin; s < size.x() + kMargin; s += 1) {
+    for (double t = -margin; t < size.y() + margin; t += 1) {
+      for (double s = -margin; s < size.x() + margin; s += 1) {
         const bool in_aisles = s > -inner.x() && s < size.x() + inner.x() && t > -inner.y() &&
                                t < size.y() + inner.y();
         if (grass && in_aisles) continue;
@@ -234,7 +234,8 @@ class Strewer {
     scene_.instances.push_back({model, terrain_.lie(at, yaw + turn, kReach), 1, id_++});
   }
 
-  static constexpr double kReach = 0.35;  // m, over which a patch leans with the ground
+  static constexpr double kMostMargin = 8;  // m of grass round the rows
+  static constexpr double kReach = 0.35;    // m, over which a patch leans with the ground
   Scene& scene_;
   const WorldConfig& world_;
   const Terrain& terrain_;

@@ -103,7 +103,7 @@ cv::Mat coarse_noise(cv::Size size, cv::Size cells, int octaves, double gain, st
 /// Short grass seen from above, without its single blades.
 cv::Mat turf(cv::Size size, int cells, std::uint64_t seed, std::string_view name) {
   const cv::Size grid(cells, cells * size.height / size.width);
-  return blend(fractal_noise(size, grid, 5, 0.8, seed, name), {30, 40, 14}, {132, 136, 72});
+  return blend(fractal_noise(size, grid, 6, 0.85, seed, name), {30, 40, 14}, {132, 136, 72});
 }
 
 /// Blades of grass, 2 to 7 cm long, where `share` says so.
@@ -217,7 +217,7 @@ Texture soil_texture(std::uint64_t seed) {
 Texture meadow_texture(std::uint64_t seed) {
   const cv::Size size(1024, 1024);
   cv::Mat rgb = mix(fractal_noise(size, {3, 3}, 4, 0.6, seed, "meadow patches"),
-                    turf(size, 28, seed, "meadow"), 1.15 * turf(size, 28, seed, "meadow dry"));
+                    turf(size, 10, seed, "meadow"), 1.2 * turf(size, 10, seed, "meadow dry"));
   RandomSequence random(RandomStream(seed, "meadow"));
   const cv::Mat everywhere(size, CV_32F, cv::Scalar(1));
   scatter_blades(rgb, random, everywhere, 9000, size.width / kSoilTile);
@@ -240,7 +240,7 @@ Texture aisle_texture(std::uint64_t seed, const AisleProfile& profile) {
   // Wheels press clods flat and leave them paler.
   const cv::Mat pressed = blend(clods, {112, 92, 70}, {156, 132, 104});
   cv::Mat rgb = mix(grass, mix(track, soil, pressed),
-                    cv::repeat(turf(size / 2, 12, seed, "aisle turf"), 2, 2));
+                    cv::repeat(turf(size / 2, 6, seed, "aisle turf"), 2, 2));
   RandomSequence random(RandomStream(seed, "aisle"));
   const cv::Mat bare = 1 - grass;
   scatter_stones(rgb, random, 3200, 0.003 * scale, 0.028 * scale, &bare);

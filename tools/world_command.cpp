@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
-#include <map>
 #include <memory>
 
 #include "sim/world_generator.h"
@@ -36,13 +36,19 @@ int write_world(const WorldArguments& arguments) {
   return 0;
 }
 
-/// Names of an enum's values for CLI11.
+/// An option that takes the name of one of an enum's values.
 template <class Enum>
-std::map<std::string, Enum> names_of() {
-  std::map<std::string, Enum> names;
-  int value = 0;
-  for (const std::string& name : yaml_names(Enum{})) names[name] = static_cast<Enum>(value++);
-  return names;
+void add_choice(CLI::App& command, const char* option, Enum& value, const char* help) {
+  const std::vector<std::string> names = yaml_names(Enum{});
+  command
+      .add_option_function<std::string>(
+          option,
+          [&value, names](const std::string& name) {
+            value = static_cast<Enum>(std::ranges::find(names, name) - names.begin());
+          },
+          help)
+      ->check(CLI::IsMember(names))
+      ->default_str(names.at(static_cast<std::size_t>(value)));
 }
 
 void add_layout(CLI::App& command, WorldRecipe& recipe) {
@@ -53,9 +59,7 @@ void add_layout(CLI::App& command, WorldRecipe& recipe) {
       ->capture_default_str();
   command.add_option("--heading", recipe.heading_deg, "Of the rows from east over north, degrees")
       ->capture_default_str();
-  command.add_option("--terrain", recipe.terrain, "even, gentle or rough")
-      ->transform(CLI::CheckedTransformer(names_of<WorldRecipe::Relief>()))
-      ->default_str("gentle");
+  add_choice(command, "--terrain", recipe.terrain, "Shape of the ground");
   command.add_option("--slope", recipe.slope_percent, "Rise over run, percent")
       ->capture_default_str();
 }
@@ -64,11 +68,8 @@ void add_content(CLI::App& command, WorldRecipe& recipe) {
   command.add_option("--bbch", recipe.bbch, "Growth stage: 0, 9, 65, 75, 83, 89 or 95")
       ->capture_default_str();
   command.add_option("--templates", recipe.templates, "Different plants")->capture_default_str();
-  command
-      .add_option("--tags", recipe.tags,
-                  "none, first (one in all), ends (of every row) or posts (every one)")
-      ->transform(CLI::CheckedTransformer(names_of<WorldRecipe::Tags>()))
-      ->default_str("ends");
+  add_choice(command, "--tags", recipe.tags,
+             "None, the first post of all, the ends of every row, or all posts");
   command.add_option("--tag-family", recipe.tag_family, "AprilTag family")->capture_default_str();
   command.add_option("--tag-size", recipe.tag_size, "Side of the black square, m")
       ->capture_default_str();
