@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -296,6 +297,41 @@ TEST(WorldFileTest, TheShippedWorldsAreWhatTheySay) {
     EXPECT_GT(post.at(0.3).x() - post.radius, -0.46);
     EXPECT_LT(post.at(0.3).x() + post.radius, 6.95);
   }
+}
+
+/// Distance from a point to the rover's hull, 0.50 m by 0.472 m, at (x, y, heading).
+double distance_to_hull(const Eigen::Vector3d& pose, const Eigen::Vector2d& p) {
+  const Eigen::Vector2d local = Eigen::Rotation2Dd(-pose.z()) * (p - pose.head<2>());
+  return (local.cwiseAbs() - Eigen::Vector2d(0.25, 0.236)).cwiseMax(0.0).norm();
+}
+
+TEST(WorldFileTest, TheAuthorsRouteFitsTheAislesOfManyRows) {
+  const auto file = std::filesystem::path(VINEBENCH_SOURCE_DIR) / "worlds" / "many-rows.yaml";
+  const WorldConfig world = YamlDocument::load(file).read<WorldConfig>();
+  // Places (m) and headings (degrees) of the paper's third simulated experiment.
+  const std::vector<Eigen::Vector3d> route{
+      {0, 0, 0},           {7.46, 0, 0},        {7.26, 0.09, 94},    {7.12, 1.79, 95},
+      {7.03, 1.65, 160},   {6.00, 1.88, 185},   {4.05, 2.01, 174},   {2.12, 1.82, 186},
+      {0.61, 1.97, 176},   {-0.82, 1.60, 198},  {-0.70, 1.52, 260},  {-0.70, 1.07, 277},
+      {-0.79, -0.79, 267}, {-0.53, -2.28, 281}, {-0.46, -2.11, 366}, {0.92, -2.16, 348},
+      {8.45, -2.01, 373},  {8.36, -1.93, 432},  {8.35, -1.53, 457},  {8.40, 4.17, 456},
+      {8.32, 4.02, 541},   {4.29, 3.91, 541},   {2.91, 4.02, 534},   {-1.99, 3.62, 554},
+      {-1.83, 3.44, 635},  {-1.75, 2.63, 635},  {-1.89, 1.46, 625},  {-1.69, -0.19, 648},
+      {-1.54, -0.04, 723}, {0.70, 0.14, 725}};
+  double nearest = 1e9;
+  for (std::size_t leg = 1; leg < route.size(); ++leg) {
+    for (double t = 0; t <= 1; t += 0.01) {
+      Eigen::Vector3d pose = route[leg - 1] + t * (route[leg] - route[leg - 1]);
+      pose.z() *= std::numbers::pi / 180;
+      for (const TrellisPost& post : trellis_posts(world)) {
+        nearest = std::min(nearest, distance_to_hull(pose, post.at(0.25)) - post.radius);
+      }
+      for (const Eigen::Vector2d& vine : vine_positions(world)) {
+        nearest = std::min(nearest, distance_to_hull(pose, vine) - 0.03);
+      }
+    }
+  }
+  EXPECT_GT(nearest, 0.10);  // m; who follows the route strays by a centimetre
 }
 
 TEST(WorldFileTest, AResolvedWorldReadsBackTheSame) {
