@@ -51,6 +51,7 @@ ScenarioConfig load_scenario(const std::filesystem::path& file,
   if (const auto& blind = scenario.expectations.blind) find_cameras(rig, blind->cameras);
   move_into(scenario.boxes, scenario.simulation.world.boxes);
   move_into(scenario.tags, scenario.simulation.world.tags);
+  scenario.simulation.world.place();
   return scenario;
 }
 

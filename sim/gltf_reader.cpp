@@ -102,7 +102,7 @@ class GltfReader {
     material.double_sided = from.doubleSided;
     if (from.extras.Has(kLabel)) {
       const int label = from.extras.Get(kLabel).GetNumberAsInt();
-      const int last = static_cast<int>(Label::kRover);
+      const int last = static_cast<int>(Label::kPerson);
       if (label < 0 || label > last) fail("{}: label {}, expected 0 to {}", file_, label, last);
       material.label = static_cast<Label>(label);
     }

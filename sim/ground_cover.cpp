@@ -8,6 +8,7 @@
 #include "sim/asset.h"
 #include "sim/ground.h"
 #include "sim/plant_geometry.h"
+#include "sim/row_index.h"
 #include "sim/textures.h"
 #include "slam/base/random.h"
 
@@ -28,10 +29,14 @@ struct PatchSpec {
   int fallen_leaves;
 };
 
-constexpr std::array<PatchSpec, 3> kPatches{{
+enum PatchKind { kWeeds, kLitter, kGrass, kMown, kFringe };
+
+constexpr std::array<PatchSpec, 5> kPatches{{
     {"weeds", 0.50f, 0.13f, 11, 12, 0.04f, 0.17f, 8, 4},
     {"litter", 0.50f, 0.50f, 7, 7, 0.015f, 0.05f, 16, 9},
-    {"grass", 0.50f, 0.50f, 16, 12, 0.05f, 0.16f, 5, 2},
+    {"grass", 0.50f, 0.50f, 20, 12, 0.05f, 0.16f, 5, 2},
+    {"mown", 0.50f, 0.38f, 26, 10, 0.025f, 0.07f, 0, 3},
+    {"fringe", 0.50f, 0.10f, 10, 11, 0.04f, 0.13f, 4, 3},
 }};
 constexpr int kVariants = 4;
 constexpr double kFullUntil = 2.5, kThinUntil = 8;  // m
@@ -144,55 +149,113 @@ int add_patch(Scene& scene, const PatchSpec& spec, std::uint64_t seed, int varia
   return add_asset(scene, std::move(asset));
 }
 
-Pose flat_pose(double x, double y, double yaw) {
-  return {from_roll_pitch_yaw({0, 0, yaw}), {x, y, 0}};
-}
+class Strewer {
+ public:
+  Strewer(Scene& scene, const WorldConfig& world, const Terrain& terrain, std::uint64_t seed)
+      : scene_(scene),
+        world_(world),
+        terrain_(terrain),
+        rows_(world),
+        random_(RandomStream(seed, "ground cover")) {
+    const std::vector<Texture> textures{grass_texture(seed), stone_texture(seed),
+                                        leaf_texture(seed)};
+    for (std::size_t kind = 0; kind < kPatches.size(); ++kind) {
+      for (int v = 0; v < kVariants; ++v) {
+        models_[kind][v] = add_patch(scene, kPatches[kind], seed, v, textures);
+      }
+    }
+  }
 
-double distance_to_row(const WorldConfig::Row& row, const Eigen::Vector2d& p) {
-  const Eigen::Vector2d along = row.end - row.start;
-  const double t = std::clamp((p - row.start).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  return (p - row.start - t * along).norm();
-}
+  /// Weeds under the vines, some places bare.
+  void strew_rows() {
+    for (const WorldConfig::Row& row : world_.rows) {
+      const Eigen::Vector2d along = (row.end - row.start).normalized();
+      for (double s = 0.5; s < (row.end - row.start).norm(); s += 1) {
+        put(kWeeds, row.start + s * along, std::atan2(along.y(), along.x()));
+      }
+    }
+  }
+
+  /// Mown grass between the wheel tracks, longer at the edge of the bare strips.
+  void strew_aisles() {
+    const RowFrame& frame = terrain_.frame();
+    const double edge = world_.ground.bare_strip / 2;
+    for (double s = 0.5; s < frame.rows.sizes().x(); s += 1) {
+      for (double t = 0; t <= frame.rows.sizes().y() + frame.spacing / 2; t += frame.spacing) {
+        for (const double side : {-1.0, 1.0}) put_in_frame(kFringe, s, t + side * (edge + 0.06));
+        if (t > 0) put_in_frame(kMown, s, t - frame.spacing / 2);
+      }
+    }
+  }
+
+  /// Longer grass where the aisles end and the headland begins: mowers turn there.
+  void strew_ends() {
+    const Eigen::Vector2d size = terrain_.frame().rows.sizes();
+    const double beyond = terrain_.frame().spacing / 2;
+    for (double t = -beyond; t <= size.y() + beyond; t += 0.5) {
+      for (const double s : {-kRowEnd, size.x() + kRowEnd}) {
+        put_in_frame(kWeeds, s + random_.uniform(-0.15, 0.15), t, std::numbers::pi / 2);
+      }
+    }
+  }
+
+  /// What fills the rest, patch beside patch.
+  void strew_field() {
+    const RowFrame& frame = terrain_.frame();
+    const bool grass = world_.ground.aisles == WorldConfig::Ground::Aisles::kGrass;
+    const double margin = grass ? std::min(world_.terrain.margin, kMostMargin) : 4;  // m
+    const Eigen::Vector2d size = frame.rows.sizes();
+    const Eigen::Vector2d inner(grass ? kRowEnd + 0.5 : -1e9, frame.spacing / 2 + 0.4);
+    for (double t = -margin; t < size.y() + margin; t += 1) {
+      for (double s = -margin; s < size.x() + margin; s += 1) {
+        const bool in_aisles = s > -inner.x() && s < size.x() + inner.x() && t > -inner.y() &&
+                               t < size.y() + inner.y();
+        if (grass && in_aisles) continue;
+        const Eigen::Vector2d at = frame.to_world(frame.rows.min() + Eigen::Vector2d(s, t));
+        put(rows_.distance(at) < 1.2 && !grass ? kLitter : kGrass, at, frame.heading());
+      }
+    }
+  }
+
+ private:
+  void put_in_frame(PatchKind kind, double s, double t, double turn = 0) {
+    const RowFrame& frame = terrain_.frame();
+    put(kind, frame.to_world(frame.rows.min() + Eigen::Vector2d(s, t)), frame.heading() + turn);
+  }
+
+  void put(PatchKind kind, const Eigen::Vector2d& at, double yaw) {
+    const bool square = kPatches[kind].half_x == kPatches[kind].half_y;
+    const double turn =
+        square ? random_.below(4) * std::numbers::pi / 2 : random_.below(2) * std::numbers::pi;
+    const int model = models_[kind][random_.below(kVariants)];
+    if (((at - terrain_.frame().middle()).cwiseAbs().array() > world_.ground_size / 2 - 1).any()) {
+      return;
+    }
+    scene_.instances.push_back({model, terrain_.lie(at, yaw + turn, kReach), 1, id_++});
+  }
+
+  static constexpr double kMostMargin = 8;  // m of grass round the rows
+  static constexpr double kReach = 0.35;    // m, over which a patch leans with the ground
+  Scene& scene_;
+  const WorldConfig& world_;
+  const Terrain& terrain_;
+  RowIndex rows_;
+  RandomSequence random_;
+  std::array<std::array<int, kVariants>, kPatches.size()> models_{};
+  int id_ = 0;
+};
 
 }  // namespace
 
-void add_ground_cover(Scene& scene, const WorldConfig& world, std::uint64_t seed) {
-  const std::vector<Texture> textures{grass_texture(seed), stone_texture(seed), leaf_texture(seed)};
-  std::array<std::array<int, kVariants>, kPatches.size()> models{};
-  for (std::size_t kind = 0; kind < kPatches.size(); ++kind) {
-    for (int v = 0; v < kVariants; ++v) {
-      models[kind][v] = add_patch(scene, kPatches[kind], seed, v, textures);
-    }
+void add_ground_cover(Scene& scene, const WorldConfig& world, const Terrain& terrain,
+                      std::uint64_t seed) {
+  Strewer strewer(scene, world, terrain, seed);
+  strewer.strew_rows();
+  if (world.ground.aisles == WorldConfig::Ground::Aisles::kGrass) {
+    strewer.strew_aisles();
+    strewer.strew_ends();
   }
-  RandomSequence random(RandomStream(seed, "ground cover"));
-  int id = 0;
-  for (const WorldConfig::Row& row : world.rows) {
-    const Eigen::Vector2d along = (row.end - row.start).normalized();
-    const double yaw = std::atan2(along.y(), along.x());
-    for (double s = 0.5; s < (row.end - row.start).norm(); s += 1) {
-      const Eigen::Vector2d at = row.start + s * along;
-      const double turn = random.below(2) * std::numbers::pi;
-      scene.instances.push_back(
-          {models[0][random.below(kVariants)], flat_pose(at.x(), at.y(), yaw + turn), 1, id++});
-    }
-  }
-  constexpr double kMargin = 4;  // m of grass round the rows
-  const Eigen::AlignedBox2d box = rows_box(world);
-  const double half = world.ground_size / 2 - 1;
-  for (double y = std::max(box.min().y() - kMargin, -half);
-       y < std::min(box.max().y() + kMargin, half); y += 1) {
-    for (double x = std::max(box.min().x() - kMargin, -half);
-         x < std::min(box.max().x() + kMargin, half); x += 1) {
-      double nearest = 1e9;
-      for (const WorldConfig::Row& row : world.rows) {
-        nearest = std::min(nearest, distance_to_row(row, {x, y}));
-      }
-      const int kind = nearest < 1.2 ? 1 : 2;
-      const double turn = random.below(4) * std::numbers::pi / 2;
-      scene.instances.push_back(
-          {models[kind][random.below(kVariants)], flat_pose(x, y, turn), 1, id++});
-    }
-  }
+  strewer.strew_field();
 }
 
 }  // namespace vinebench

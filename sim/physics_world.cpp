@@ -4,17 +4,23 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <mutex>
 #include <system_error>
 
+#include "sim/obstacles.h"
+#include "sim/terrain.h"
+#include "sim/trellis.h"
 #include "slam/base/error.h"
 #include "slam/base/files.h"
 
 namespace vinebench {
 namespace {
 
+constexpr double kGroundBase = 1.0;    // m of ground below its lowest place
 constexpr double kTrunkRadius = 0.03;  // m
 constexpr double kTrunkHeight = 0.5;   // m; nothing of the rover's hull is higher
 
@@ -72,11 +78,57 @@ std::string xml_escaped(const std::string& text) {
   return result;
 }
 
-std::string upright(const std::string& name, const Eigen::Vector2d& foot, double height,
-                    double radius) {
+std::string upright(const std::string& name, const Eigen::Vector3d& foot,
+                    const Eigen::Vector3d& head, double radius) {
   return fmt::format(
-      "    <geom name=\"{}\" type=\"cylinder\" fromto=\"{} {} 0 {} {} {}\" size=\"{}\"/>\n", name,
-      foot.x(), foot.y(), foot.x(), foot.y(), height, radius);
+      "    <geom name=\"{}\" type=\"cylinder\" fromto=\"{} {} {} {} {} {}\" size=\"{}\"/>\n", name,
+      foot.x(), foot.y(), foot.z(), head.x(), head.y(), head.z(), radius);
+}
+
+std::string posts_mjcf(const WorldConfig& world, const Terrain& terrain) {
+  std::string geoms;
+  const double height = world.trellis.post_height;
+  const std::vector<TrellisPost> posts = trellis_posts(world);
+  for (std::size_t i = 0; i < posts.size(); ++i) {
+    const double ground = terrain.height(posts[i].foot);
+    const Eigen::Vector2d head = posts[i].at(height);
+    geoms += upright(fmt::format("post {}", i), {posts[i].foot.x(), posts[i].foot.y(), ground},
+                     {head.x(), head.y(), ground + height}, posts[i].radius);
+  }
+  const std::vector<Brace> braces = trellis_braces(world, terrain);
+  for (std::size_t i = 0; i < braces.size(); ++i) {
+    geoms += upright(fmt::format("brace {}", i), braces[i].foot, braces[i].head, braces[i].radius);
+  }
+  return geoms;
+}
+
+std::string trunks_mjcf(const WorldConfig& world, const Terrain& terrain) {
+  std::string geoms;
+  const std::vector<Eigen::Vector2d> vines = vine_positions(world);
+  for (std::size_t i = 0; i < vines.size(); ++i) {
+    const Eigen::Vector3d foot(vines[i].x(), vines[i].y(), terrain.height(vines[i]));
+    geoms += upright(fmt::format("trunk {}", i), foot,
+                     foot + kTrunkHeight * Eigen::Vector3d::UnitZ(), kTrunkRadius);
+  }
+  return geoms;
+}
+
+std::string obstacles_mjcf(const WorldConfig& world, const Terrain& terrain) {
+  std::string geoms;
+  for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
+    const Pose pose = obstacle_pose(world.obstacles[i], terrain);
+    int part = 0;
+    for (const Block& block : obstacle_blocks(world.obstacles[i])) {
+      const Eigen::Vector3d at = pose * block.centre;
+      const Eigen::Quaterniond& q = pose.rotation;
+      geoms += fmt::format(
+          "    <geom name=\"obstacle {} {}\" type=\"box\" pos=\"{} {} {}\" quat=\"{} {} {} {}\" "
+          "size=\"{} {} {}\"/>\n",
+          i, part++, at.x(), at.y(), at.z(), q.w(), q.x(), q.y(), q.z(), block.half.x(),
+          block.half.y(), block.half.z());
+    }
+  }
+  return geoms;
 }
 
 std::string carton(const std::string& name, const WorldConfig::Box& box) {
@@ -89,39 +141,69 @@ std::string carton(const std::string& name, const WorldConfig::Box& box) {
       q.z(), box.size.x() / 2, box.size.y() / 2, box.size.z() / 2);
 }
 
+/// Lowest and highest node, m.
+std::pair<double, double> extent(const Terrain& terrain) {
+  double low = 0, high = 0;
+  for (int row = 0; row < terrain.rows(); ++row) {
+    for (int column = 0; column < terrain.columns(); ++column) {
+      const double height = terrain.node_height(column, row);
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+  }
+  return {low, high};
+}
+
+/// What stands under <mujoco> for the ground, and what under <worldbody>.
+using GroundText = std::pair<std::string, std::string>;
+
+GroundText plane_mjcf(const WorldConfig& world) {
+  return {"", fmt::format("    <geom name=\"ground\" class=\"ground\" type=\"plane\" size=\"{} {} "
+                          "1\"/>\n",
+                          world.ground_size / 2, world.ground_size / 2)};
+}
+
+/// The height field's elevations are filled in after loading.
+GroundText height_field_mjcf(const Terrain& terrain) {
+  const auto [low, high] = extent(terrain);
+  const Eigen::AlignedBox2d box = terrain.box();
+  const Eigen::Vector2d middle = terrain.frame().to_world(box.center());
+  const Eigen::Vector2d half = box.sizes() / 2;
+  const double heading = terrain.frame().heading();
+  return {
+      fmt::format("  <asset><hfield name=\"ground\" nrow=\"{}\" ncol=\"{}\" size=\"{} {} {} "
+                  "{}\"/></asset>\n",
+                  terrain.rows(), terrain.columns(), half.x(), half.y(), high - low, kGroundBase),
+      fmt::format("    <geom name=\"ground\" class=\"ground\" type=\"hfield\" "
+                  "hfield=\"ground\" pos=\"{} {} {}\" quat=\"{} 0 0 {}\"/>\n",
+                  middle.x(), middle.y(), low, std::cos(heading / 2), std::sin(heading / 2))};
+}
+
 }  // namespace
 
 std::string world_mjcf(const WorldConfig& world, const std::filesystem::path& rover_include) {
-  std::string geoms;
-  const std::vector<Eigen::Vector2d> posts = post_positions(world);
-  for (std::size_t i = 0; i < posts.size(); ++i) {
-    geoms += upright(fmt::format("post {}", i), posts[i], world.trellis.post_height,
-                     world.trellis.post_radius);
-  }
-  const std::vector<Eigen::Vector2d> vines = vine_positions(world);
-  for (std::size_t i = 0; i < vines.size(); ++i) {
-    geoms += upright(fmt::format("trunk {}", i), vines[i], kTrunkHeight, kTrunkRadius);
-  }
+  const Terrain terrain(world);
+  std::string geoms = posts_mjcf(world, terrain) + trunks_mjcf(world, terrain);
   for (std::size_t i = 0; i < world.boxes.size(); ++i) {
     geoms += carton(fmt::format("box {}", i), world.boxes[i]);
   }
+  geoms += obstacles_mjcf(world, terrain);
+  const auto [asset, ground] = terrain.flat() ? plane_mjcf(world) : height_field_mjcf(terrain);
   return fmt::format(R"(<mujoco>
   <include file="{}"/>
   <default>
     <default class="ground"><geom contype="0" conaffinity="1" friction="0.8"/></default>
     <default class="obstacle"><geom contype="0" conaffinity="2" friction="0.4"/></default>
   </default>
-  <worldbody>
-    <geom name="ground" class="ground" type="plane" size="{} {} 1"/>
-  </worldbody>
+{}  <worldbody>
+{}  </worldbody>
   <worldbody>
     <body name="obstacles" childclass="obstacle">
 {}    </body>
   </worldbody>
 </mujoco>
 )",
-                     xml_escaped(rover_include.string()), world.ground_size / 2,
-                     world.ground_size / 2, geoms);
+                     xml_escaped(rover_include.string()), asset, ground, geoms);
 }
 
 PhysicsWorld::PhysicsWorld(const std::filesystem::path& rover, const WorldConfig& world)
@@ -144,8 +226,22 @@ PhysicsWorld::PhysicsWorld(const std::filesystem::path& rover, const WorldConfig
   std::array<char, 1000> reason{};
   model_.reset(mj_loadXML(file.name().c_str(), nullptr, reason.data(), reason.size()));
   if (!model_) fail("{}: no valid MJCF model: {}", rover.string(), reason.data());
+  if (!world.terrain.flat()) raise_ground(Terrain(world));
   state_.reset(mj_makeData(model_.get()));
   if (!state_) fail("{}: no memory for the physics' state", rover.string());
+}
+
+/// MuJoCo keeps elevations as shares of the height field's greatest.
+void PhysicsWorld::raise_ground(const Terrain& terrain) {
+  const int field = model_->geom_dataid[find(mjOBJ_GEOM, "ground")];
+  const double low = model_->geom_pos[3 * find(mjOBJ_GEOM, "ground") + 2];
+  const double range = model_->hfield_size[4 * field + 2];
+  float* elevation = model_->hfield_data + model_->hfield_adr[field];
+  for (int row = 0; row < terrain.rows(); ++row) {
+    for (int column = 0; column < terrain.columns(); ++column) {
+      *elevation++ = static_cast<float>((terrain.node_height(column, row) - low) / range);
+    }
+  }
 }
 
 void PhysicsWorld::check() const {

@@ -12,6 +12,8 @@
 
 namespace vinebench {
 
+class Terrain;
+
 /// The MJCF text of a world: ground, posts, trunks and carton boxes as static geoms, and the rover
 /// by include. `rover_include` is the rover's MJCF file as the text's own folder reaches it.
 std::string world_mjcf(const WorldConfig& world, const std::filesystem::path& rover_include);
@@ -48,6 +50,8 @@ class PhysicsWorld {
   int sensor_address(const std::string& name) const;
 
  private:
+  void raise_ground(const Terrain& terrain);
+
   struct Free {
     void operator()(mjModel* model) const { mj_deleteModel(model); }
     void operator()(mjData* state) const { mj_deleteData(state); }

@@ -18,55 +18,8 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr int kTexelsAModule = 32;
-constexpr int kBoardRim = 1;               // modules of white round the print
-constexpr float kBoardThickness = 0.005f;  // m
-
-float linear(double srgb) {
-  return static_cast<float>(srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4));
-}
-
-/// One face of a block: its middle, and half its sides to the right and up as seen from outside.
-void add_face(MeshBuilder& builder, const Vector3f& middle, const Vector3f& right,
-              const Vector3f& up, const TextureCell& cell, float foot_occlusion = 1) {
-  const Vector3f normal = right.cross(up).normalized();
-  const auto a = builder.vertex(middle - right - up, normal, cell.at(0, 1), foot_occlusion);
-  const auto b = builder.vertex(middle + right - up, normal, cell.at(1, 1), foot_occlusion);
-  const auto c = builder.vertex(middle + right + up, normal, cell.at(1, 0));
-  const auto d = builder.vertex(middle - right + up, normal, cell.at(0, 0));
-  builder.quad(a, b, c, d);
-}
-
-LevelOfDetail post_level(const WorldConfig::Trellis& trellis, double until, int sides) {
-  const auto height = static_cast<float>(trellis.post_height);
-  const auto radius = static_cast<float>(trellis.post_radius);
-  Primitive primitive;
-  MeshBuilder(primitive).tube(
-      {{{0, 0, -0.05f}, {0, 0, height / 2}, {0, 0, height}}, {radius, radius, radius}}, sides, 1.5f,
-      true);
-  for (Vertex& vertex : primitive.vertices) {
-    if (vertex.position.z() < 0) vertex.occlusion = 0.4f;
-  }
-  return {until, {primitive}};
-}
-
-void add_wires(Scene& scene, const WorldConfig& world) {
-  scene.materials.push_back(make_material("wire", Label::kWire, -1));
-  scene.materials.back().colour = {0.30f, 0.31f, 0.32f};
-  const int material = static_cast<int>(scene.materials.size()) - 1;
-  for (const WorldConfig::Row& row : world.rows) {
-    WorldConfig only = world;
-    only.rows = {row};
-    const auto posts = post_positions(only);
-    for (std::size_t i = 1; i < posts.size(); ++i) {
-      for (const double height : world.trellis.wires) {
-        const auto at = [&](const Eigen::Vector2d& p) {
-          return Eigen::Vector3d(p.x(), p.y(), height).cast<float>().eval();
-        };
-        scene.wires.push_back({at(posts[i - 1]), at(posts[i]), 0.0012f, material});
-      }
-    }
-  }
-}
+constexpr int kBoardRim = 1;  // modules of white round the print
+constexpr auto kBoardThickness = static_cast<float>(kTagBoardThickness);
 
 /// Rectangles of carton_texture.
 const TextureCell kPlainCarton{{0.01f, 0.01f}, {0.99f, 0.49f}};
@@ -105,32 +58,44 @@ Primitive board_mesh(float half) {
 
 }  // namespace
 
-void add_trellis(Scene& scene, const WorldConfig& world, std::uint64_t seed) {
-  Asset post;
-  post.add(wood_texture(seed));
-  post.add(make_material("post", Label::kPost, 0));
-  post.model.name = "post";
-  post.model.levels = {post_level(world.trellis, 4, 12), post_level(world.trellis, 1e9, 6)};
-  post.update_bounds();
-  const int model = add_asset(scene, std::move(post));
-  const RandomStream random(seed, "posts");
-  int id = 0;
-  for (const Eigen::Vector2d& at : post_positions(world)) {
-    const double turn = random.uniform(static_cast<std::uint64_t>(id), 0, 2 * std::numbers::pi);
-    const Pose pose{from_roll_pitch_yaw({0, 0, turn}), {at.x(), at.y(), 0}};
-    scene.instances.push_back({model, pose, 1, id++});
-  }
-  add_wires(scene, world);
+Vector3f linear_colour(const Eigen::Vector3d& srgb) {
+  const auto linear = [](double c) {
+    return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+  };
+  return {linear(srgb.x()), linear(srgb.y()), linear(srgb.z())};
+}
+
+void add_face(MeshBuilder& builder, const Vector3f& middle, const Vector3f& right,
+              const Vector3f& up, const TextureCell& cell, float foot_occlusion) {
+  const Vector3f normal = right.cross(up).normalized();
+  const auto a = builder.vertex(middle - right - up, normal, cell.at(0, 1), foot_occlusion);
+  const auto b = builder.vertex(middle + right - up, normal, cell.at(1, 1), foot_occlusion);
+  const auto c = builder.vertex(middle + right + up, normal, cell.at(1, 0));
+  const auto d = builder.vertex(middle - right + up, normal, cell.at(0, 0));
+  builder.quad(a, b, c, d);
+}
+
+void add_block(MeshBuilder& builder, const Vector3f& centre, const Vector3f& half,
+               float foot_occlusion) {
+  const Vector3f x = half.x() * Vector3f::UnitX(), y = half.y() * Vector3f::UnitY();
+  const Vector3f z = half.z() * Vector3f::UnitZ();
+  const TextureCell cell;
+  add_face(builder, centre + x, y, z, cell, foot_occlusion);
+  add_face(builder, centre - x, -y, z, cell, foot_occlusion);
+  add_face(builder, centre - y, x, z, cell, foot_occlusion);
+  add_face(builder, centre + y, -x, z, cell, foot_occlusion);
+  add_face(builder, centre + z, -y, x, cell);
+  add_face(builder, centre - z, y, x, cell, foot_occlusion);
 }
 
 void add_boxes(Scene& scene, const WorldConfig& world, std::uint64_t seed) {
   int id = 0;
   for (const WorldConfig::Box& box : world.boxes) {
     Asset carton;
-    carton.add(carton_texture(seed));
+    carton.add(box.printed ? print_texture(static_cast<std::uint64_t>(box.print_seed))
+                           : carton_texture(seed));
     carton.add(make_material(box.name, Label::kBox, 0));
-    carton.materials[0].colour = {linear(box.colour.x()), linear(box.colour.y()),
-                                  linear(box.colour.z())};
+    carton.materials[0].colour = linear_colour(box.colour);
     carton.model.name = box.name;
     carton.model.levels.push_back({1e9, {box_mesh((box.size / 2).cast<float>())}});
     carton.update_bounds();

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "sim/physics_world.h"
+#include "sim/terrain.h"
 #include "sim/wheel_controller.h"
 #include "slam/base/error.h"
 #include "slam/base/random.h"
@@ -36,7 +37,9 @@ struct Rover::Physics {
   void vary(std::uint64_t seed);
   void settle(const Eigen::Vector3d& start);
   void place(const Eigen::Vector3d& start);
+  void drop_on_ground(const Eigen::Vector3d& start);
   void check_clear(const Eigen::Vector3d& start) const;
+  void check_on_ground() const;
   void step();
   void sample(Stamp until, std::vector<ImuSample>& imu, std::vector<WheelSample>& wheels);
 
@@ -50,6 +53,7 @@ struct Rover::Physics {
   }
 
   RoverConfig config;
+  Terrain terrain;
   PhysicsWorld world;
   MecanumDrive drive;
   std::vector<SpeedLoop> loops;
@@ -75,6 +79,7 @@ struct Rover::Physics {
 Rover::Physics::Physics(const RoverConfig& rover, const WorldConfig& world_config,
                         std::uint64_t seed)
     : config(rover),
+      terrain(world_config),
       world(rover.model, world_config),
       drive{rover.wheel_radius, rover.half_track, rover.half_wheelbase},
       step_length(from_seconds(world.model().opt.timestep)) {
@@ -131,7 +136,9 @@ void Rover::Physics::vary(std::uint64_t seed) {
 
 /// Lets the rover sink into its springs; it starts from there, as it stands.
 void Rover::Physics::settle(const Eigen::Vector3d& start) {
+  drop_on_ground(start);
   place(start);
+  check_on_ground();
   check_clear(start);
   for (Stamp t = 0; t < kSettling; t += step_length) step();
   world.check();
@@ -140,6 +147,24 @@ void Rover::Physics::settle(const Eigen::Vector3d& start) {
   previous_angles = angles();
   previous_pose = pose();
   time = 0;
+}
+
+/// Sets it just above uneven ground, leaned as its wheels will find it.
+void Rover::Physics::drop_on_ground(const Eigen::Vector3d& start) {
+  if (terrain.flat()) return;
+  const Pose lying = terrain.lie(start.head<2>(), start.z(), config.half_track);
+  double lift = 0;  // m, until no wheel is below the ground
+  for (const double x : {-config.half_wheelbase, config.half_wheelbase}) {
+    for (const double y : {-config.half_track, config.half_track}) {
+      const Eigen::Vector3d foot = lying * Eigen::Vector3d(x, y, 0);
+      lift = std::max(lift, terrain.height(foot.head<2>()) - foot.z());
+    }
+  }
+  mjtNum* position = &world.state().qpos[world.model().jnt_qposadr[chassis]];
+  position[2] = lying.translation.z() + lift;
+  const Eigen::Quaterniond& q = lying.rotation;
+  const std::array<double, 4> turned{q.w(), q.x(), q.y(), q.z()};
+  std::copy(turned.begin(), turned.end(), position + 3);
 }
 
 /// Moves the rover over the ground; height, roll and pitch stay.
@@ -167,6 +192,16 @@ void Rover::Physics::check_clear(const Eigen::Vector3d& start) const {
     fail("the rover cannot start at ({:.3f}, {:.3f}) m: it stands in {} of the world", start.x(),
          start.y(), mj_id2name(&model, mjOBJ_GEOM, first ? contact.geom2 : contact.geom1));
   }
+}
+
+void Rover::Physics::check_on_ground() const {
+  if (terrain.flat()) return;
+  const Eigen::Vector2d here = pose().translation.head<2>();
+  if (terrain.box().contains(terrain.frame().from_world(here))) return;
+  fail(
+      "the rover left the uneven ground at ({:.2f}, {:.2f}) m: make the world's terrain.margin "
+      "larger or the route shorter",
+      here.x(), here.y());
 }
 
 void Rover::Physics::step() {
@@ -253,6 +288,7 @@ void Rover::advance_to(Stamp stamp, std::vector<ImuSample>& imu, std::vector<Whe
     physics.sample(std::min(stamp, physics.time), imu, wheels);
   }
   physics.world.check();
+  physics.check_on_ground();
   physics.now = stamp;
 }
 

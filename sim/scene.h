@@ -26,7 +26,8 @@ enum class Label : std::uint8_t {
   kWire,
   kTag,
   kBox,
-  kRover
+  kRover,
+  kPerson
 };
 
 /// An RGBA picture on a surface: CV_8UC4, sRGB, first row at v = 0 (glTF's convention).

@@ -6,8 +6,11 @@
 #include "sim/asset_file.h"
 #include "sim/grapevine.h"
 #include "sim/ground.h"
+#include "sim/obstacles.h"
 #include "sim/plant_cache.h"
 #include "sim/props.h"
+#include "sim/terrain.h"
+#include "sim/trellis.h"
 #include "sim/world.h"
 #include "slam/base/random.h"
 
@@ -37,25 +40,12 @@ PlantModels add_plants(Scene& scene, const WorldConfig& world, std::uint64_t see
   return models;
 }
 
-/// Heading of each vine's row, in vine_positions' order.
-std::vector<double> vine_headings(const WorldConfig& world) {
-  std::vector<double> headings;
-  for (const WorldConfig::Row& row : world.rows) {
-    WorldConfig only = world;
-    only.rows = {row};
-    const Eigen::Vector2d along = row.end - row.start;
-    headings.insert(headings.end(), vine_positions(only).size(), std::atan2(along.y(), along.x()));
-  }
-  return headings;
-}
-
 /// Plants in their rows: which template, which way round and how tall is drawn for each place. Wood
 /// that is led to one side only points the same way all along a row.
-void add_vines(Scene& scene, const WorldConfig& world, std::uint64_t seed,
+void add_vines(Scene& scene, const WorldConfig& world, const Terrain& terrain, std::uint64_t seed,
                const std::filesystem::path& cache) {
   const PlantModels models = add_plants(scene, world, seed, cache);
-  const std::vector<Eigen::Vector2d> places = vine_positions(world);
-  const std::vector<double> headings = vine_headings(world);
+  const std::vector<VinePlace> places = vine_places(world);
   const bool one_sided = world.vines.training == Training::kUnilateralCordon ||
                          world.vines.training == Training::kSingleGuyot;
   const RandomStream gaps(seed, "vine gaps");
@@ -66,8 +56,10 @@ void add_vines(Scene& scene, const WorldConfig& world, std::uint64_t seed,
     const bool young = stands < world.vines.missing + world.vines.young;
     const std::vector<int>& choice = young ? models.young : models.grown;
     const int model = choice.at(random.below(static_cast<int>(choice.size())));
-    const double turn = headings[i] + (one_sided ? 0 : random.below(2)) * std::numbers::pi;
-    const Pose pose{from_roll_pitch_yaw({0, 0, turn}), {places[i].x(), places[i].y(), 0}};
+    const double turn = places[i].heading + (one_sided ? 0 : random.below(2)) * std::numbers::pi;
+    const Eigen::Vector2d& foot = places[i].foot;
+    const Eigen::Vector3d at(foot.x(), foot.y(), terrain.height(foot));
+    const Pose pose{from_roll_pitch_yaw({0, 0, turn}), at};
     const auto scale = static_cast<float>(random.uniform(1.0, kLargestPlantScale));
     scene.instances.push_back({model, pose, scale, static_cast<int>(i)});
   }
@@ -89,13 +81,15 @@ Scene build_scene(const WorldConfig& world, std::uint64_t seed,
   Scene scene;
   scene.seed = seed;
   scene.light = daylight(world.sun);
-  add_vines(scene, world, seed, cache);
-  add_trellis(scene, world, seed);
+  const Terrain terrain(world);
+  add_vines(scene, world, terrain, seed, cache);
+  add_trellis(scene, world, terrain, seed);
   add_tags(scene, world);
   add_boxes(scene, world, seed);
-  add_ground_cover(scene, world, seed);
-  add_ground(scene, world, seed);
-  add_backdrop(scene, world, seed);
+  add_obstacles(scene, world, terrain, seed);
+  add_ground_cover(scene, world, terrain, seed);
+  add_ground(scene, world, terrain, seed);
+  add_backdrop(scene, world, terrain, seed);
   return scene;
 }
 

@@ -52,11 +52,27 @@ inline constexpr int kBerryVariants = 4;
 TextureCell berry_cell(int variant);
 TextureCell packed_berries_cell();
 
-Texture soil_texture(std::uint64_t seed);  ///< for kSoilTile metres a side
-inline constexpr double kSoilTile = 2.3;   ///< m; no multiple of usual spacings
+Texture soil_texture(std::uint64_t seed);    ///< for kSoilTile metres a side
+inline constexpr double kSoilTile = 2.3;     ///< m; no multiple of usual spacings
+Texture meadow_texture(std::uint64_t seed);  ///< grass, for kSoilTile metres a side
+
+/// An aisle as it is mown and driven on; m.
+struct AisleProfile {
+  double width = 2.5;         ///< from row to row
+  double bare_strip = 0.8;    ///< half of it on either side
+  double track_gauge = 1.25;  ///< between the tracks' middles
+  double track_width = 0.28;
+};
+/// From row to row across (u) and kAisleLength times as far along (v).
+Texture aisle_texture(std::uint64_t seed, const AisleProfile& profile);
+inline constexpr double kAisleLength = 2;
+
 Texture wood_texture(std::uint64_t seed);
 /// White-based, to be multiplied by the box's colour: plain above v = 0.5, with a tape below.
 Texture carton_texture(std::uint64_t seed);
+/// The same with a maker's mark, lines of text and symbols on it.
+Texture print_texture(std::uint64_t seed);
+Texture cloth_texture(std::uint64_t seed);  ///< almost white, for clothes and plastics
 Texture grass_texture(std::uint64_t seed);
 Texture stone_texture(std::uint64_t seed);
 Texture hedge_texture(std::uint64_t seed);  ///< trees and bushes, alpha above their tops

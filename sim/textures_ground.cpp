@@ -1,42 +1,22 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
 #include "sim/textures.h"
+#include "sim/textures_paint.h"
 
 namespace vinebench {
 namespace {
 
-/// Draws a small thing on a picture that repeats: again wherever it crosses the seam.
-template <class Draw>
-void draw_wrapped(const cv::Mat& picture, const cv::Point2d& at, double reach, const Draw& draw) {
-  for (const int ix : {-1, 0, 1}) {
-    for (const int iy : {-1, 0, 1}) {
-      const cv::Point2d p(at.x + ix * picture.cols, at.y + iy * picture.rows);
-      if (p.x > -reach && p.y > -reach && p.x < picture.cols + reach &&
-          p.y < picture.rows + reach) {
-        draw(p);
-      }
-    }
-  }
-}
-
-cv::Scalar jitter(RandomSequence& random, const cv::Vec3d& colour, double amount) {
-  const double light = random.uniform(1 - amount, 1 + amount);
-  return {colour[0] * light, colour[1] * light, colour[2] * light};
-}
-
-cv::Point2d somewhere(RandomSequence& random, const cv::Mat& picture) {
-  const double x = random.uniform(0, picture.cols);
-  return {x, random.uniform(0, picture.rows)};
-}
-
 /// Each stone with the shadow it throws and the light on its upper side.
-void scatter_stones(cv::Mat& rgb, RandomSequence& random, int count, double min_px, double max_px) {
+void scatter_stones(cv::Mat& rgb, RandomSequence& random, int count, double min_px, double max_px,
+                    const cv::Mat* share = nullptr) {
   for (int i = 0; i < count; ++i) {
     const cv::Point2d at = somewhere(random, rgb);
+    if (share && share->at<float>(at) < 0.5f) continue;
     const double size = min_px * std::pow(max_px / min_px, std::pow(random.uniform(), 2.5));
     const cv::Size2d axes(size, size * random.uniform(0.55, 0.95));
     const double angle = random.uniform(0, 180);
@@ -100,6 +80,124 @@ void scatter_leaves(cv::Mat& rgb, RandomSequence& random, int count, double size
   }
 }
 
+/// Fine noise of a piece of a picture, laid side by side until it fills it.
+cv::Mat repeated_noise(cv::Size size, cv::Size pieces, cv::Size cells, int octaves, double gain,
+                       std::uint64_t seed, std::string_view name) {
+  const cv::Size piece(size.width / pieces.width, size.height / pieces.height);
+  return cv::repeat(fractal_noise(piece, cells, octaves, gain, seed, name), pieces.height,
+                    pieces.width);
+}
+
+/// Coarse noise, made small and enlarged; `gain` as for fractal_noise.
+cv::Mat coarse_noise(cv::Size size, cv::Size cells, int octaves, double gain, std::uint64_t seed,
+                     std::string_view name) {
+  constexpr int kRim = 4;  // px of the next tile, so that the enlarged picture has no seam
+  const cv::Size small(size.width / 4, size.height / 4);
+  cv::Mat wrapped, large;
+  cv::copyMakeBorder(fractal_noise(small, cells, octaves, gain, seed, name), wrapped, kRim, kRim,
+                     kRim, kRim, cv::BORDER_WRAP);
+  cv::resize(wrapped, large, wrapped.size() * 4, 0, 0, cv::INTER_LINEAR);
+  return large(cv::Rect(cv::Point(4 * kRim, 4 * kRim), size)).clone();
+}
+
+/// Short grass seen from above, without its single blades.
+cv::Mat turf(cv::Size size, int cells, std::uint64_t seed, std::string_view name) {
+  const cv::Size grid(cells, cells * size.height / size.width);
+  return blend(fractal_noise(size, grid, 6, 0.85, seed, name), {30, 40, 14}, {132, 136, 72});
+}
+
+/// Blades of grass, 2 to 7 cm long, where `share` says so.
+void scatter_blades(cv::Mat& rgb, RandomSequence& random, const cv::Mat& share, int count,
+                    double scale) {
+  for (int i = 0; i < count; ++i) {
+    const cv::Point2d at = somewhere(random, rgb);
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    const double length = scale * random.uniform(0.02, 0.07);
+    const cv::Vec3d fresh(random.uniform(74, 112), random.uniform(98, 132), random.uniform(34, 58));
+    const cv::Vec3d dry(random.uniform(130, 160), random.uniform(124, 146), 80);
+    const cv::Scalar skin = jitter(random, random.below(6) == 0 ? dry : fresh, 0.25);
+    const bool grows = random.uniform() < share.at<float>(at);
+    if (!grows) continue;
+    const cv::Point2d way(length * std::cos(angle), length * std::sin(angle));
+    draw_wrapped(rgb, at, 2 * length,
+                 [&](const cv::Point2d& p) { cv::line(rgb, p, p + way, skin, 1, cv::LINE_AA); });
+  }
+}
+
+/// Tufts as they look from above: a dark heart and bright tips all round, `reach` m at most.
+void scatter_tufts(cv::Mat& rgb, RandomSequence& random, const cv::Mat& share, int count,
+                   double reach_px) {
+  for (int i = 0; i < count; ++i) {
+    const cv::Point2d at = somewhere(random, rgb);
+    const double reach = reach_px * random.uniform(0.35, 1.0);
+    const cv::Vec3d tip(random.uniform(78, 126), random.uniform(96, 134), random.uniform(40, 66));
+    const cv::Vec3d heart(34, 46, 18);
+    const double first = random.uniform(0, 2 * std::numbers::pi);
+    const int blades = 12 + random.below(10);
+    if (share.at<float>(at) < random.uniform()) continue;
+    draw_wrapped(rgb, at, 2 * reach, [&](const cv::Point2d& p) {
+      cv::circle(rgb, p, cvRound(0.2 * reach), heart, cv::FILLED, cv::LINE_AA);
+    });
+    for (int b = 0; b < blades; ++b) {
+      const double turn = first + 2 * std::numbers::pi * b / blades + random.uniform(-0.3, 0.3);
+      const double length = reach * random.uniform(0.5, 1.0);
+      const cv::Point2d way(length * std::cos(turn), length * std::sin(turn));
+      const cv::Scalar skin = jitter(random, tip, 0.3);
+      draw_wrapped(rgb, at, 2 * reach, [&](const cv::Point2d& p) {
+        cv::line(rgb, p + 0.25 * way, p + way, skin, 1 + b % 2, cv::LINE_AA);
+      });
+    }
+  }
+}
+
+void scatter_flowers(cv::Mat& rgb, RandomSequence& random, int count) {
+  for (int i = 0; i < count; ++i) {
+    const cv::Point2d at = somewhere(random, rgb);
+    const bool white = random.below(2) == 0;
+    const cv::Scalar petals = white ? cv::Scalar(214, 212, 200) : cv::Scalar(206, 176, 52);
+    draw_wrapped(rgb, at, 6, [&](const cv::Point2d& p) {
+      cv::circle(rgb, p, 2 + i % 2, petals, cv::FILLED, cv::LINE_AA);
+    });
+  }
+}
+
+/// From 1 below `edge` to 0 above, softly.
+float below_edge(double value, double edge, double softness) {
+  return static_cast<float>(std::clamp(0.5 + (edge - value) / softness, 0.0, 1.0));
+}
+
+/// Share of grass on an aisle: none under the vines, worn in the wheel tracks, edges frayed.
+cv::Mat grass_share(cv::Size size, const AisleProfile& aisle, std::uint64_t seed) {
+  const cv::Mat fray = coarse_noise(size, {12, 24}, 5, 0.7, seed, "fray");
+  cv::Mat share(size, CV_32F);
+  for (int x = 0; x < size.width; ++x) {
+    const double off = std::abs((x + 0.5) / size.width - 0.5) * aisle.width;  // m from the middle
+    const double edge = aisle.width / 2 - aisle.bare_strip / 2;
+    const double from_track = std::abs(off - aisle.track_gauge / 2);
+    for (int y = 0; y < size.height; ++y) {
+      const double frayed = 0.24 * (fray.at<float>(y, x) - 0.5);
+      const float mown = below_edge(off + frayed, edge, 0.08);
+      const float worn = below_edge(from_track + frayed, aisle.track_width / 2, 0.12);
+      share.at<float>(y, x) = mown * (1 - 0.8f * worn);
+    }
+  }
+  return share;
+}
+
+cv::Mat track_share(cv::Size size, const AisleProfile& aisle, std::uint64_t seed) {
+  const cv::Mat fray = coarse_noise(size, {6, 12}, 4, 0.6, seed, "track");
+  cv::Mat share(size, CV_32F);
+  for (int x = 0; x < size.width; ++x) {
+    const double off = std::abs((x + 0.5) / size.width - 0.5) * aisle.width;
+    const double from_track = std::abs(off - aisle.track_gauge / 2);
+    for (int y = 0; y < size.height; ++y) {
+      const double frayed = 0.1 * (fray.at<float>(y, x) - 0.5);
+      share.at<float>(y, x) = 0.8f * below_edge(from_track + frayed, aisle.track_width / 2, 0.1);
+    }
+  }
+  return share;
+}
+
 }  // namespace
 
 Texture soil_texture(std::uint64_t seed) {
@@ -116,39 +214,41 @@ Texture soil_texture(std::uint64_t seed) {
   return {"soil", to_rgba(rgb), true};
 }
 
-Texture wood_texture(std::uint64_t seed) {
-  const cv::Size size(256, 512);
-  const cv::Mat grain = fractal_noise(size, {32, 2}, 4, 0.65, seed, "grain");
-  const cv::Mat stains = fractal_noise(size, {3, 3}, 5, 0.6, seed, "stains");
-  cv::Mat rgb = mix(stains, blend(grain, {72, 62, 50}, {150, 134, 112}),
-                    blend(grain, {88, 82, 72}, {176, 168, 152}));
-  RandomSequence random(RandomStream(seed, "cracks"));
-  for (int i = 0; i < 26; ++i) {
-    const cv::Point2d at = somewhere(random, rgb);
-    const cv::Point2d down(random.uniform(-3, 3), random.uniform(30, 140));
-    draw_wrapped(rgb, at, 150, [&](const cv::Point2d& p) {
-      cv::line(rgb, p, p + down, {46, 38, 30}, 1 + i % 2, cv::LINE_AA);
-    });
-  }
-  for (int i = 0; i < 7; ++i) {
-    const cv::Point2d at = somewhere(random, rgb);
-    draw_wrapped(rgb, at, 30, [&](const cv::Point2d& p) {
-      cv::ellipse(rgb, cv::RotatedRect(p, {14, 22}, 0), {66, 50, 36}, cv::FILLED, cv::LINE_AA);
-    });
-  }
-  return {"wood", to_rgba(rgb), true};
+Texture meadow_texture(std::uint64_t seed) {
+  const cv::Size size(1024, 1024);
+  cv::Mat rgb = mix(fractal_noise(size, {3, 3}, 4, 0.6, seed, "meadow patches"),
+                    turf(size, 10, seed, "meadow"), 1.2 * turf(size, 10, seed, "meadow dry"));
+  RandomSequence random(RandomStream(seed, "meadow"));
+  const cv::Mat everywhere(size, CV_32F, cv::Scalar(1));
+  scatter_blades(rgb, random, everywhere, 9000, size.width / kSoilTile);
+  scatter_tufts(rgb, random, everywhere, 420, 0.09 * size.width / kSoilTile);
+  scatter_straws(rgb, random, 160, {150, 136, 84}, 40);
+  scatter_flowers(rgb, random, 40);
+  return {"meadow", to_rgba(rgb), true};
 }
 
-Texture carton_texture(std::uint64_t seed) {
-  const cv::Size size(256, 512);
-  cv::Mat rgb =
-      blend(fractal_noise(size, {4, 8}, 3, 0.5, seed, "carton"), {241, 241, 241}, {251, 251, 251});
-  for (int y = 0; y < size.height; ++y) {
-    const float wave = 1 + 0.006f * std::sin(static_cast<float>(y) * std::numbers::pi_v<float> / 4);
-    rgb.row(y) *= wave;  // the flutes of the board, hardly seen
-  }
-  rgb(cv::Rect(112, 256, 32, 256)) *= 0.9;  // the tape over the seam
-  return {"carton", to_rgba(rgb), false};
+Texture aisle_texture(std::uint64_t seed, const AisleProfile& profile) {
+  const cv::Size size(1536, static_cast<int>(1536 * kAisleLength));
+  const double scale = size.width / profile.width;  // px per m
+  const cv::Size pieces(2, 4);
+  const cv::Mat grass = grass_share(size, profile, seed);
+  const cv::Mat track = track_share(size, profile, seed);
+  const cv::Mat clods = repeated_noise(size, pieces, {18, 18}, 6, 0.72, seed, "aisle clods");
+  const cv::Mat damp = coarse_noise(size, {2, 4}, 4, 0.55, seed, "aisle damp");
+  const cv::Mat soil = mix(damp, blend(clods, {50, 36, 24}, {166, 134, 100}),
+                           blend(clods, {66, 50, 34}, {194, 166, 130}));
+  // Wheels press clods flat and leave them paler.
+  const cv::Mat pressed = blend(clods, {112, 92, 70}, {156, 132, 104});
+  cv::Mat rgb = mix(grass, mix(track, soil, pressed),
+                    cv::repeat(turf(size / 2, 6, seed, "aisle turf"), 2, 2));
+  RandomSequence random(RandomStream(seed, "aisle"));
+  const cv::Mat bare = 1 - grass;
+  scatter_stones(rgb, random, 3200, 0.003 * scale, 0.028 * scale, &bare);
+  scatter_leaves(rgb, random, 70, 0.05 * scale);
+  scatter_blades(rgb, random, grass, 30000, scale);
+  scatter_tufts(rgb, random, grass, 1500, 0.075 * scale);
+  scatter_straws(rgb, random, 500, {150, 134, 88}, 0.09 * scale);
+  return {"aisle", to_rgba(rgb), true};
 }
 
 Texture grass_texture(std::uint64_t seed) {

@@ -22,5 +22,6 @@ void add_run_command(CLI::App& app, Command& chosen);
 void add_eval_command(CLI::App& app, Command& chosen);
 void add_render_command(CLI::App& app, Command& chosen);
 void add_bench_command(CLI::App& app, Command& chosen);
+void add_world_command(CLI::App& app, Command& chosen);
 
 }  // namespace vinebench

@@ -21,6 +21,7 @@ int dispatch(int argc, char** argv) {
   add_eval_command(app, chosen);
   add_render_command(app, chosen);
   add_bench_command(app, chosen);
+  add_world_command(app, chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

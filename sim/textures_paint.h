@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "slam/base/random.h"
+
+// What painters of pictures that repeat have in common.
+
+namespace vinebench {
+
+/// Draws a small thing on a picture that repeats: again wherever it crosses the seam.
+template <class Draw>
+void draw_wrapped(const cv::Mat& picture, const cv::Point2d& at, double reach, const Draw& draw) {
+  for (const int ix : {-1, 0, 1}) {
+    for (const int iy : {-1, 0, 1}) {
+      const cv::Point2d p(at.x + ix * picture.cols, at.y + iy * picture.rows);
+      if (p.x > -reach && p.y > -reach && p.x < picture.cols + reach &&
+          p.y < picture.rows + reach) {
+        draw(p);
+      }
+    }
+  }
+}
+
+/// A colour, lighter or darker by up to `amount` of it.
+inline cv::Scalar jitter(RandomSequence& random, const cv::Vec3d& colour, double amount) {
+  const double light = random.uniform(1 - amount, 1 + amount);
+  return {colour[0] * light, colour[1] * light, colour[2] * light};
+}
+
+inline cv::Point2d somewhere(RandomSequence& random, const cv::Mat& picture) {
+  const double x = random.uniform(0, picture.cols);
+  return {x, random.uniform(0, picture.rows)};
+}
+
+}  // namespace vinebench
