@@ -19,7 +19,7 @@ constexpr std::array<GrowthStage, 7> kStages{{
     {75, "pea-size", 1, 0.95f, 0.90f, 0, 0.90f, 0.48f, 0, 0.1f},
     {83, "veraison", 1, 1, 1, 0, 1, 0.85f, 0.5f, 0.35f},
     {89, "harvest", 1, 1, 1, 0.03f, 1, 1, 1, 0.6f},
-    {95, "leaf fall", 1, 1, 0.5f, 0.85f, 0, 0, 0, 1},
+    {95, "leaf fall", 1, 1, 0.5f, 0.8f, 0, 0, 0, 1},
 }};
 
 const GrowthStage* find(int bbch) {
