@@ -237,10 +237,9 @@ class Grower {
   void grow_bunch(const Node& node) {
     const Cultivar::Bunch& look = brief_.cultivar.bunch;
     const float size = std::clamp(1 + normal(0.13f), 0.65f, 1.35f);
-    const float swollen = 0.35f + 0.65f * stage_.berry;  // flowers and small berries stand closer
     Bunch bunch;
     bunch.length = static_cast<float>(look.length) * size * stage_.bunch;
-    bunch.radius = static_cast<float>(look.width) / 2 * std::sqrt(size) * swollen;
+    bunch.radius = static_cast<float>(look.width) / 2 * std::sqrt(size) * stage_.bunch_width();
     bunch.berry_radius = static_cast<float>(brief_.cultivar.berry.diameter) / 2 * stage_.berry;
     bunch.shoulder =
         static_cast<float>(std::clamp(look.shoulder + random_.normal(0, 0.12), 0.0, 1.0));
