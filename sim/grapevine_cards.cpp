@@ -27,6 +27,7 @@ Grapevine half_of(const Grapevine& plant, bool slab, float sign) {
     return !mine(leaf.foot + 0.4f * leaf.size * leaf.axes.y);
   });
   std::erase_if(half.shoots, [&](const Tube& t) { return !mine(t.path[t.path.size() / 2]); });
+  if (slab) half.wood.clear();
   std::erase_if(half.canes, [&](const Tube& t) { return !mine(t.path[t.path.size() / 2]); });
   std::erase_if(half.bunches, [&](const Bunch& bunch) { return !mine(bunch.top); });
   return half;
@@ -160,8 +161,10 @@ void FarPlants::add_side(Primitive& to, const Card& card, float sign, int column
 void FarPlants::add_slab(Primitive& to, const Card& card) {
   if (card.empty) return;
   MeshBuilder builder(to);
-  const Vector3f normal = Vector3f(card.place < 0 ? -1.0f : 1.0f, 0, 0.4f).normalized();
+  const float outward = card.place < 0 ? -0.7f : 0.7f;
   const auto corner = [&](float u, float v) {
+    // Seen from the aisle, its edge is lit as the canopy's side is.
+    const Vector3f normal = Vector3f(outward, u > 0.5f ? 0.7f : -0.7f, 0.4f).normalized();
     return builder.vertex({card.place, card.from.x() + u * (card.to - card.from).x(),
                            card.to.y() - v * (card.to - card.from).y()},
                           normal, card.cell.at(u, v), card.occlusion);

@@ -134,11 +134,9 @@ std::vector<Primitive> mesh_to_paint(const Grapevine& plant, const CanopyLight& 
   add_shoots(parts, plant, kPainted);
   add_leaves(parts, plant, kPainted.leaf);
   add_bunches(parts, plant, kPainted);
-  if (plant.leaves.empty()) {
-    MeshBuilder wood(parts.at(kTrunkMaterial)), cane(parts.at(kCaneMaterial));
-    for (std::size_t i = 1; i < plant.wood.size(); ++i) wood.tube(plant.wood[i], 5, 4, true);
-    for (const Tube& tube : plant.canes) cane.tube(tube, 3, 6, false, kCaneFrom, kCaneTo);
-  }
+  MeshBuilder arms(parts.at(kTrunkMaterial)), cane(parts.at(kCaneMaterial));
+  for (std::size_t i = 1; i < plant.wood.size(); ++i) arms.tube(plant.wood[i], 5, 4, true);
+  for (const Tube& tube : plant.canes) cane.tube(tube, 3, 6, false, kCaneFrom, kCaneTo);
   return parts.finish(plant, light);
 }
 
