@@ -18,9 +18,9 @@ struct Cultivar {
     double variation = 0.18;  ///< standard deviation of the area, as a share of it
     double lobes = 0.5;       ///< depth of the sinuses: 0 a whole leaf, 1 cut to the veins
     double teeth = 0.5;       ///< height of the teeth: 0 smooth, 1 long and sharp
-    Eigen::Vector3d dark{0.16, 0.26, 0.08};
-    Eigen::Vector3d light{0.36, 0.50, 0.17};
-    Eigen::Vector3d autumn{0.68, 0.36, 0.12};
+    Eigen::Vector3d dark{0.16, 0.25, 0.10};
+    Eigen::Vector3d light{0.37, 0.49, 0.21};
+    Eigen::Vector3d autumn{0.74, 0.52, 0.18};
     template <class Archive>
     void serialize(Archive& archive) {
       archive("area", area, Range::between(0.002, 0.04));

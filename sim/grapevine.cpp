@@ -188,8 +188,9 @@ class Grower {
 
   /// Which of the atlas' leaves: 0 to 3 in their prime, 4 and 5 old, 6 young, 7 turned.
   int variant(const Node& node, bool lateral) {
-    const float turned = std::clamp(stage_.autumn * (1.6f - 1.2f * node.grown), 0.0f, 1.0f);
+    const float turned = std::clamp(stage_.autumn * (1.3f - 0.7f * node.grown), 0.0f, 1.0f);
     if (random_.uniform() < turned) return stage_.autumn > 0.5f ? 4 + random_.below(4) : 7;
+    if (stage_.autumn > 0.5f) return random_.below(4);
     if (node.grown > 0.88f || stage_.shoot < 0.5f) return 6;
     if (lateral) return random_.below(3);
     return random_.below(stage_.autumn > 0 && node.rank < 5 ? 6 : 4);
@@ -225,7 +226,7 @@ class Grower {
       }
     }
     for (const Node& node : nodes_) {
-      if (node.rank > 5 && node.rank % 3 != 0 && random_.uniform() < 0.3) grow_tendril(node);
+      if (node.rank > 5 && node.rank % 3 != 0 && random_.uniform() < 0.18) grow_tendril(node);
     }
   }
 
@@ -236,10 +237,9 @@ class Grower {
   void grow_bunch(const Node& node) {
     const Cultivar::Bunch& look = brief_.cultivar.bunch;
     const float size = std::clamp(1 + normal(0.13f), 0.65f, 1.35f);
-    const float swollen = 0.35f + 0.65f * stage_.berry;  // flowers and small berries stand closer
     Bunch bunch;
     bunch.length = static_cast<float>(look.length) * size * stage_.bunch;
-    bunch.radius = static_cast<float>(look.width) / 2 * std::sqrt(size) * swollen;
+    bunch.radius = static_cast<float>(look.width) / 2 * std::sqrt(size) * stage_.bunch_width();
     bunch.berry_radius = static_cast<float>(brief_.cultivar.berry.diameter) / 2 * stage_.berry;
     bunch.shoulder =
         static_cast<float>(std::clamp(look.shoulder + random_.normal(0, 0.12), 0.0, 1.0));
@@ -249,7 +249,7 @@ class Grower {
     bunch.top.z() = std::max(bunch.top.z(), fruit_ + bunch.length + uniform(0.0f, 0.05f));
     bunch.berry_seed = static_cast<std::uint64_t>(random_.below(1 << 30));
     if (bunch.shoulder > 0.6f && random_.uniform() < 0.6) {
-      bunch.wing = {(random_.below(2) == 0 ? 1.0f : -1.0f) * 0.95f * bunch.radius, 0.0f};
+      bunch.wing = {(random_.below(2) == 0 ? 1.0f : -1.0f) * 0.85f * bunch.radius, 0.0f};
     }
     const float clearance = std::max(kBunchClearance, 1.5f * bunch.radius);
     for (const Bunch& other : plant_.bunches) {

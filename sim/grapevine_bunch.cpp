@@ -72,7 +72,7 @@ void add_berries(MeshBuilder& builder, const Body& body, const Bunch& bunch, int
   const std::vector<float> area = areas(body);
   const float larger = std::sqrt(static_cast<float>(berries_of(body, bunch.berry_radius)) / count);
   for (int i = 0; i < count; ++i) {
-    const float radius = bunch.berry_radius * std::clamp(larger, 1.0f, 1.16f) *
+    const float radius = bunch.berry_radius * std::clamp(larger, 1.0f, 1.2f) *
                          static_cast<float>(random.uniform(0.86, 1.12));
     const float turn = 2.39996f * i + static_cast<float>(random.uniform(-0.35, 0.35));
     const float down = down_at(area, (static_cast<float>(i) + 0.5f) / count);
@@ -86,21 +86,23 @@ void add_berries(MeshBuilder& builder, const Body& body, const Bunch& bunch, int
     // Caps sit on the core, whole berries may stand out.
     const float sunk = (fine ? 0.62f + 0.5f * loose : 1.0f + 0.2f * loose) * radius;
     const float out = last ? 0.0f : std::max(0.0f, body.width(down) - sunk);
-    const float depth =
-        last ? body.length - radius : std::clamp(down * body.length, radius, body.length - radius);
+    const float depth = last ? body.length - radius
+                             : std::clamp(down * body.length, radius, body.length - 1.06f * radius);
     const Vector3f centre = body.top + out * spoke - Vector3f(0, 0, depth);
     builder.berry(centre, radius, outward, fine, berry_cell(random.below(kBerryVariants)));
   }
 }
 
-void add_solid(MeshBuilder& builder, const Body& body, const BunchDetail& detail, float share) {
+/// The whole body, or the core that its berries sit on.
+void add_solid(MeshBuilder& builder, const Body& body, const BunchDetail& detail, bool core,
+               float berry_radius) {
+  const std::vector<float> downs =
+      detail.coarse ? std::vector<float>{0, 0.35f, 1} : std::vector<float>{0, 0.1f, 0.3f, 0.72f, 1};
+  const float share = core ? 0.88f : 1.0f, inset = core ? 0.5f * berry_radius : 0.0f;
   std::vector<float> radii;
-  for (int i = 0; i <= detail.rings; ++i) {
-    radii.push_back(share * body.width(static_cast<float>(i) / static_cast<float>(detail.rings)));
-  }
-  const float inset = share < 1 ? 0.006f : 0.0f;  // m that berries reach below their core
-  builder.spindle(body.top - Vector3f(0, 0, inset), body.length - 2 * inset, radii, detail.sides,
-                  packed_berries_cell());
+  for (const float down : downs) radii.push_back(share * body.width(down));
+  builder.spindle(body.top - Vector3f(0, 0, inset), body.length - 2 * inset, downs, radii,
+                  detail.sides, packed_berries_cell());
 }
 
 }  // namespace
@@ -114,11 +116,11 @@ int visible_berries(const Bunch& bunch) {
 void add_bunch(Primitive& primitive, const Bunch& bunch, int part, const BunchDetail& detail) {
   MeshBuilder builder(primitive, static_cast<std::uint8_t>(std::min(part, 255)));
   const int all = visible_berries(bunch);
-  const float each = detail.fine ? 12.0f : 5.0f;  // triangles of a berry, on average
+  const float each = detail.fine ? 13.8f : 6.0f;  // triangles of a berry, on average
   const float share = std::min(1.0f, static_cast<float>(detail.triangles) / (each * all));
   std::uint64_t stream = 0;
   for (const Body& body : bodies(bunch)) {
-    add_solid(builder, body, detail, detail.triangles > 0 ? 0.88f : 1.0f);
+    add_solid(builder, body, detail, detail.triangles > 0, bunch.berry_radius);
     if (detail.triangles == 0) continue;
     const int count = std::max(
         4, static_cast<int>(share * static_cast<float>(berries_of(body, bunch.berry_radius))));

@@ -27,6 +27,7 @@ Grapevine half_of(const Grapevine& plant, bool slab, float sign) {
     return !mine(leaf.foot + 0.4f * leaf.size * leaf.axes.y);
   });
   std::erase_if(half.shoots, [&](const Tube& t) { return !mine(t.path[t.path.size() / 2]); });
+  if (slab) half.wood.clear();
   std::erase_if(half.canes, [&](const Tube& t) { return !mine(t.path[t.path.size() / 2]); });
   std::erase_if(half.bunches, [&](const Bunch& bunch) { return !mine(bunch.top); });
   return half;
@@ -133,7 +134,6 @@ FarPlants::Card FarPlants::paint_card(const Grapevine& part, const CanopyLight& 
 void FarPlants::add_side(Primitive& to, const Card& card, float sign, int columns, int rows) {
   if (card.empty) return;
   MeshBuilder builder(to);
-  const Vector3f normal = Vector3f(0, sign, 0.4f).normalized();
   const Vector2f span = card.to - card.from;
   const auto first = static_cast<std::uint32_t>(to.vertices.size());
   for (int row = 0; row <= rows; ++row) {
@@ -142,9 +142,11 @@ void FarPlants::add_side(Primitive& to, const Card& card, float sign, int column
           row * kReliefRows / rows * (kReliefColumns + 1) + column * kReliefColumns / columns;
       const float u = static_cast<float>(column) / static_cast<float>(columns);
       const float v = static_cast<float>(row) / static_cast<float>(rows);
+      // Leaves face all ways: no sheet is as bright in the sun as one that faces it.
+      const Vector3f normal(column % 2 == 0 ? -0.6f : 0.6f, sign, 0.4f);
       builder.vertex({card.from.x() + u * span.x(), card.relief.at(static_cast<std::size_t>(at)),
                       card.to.y() - v * span.y()},
-                     normal, card.cell.at(u, v), card.occlusion);
+                     normal.normalized(), card.cell.at(u, v), card.occlusion);
     }
   }
   const auto stride = static_cast<std::uint32_t>(columns + 1);
@@ -159,8 +161,10 @@ void FarPlants::add_side(Primitive& to, const Card& card, float sign, int column
 void FarPlants::add_slab(Primitive& to, const Card& card) {
   if (card.empty) return;
   MeshBuilder builder(to);
-  const Vector3f normal = Vector3f(card.place < 0 ? -1.0f : 1.0f, 0, 0.4f).normalized();
+  const float outward = card.place < 0 ? -0.7f : 0.7f;
   const auto corner = [&](float u, float v) {
+    // Seen from the aisle, its edge is lit as the canopy's side is.
+    const Vector3f normal = Vector3f(outward, u > 0.5f ? 0.7f : -0.7f, 0.4f).normalized();
     return builder.vertex({card.place, card.from.x() + u * (card.to - card.from).x(),
                            card.to.y() - v * (card.to - card.from).y()},
                           normal, card.cell.at(u, v), card.occlusion);
@@ -177,7 +181,7 @@ std::vector<LevelOfDetail> FarPlants::levels(std::size_t plant) const {
     int bunch_triangles;
   };
   constexpr std::array<Spec, 3> kSpecs{
-      {{10, kReliefColumns, kReliefRows, 4, 4, 160}, {25, 2, 3, 9, 3, 0}, {1e9, 1, 1, 9, 0, 0}}};
+      {{10, kReliefColumns, kReliefRows, 5, 4, 150}, {25, 2, 3, 15, 3, 0}, {1e9, 1, 1, 9, 0, 0}}};
   std::vector<LevelOfDetail> levels;
   for (const Spec& spec : kSpecs) {
     LevelOfDetail& level = levels.emplace_back(LevelOfDetail{spec.until, {}});

@@ -103,7 +103,7 @@ void add_bunches(Parts& parts, const Grapevine& plant, const MeshDetail& detail)
   if (detail.leaf > 0) {
     int cores = 0;
     for (const Bunch& bunch : plant.bunches) {
-      cores += 2 * look.sides * look.rings * (bunch.wing.isZero() ? 1 : 2);
+      cores += look.solid_triangles() * (bunch.wing.isZero() ? 1 : 2);
     }
     const float widths = std::max(1.0f, 2 * plant.half_share);
     const int left =
@@ -134,11 +134,9 @@ std::vector<Primitive> mesh_to_paint(const Grapevine& plant, const CanopyLight& 
   add_shoots(parts, plant, kPainted);
   add_leaves(parts, plant, kPainted.leaf);
   add_bunches(parts, plant, kPainted);
-  if (plant.leaves.empty()) {
-    MeshBuilder wood(parts.at(kTrunkMaterial)), cane(parts.at(kCaneMaterial));
-    for (std::size_t i = 1; i < plant.wood.size(); ++i) wood.tube(plant.wood[i], 5, 4, true);
-    for (const Tube& tube : plant.canes) cane.tube(tube, 3, 6, false, kCaneFrom, kCaneTo);
-  }
+  MeshBuilder arms(parts.at(kTrunkMaterial)), cane(parts.at(kCaneMaterial));
+  for (std::size_t i = 1; i < plant.wood.size(); ++i) arms.tube(plant.wood[i], 5, 4, true);
+  for (const Tube& tube : plant.canes) cane.tube(tube, 3, 6, false, kCaneFrom, kCaneTo);
   return parts.finish(plant, light);
 }
 
@@ -165,8 +163,8 @@ void add_far_wood(LevelOfDetail& level, const Grapevine& plant, int stride, int 
 }
 
 void add_far_bunches(LevelOfDetail& level, const Grapevine& plant, int triangles) {
-  constexpr BunchDetail kSolid{0, false, 3, 2};
-  constexpr int kEach = 2 * kSolid.sides * kSolid.rings;
+  constexpr BunchDetail kSolid{0, false, 3, true};
+  constexpr int kEach = kSolid.solid_triangles();
   Parts parts;
   for (std::size_t i = 0; i < plant.bunches.size() && parts.triangles() + kEach <= triangles; ++i) {
     Bunch bunch = plant.bunches[i];

@@ -37,8 +37,7 @@ struct MeshDetail {
 /// A level of meshes, its occlusion baked.
 LevelOfDetail mesh_near(const Grapevine& plant, const MeshDetail& detail, const CanopyLight& light);
 
-/// The level that far ones are painted from: leaves, bunches and shoots, old arms only where no
-/// leaves hide them.
+/// The level that far ones are painted from: all but the trunk and the grow tube.
 std::vector<Primitive> mesh_to_paint(const Grapevine& plant, const CanopyLight& light);
 
 /// Trunk, arms and shelter, in a few triangles; `bunches` of them as solids.

@@ -15,11 +15,11 @@ constexpr std::array<GrowthStage, 7> kStages{{
     // code, name, shoot, leaf, foliage, autumn, bunch, berry, ripe, lignified
     {0, "dormant", 0, 0, 0, 0, 0, 0, 0, 1},
     {9, "budburst", 0.03f, 0.22f, 0, 0, 0, 0, 0, 0},
-    {65, "flowering", 0.80f, 0.82f, 0.50f, 0, 0.75f, 0.30f, 0, 0},
+    {65, "flowering", 0.80f, 0.82f, 0.50f, 0, 0.75f, 0.24f, 0, 0},
     {75, "pea-size", 1, 0.95f, 0.90f, 0, 0.90f, 0.48f, 0, 0.1f},
     {83, "veraison", 1, 1, 1, 0, 1, 0.85f, 0.5f, 0.35f},
     {89, "harvest", 1, 1, 1, 0.03f, 1, 1, 1, 0.6f},
-    {95, "leaf fall", 1, 1, 0.5f, 0.85f, 0, 0, 0, 1},
+    {95, "leaf fall", 1, 1, 0.5f, 0.8f, 0, 0, 0, 1},
 }};
 
 const GrowthStage* find(int bbch) {

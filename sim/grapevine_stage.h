@@ -16,7 +16,10 @@ struct GrowthStage {
   float bunch = 1;         ///< length of the bunches; 0 without any
   float berry = 1;         ///< diameter of the berries
   float ripe = 1;          ///< berries that have their colour
-  float lignified = 0.5f;  ///< shoots from green to brown
+  float lignified = 0.6f;  ///< shoots from green to brown
+
+  /// Width of the bunches, as a share: before the berries swell, they stand closer.
+  float bunch_width() const { return 0.2f + 0.8f * berry; }
 };
 
 /// Stages 0, 9, 65, 75, 83, 89 and 95. Throws Error that names them for any other.

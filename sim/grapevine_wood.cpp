@@ -13,7 +13,7 @@ using Eigen::Vector3f;
 
 constexpr float kShare = 0.485f;      // of the spacing that an arm to either side covers
 constexpr float kHeadDrop = 0.11f;    // m that the head of a cane-pruned vine stands below the wire
-constexpr float kSpurLength = 0.05f;  // m, of two nodes
+constexpr float kSpurLength = 0.06f;  // m, of two nodes
 
 class Woodwork {
  public:
@@ -79,16 +79,20 @@ class Woodwork {
 
   /// An arm of old wood that bends from the head onto the wire.
   void grow_cordon(const Vector3f& head, float end) {
-    constexpr int kPoints = 10;
+    constexpr int kPoints = 16;
     Tube arm;
-    arm.knots = 0.18f;
+    arm.knots = 0.16f;
+    const float phase = uniform(0, 6.28f), sway = uniform(0.004f, 0.009f);
     for (int i = 0; i < kPoints; ++i) {
       const float t = static_cast<float>(i) / (kPoints - 1);
       const float away = std::abs(t * (end - head.x()));
       const float below = (wire_ - head.z()) * std::exp(-away / 0.06f);
-      arm.path.emplace_back(head.x() + t * (end - head.x()), normal(0.004f),
-                            wire_ - 0.010f - below + normal(0.005f));
-      arm.radii.push_back(girth_ * (0.0185f - 0.007f * t + std::abs(normal(0.0015f))));
+      const float bend = std::sin(phase + 19 * away);
+      arm.path.emplace_back(head.x() + t * (end - head.x()),
+                            sway * std::sin(2 * phase + 13 * away) + normal(0.0015f),
+                            wire_ - 0.010f - below + 0.6f * sway * bend + normal(0.0012f));
+      arm.radii.push_back(girth_ *
+                          (0.0185f - 0.006f * t + 0.0012f * bend + std::abs(normal(0.001f))));
     }
     plant_.wood.push_back(std::move(arm));
   }

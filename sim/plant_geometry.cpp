@@ -236,35 +236,36 @@ void MeshBuilder::dome(const Eigen::Vector3f& centre, float radius, const Eigen:
 
 void MeshBuilder::berry(const Eigen::Vector3f& centre, float radius, const Eigen::Vector3f& outward,
                         bool fine, const TextureCell& cell) {
-  constexpr float kAround = 1.06f;  // of the ball's radius, so that the outline has its area
-  constexpr float kHigh = 0.4472136f, kOut = 0.8944272f;  // of an icosahedron's rings
+  constexpr std::size_t kSpokes = 6;
+  constexpr float kAround = 1.05f;  // of the ball's radius, so that the outline has its area
+  constexpr float kHigh = 0.4472136f, kOut = 0.8944272f;  // where the two rings lie
   const Axes axes = axes_along(outward, Eigen::Vector3f::UnitZ());
   const std::uint32_t pole = vertex(centre + radius * axes.z, axes.z, cell.at(0.5f, 0.5f));
-  std::array<std::uint32_t, 10> ring{};
-  for (std::size_t i = 0; i < (fine ? 10u : 5u); ++i) {
-    const bool lower = i >= 5;
-    const float turn = (static_cast<float>(i % 5) + (lower ? 0.5f : 0.0f)) / 5 * kTurn;
+  std::array<std::uint32_t, 2 * kSpokes> ring{};
+  for (std::size_t i = 0; i < (fine ? 2 : 1) * kSpokes; ++i) {
+    const bool lower = i >= kSpokes;
+    const float turn = (static_cast<float>(i % kSpokes) + (lower ? 0.5f : 0.0f)) / kSpokes * kTurn;
     const Eigen::Vector3f spoke = std::cos(turn) * axes.x + std::sin(turn) * axes.y;
     const Eigen::Vector3f out = kOut * spoke + (lower ? -kHigh : kHigh) * axes.z;
     const float reach = lower ? 0.5f : 0.36f;  // in the picture of a berry
     ring.at(i) = vertex(centre + kAround * radius * out, out,
                         cell.at(0.5f + reach * std::cos(turn), 0.5f + reach * std::sin(turn)));
   }
-  for (std::size_t i = 0; i < 5; ++i) {
-    const std::size_t next = (i + 1) % 5;
+  for (std::size_t i = 0; i < kSpokes; ++i) {
+    const std::size_t next = (i + 1) % kSpokes;
     triangle(pole, ring.at(i), ring.at(next));
     if (!fine) continue;
-    triangle(ring.at(i), ring.at(5 + i), ring.at(next));
-    triangle(ring.at(next), ring.at(5 + i), ring.at(5 + next));
+    triangle(ring.at(i), ring.at(kSpokes + i), ring.at(next));
+    triangle(ring.at(next), ring.at(kSpokes + i), ring.at(kSpokes + next));
   }
 }
 
-void MeshBuilder::spindle(const Eigen::Vector3f& top, float length, const std::vector<float>& radii,
-                          int sides, const TextureCell& cell) {
+void MeshBuilder::spindle(const Eigen::Vector3f& top, float length, const std::vector<float>& downs,
+                          const std::vector<float>& radii, int sides, const TextureCell& cell) {
   const auto n = radii.size();
   std::uint32_t previous = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const float down = static_cast<float>(i) / static_cast<float>(n - 1);
+    const float down = downs[i];
     const auto ring = static_cast<std::uint32_t>(primitive_.vertices.size());
     for (int s = 0; s <= sides; ++s) {
       const float turn = static_cast<float>(s % sides) / sides * kTurn;

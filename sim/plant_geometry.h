@@ -84,13 +84,14 @@ class MeshBuilder {
   /// The half of a ball that looks along `outward`.
   void dome(const Eigen::Vector3f& centre, float radius, const Eigen::Vector3f& outward, int sides,
             int rings);
-  /// Half an icosahedron (`fine`) or its cap alone, with a ball's normals, looking along `outward`:
-  /// round from all sides for few triangles.
+  /// The half of a ball that looks along `outward`, of 18 triangles (`fine`), or a cap of 6: round
+  /// from all sides for so few.
   void berry(const Eigen::Vector3f& centre, float radius, const Eigen::Vector3f& outward, bool fine,
              const TextureCell& cell);
-  /// A solid of revolution about the vertical, radii from top to bottom.
-  void spindle(const Eigen::Vector3f& top, float length, const std::vector<float>& radii, int sides,
-               const TextureCell& cell = {});
+  /// A solid of revolution about the vertical: radii at the shares `downs` of its length from the
+  /// top.
+  void spindle(const Eigen::Vector3f& top, float length, const std::vector<float>& downs,
+               const std::vector<float>& radii, int sides, const TextureCell& cell = {});
 
  private:
   void fan(const std::vector<std::uint32_t>& rim, std::uint32_t foot);

@@ -17,7 +17,7 @@ constexpr float kGamma = 2.2f;     // the shaders'
 /// Light on a surface, up to a factor, under a sky that is brightest above and before it.
 float light_on(const Eigen::Vector3f& normal, const Eigen::Vector3f& towards, float occlusion) {
   const Eigen::Vector3f n = normal.dot(towards) < 0 ? Eigen::Vector3f(-normal) : normal;
-  return occlusion * (0.62f + 0.38f * n.z()) * (0.55f + 0.45f * n.dot(towards));
+  return occlusion * (0.55f + 0.45f * n.z()) * (0.40f + 0.60f * n.dot(towards));
 }
 
 struct Sample {

@@ -190,9 +190,9 @@ cv::Mat paint_packed(std::uint64_t seed, const Cultivar& cultivar, const GrowthS
   const auto colours = berry_colours(cultivar, stage);
   const int side = kBunchPixels;
   cv::Mat rgb(side, side, CV_32FC3, cv::Scalar(0.22f * colours[1]));
-  const double berry = cultivar.berry.diameter * std::max(0.3f, stage.berry);
-  const double swollen = 0.35 + 0.65 * stage.berry;
-  const int columns = std::clamp(cvRound(2.6 * cultivar.bunch.width * swollen / berry), 5, 24);
+  const double berry = cultivar.berry.diameter * std::max(0.2f, stage.berry);
+  const auto width = cultivar.bunch.width * static_cast<double>(stage.bunch_width());
+  const int columns = std::clamp(cvRound(2.6 * width / berry), 5, 24);
   const int rows = std::clamp(cvRound(1.15 * cultivar.bunch.length * stage.bunch / berry), 4, 40);
   const cv::Size2d step(static_cast<double>(side) / columns, static_cast<double>(side) / rows);
   RandomSequence random(RandomStream(seed, "bunch"));

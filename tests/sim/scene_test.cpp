@@ -7,6 +7,7 @@
 #include <array>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
+#include <set>
 
 #include "sim/asset_file.h"
 #include "sim/grapevine.h"
@@ -141,6 +142,37 @@ TEST_F(SceneTest, TheSunStandsWhereTheWorldSays) {
   const Scene scene = build_scene(world, 1, folder_ / "cache");
   const Eigen::Vector3f expected(std::sqrt(0.75f), 0, 0.5f);
   EXPECT_LT((scene.light.towards_sun - expected).norm(), 1e-6f);
+}
+
+TEST_F(SceneTest, SomePlacesAreEmptyOrHaveAYoungVine) {
+  WorldConfig world = small_world();
+  world.rows = {{{0, 0}, {100, 0}}};
+  world.ground_size = 4;  // no grass is needed
+  world.vines.missing = 0.2;
+  world.vines.young = 0.3;
+  const Scene scene = build_scene(world, 1, folder_ / "cache");
+  // Grown ones bear fruit, young ones do not; all have a trunk.
+  const std::size_t grown = instances_of(scene, Label::kBunch).size();
+  const std::vector<Instance> all = instances_of(scene, Label::kTrunk);
+  // Of 100 places; the standard deviation of a share of 0.2 to 0.5 is at most 5.
+  EXPECT_NEAR(static_cast<double>(all.size()), 80, 15);
+  EXPECT_NEAR(static_cast<double>(grown), 50, 15);
+  std::set<int> ids;
+  for (const Instance& plant : all) {
+    ids.insert(plant.id);
+    EXPECT_NEAR(plant.T_world_model.translation.x(), plant.id + 0.5, 1e-9) << "the place's number";
+  }
+  EXPECT_EQ(ids.size(), all.size());
+}
+
+TEST_F(SceneTest, WoodLedToOneSidePointsTheSameWayAllAlongTheRow) {
+  WorldConfig world = small_world();
+  world.vines.training = Training::kSingleGuyot;
+  for (const Instance& plant :
+       instances_of(build_scene(world, 1, folder_ / "cache"), Label::kBunch)) {
+    const Eigen::Vector3d along = plant.T_world_model.rotation * Eigen::Vector3d::UnitX();
+    EXPECT_NEAR(plant.id < 3 ? along.x() : along.y(), 1, 1e-9);
+  }
 }
 
 std::string glb_of_model(const Scene& scene, std::size_t index) {
