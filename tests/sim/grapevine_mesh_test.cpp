@@ -68,8 +68,8 @@ TEST(GrapevineMeshTest, TheCanopyKeepsToItsDepthAndHeight) {
 
 TEST(GrapevineMeshTest, NoLeafHangsIntoTheWayBelowTheFruit) {
   for (const std::uint64_t seed : kSeeds) {
-    for_each_primitive(plant(brief(), seed), [&](const Primitive& primitive, Label label) {
-      if (label != Label::kLeaf) return;
+    for_each_primitive(plant(brief(), seed), [&](const Primitive& primitive, Label) {
+      if (primitive.material != kLeafMaterial) return;
       // 2 cm below the lowest bunch; a coarse outline of the same area may hang by 3 cm more.
       for (const Vertex& v : primitive.vertices) ASSERT_GT(v.position.z(), 0.60f - 0.02f - 0.03f);
     });
