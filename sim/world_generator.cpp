@@ -17,11 +17,6 @@ namespace {
 constexpr double kNarrow = 1.4;   // m; tractors drive in aisles at least so wide, and grass grows
 constexpr double kHeadland = 30;  // m of ground beyond the rows, on either side
 
-template <class Vines>
-void set_stage(Vines& vines, int bbch) {
-  if constexpr (requires { vines.bbch; }) vines.bbch = bbch;
-}
-
 WorldConfig::Trellis trellis_for(const WorldRecipe& recipe) {
   WorldConfig::Trellis trellis;
   // Every few vines a post, about 5 m apart.
@@ -133,7 +128,7 @@ WorldConfig make_world(const WorldRecipe& recipe) {
   const double width = (recipe.rows - 1) * recipe.row_spacing;
   world.ground_size = std::ceil(std::hypot(recipe.length, width) + 2 * kHeadland);
   world.vines.spacing = recipe.plant_spacing;
-  set_stage(world.vines, recipe.bbch);
+  world.vines.bbch = recipe.bbch;
   world.vines.lowest_bunch = 0.70;
   world.vines.canopy_top = 1.9;
   world.vines.canopy_depth = 0.40;
