@@ -21,6 +21,11 @@ namespace vinebench {
 struct WorldConfig {
   /// Where things may stand, m from the origin.
   static constexpr Range kPlace = Range::between(-5000, 5000);
+  // What a laptop can still hold and draw; a larger vineyard is simulated a part at a time.
+  static constexpr double kMostVines = 20'000;
+  static constexpr double kMostRow = 20'000;       ///< m, of all rows together
+  static constexpr double kMostGround = 200'000;   ///< m^2, of shaped ground
+  static constexpr double kMostCells = 3'000'000;  ///< of the ground
 
   /// One row of the trellis.
   struct Row {
@@ -107,6 +112,7 @@ struct WorldConfig {
       archive("post_height", post_height, Range::between(0.3, 6));
       archive("post_radius", post_radius, Range::between(0.005, 0.3));
       archive("wires", wires, Range::between(0.05, 6));
+      archive.require(wires.size() <= 20, "wires", "expected at most 20");
       archive("end_post_radius", end_post_radius, Range::between(0.005, 0.3));
       archive("end_lean_deg", end_lean_deg, Range::between(0, 45));
       archive("end_brace", end_brace);
@@ -241,6 +247,9 @@ struct WorldConfig {
 
   /// What place() cannot do: the key at fault and why; both empty where all is well.
   std::pair<std::string, std::string> placing_problem() const;
+
+  /// What makes the world larger than its limits: key and problem, as placing_problem().
+  std::pair<std::string, std::string> size_problem() const;
 
   /// Turns the block into rows.
   void expand_block();
