@@ -11,6 +11,7 @@
 #include "sim/tag_family.h"
 #include "sim/terrain.h"
 #include "slam/base/error.h"
+#include "slam/base/random.h"
 
 namespace vinebench {
 namespace {
@@ -218,6 +219,12 @@ std::vector<Eigen::Vector2d> vine_positions(const WorldConfig& world) {
   std::vector<Eigen::Vector2d> feet;
   for (const VinePlace& vine : vine_places(world)) feet.push_back(vine.foot);
   return feet;
+}
+
+VineKind vine_at(const WorldConfig& world, std::uint64_t seed, std::size_t place) {
+  const double draw = RandomStream(seed, "vine gaps").uniform(place);
+  if (draw < world.vines.missing) return VineKind::kNone;
+  return draw < world.vines.missing + world.vines.young ? VineKind::kYoung : VineKind::kGrown;
 }
 
 Pose tag_pose(const WorldConfig::Tag& tag) {

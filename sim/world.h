@@ -284,11 +284,17 @@ struct VinePlace {
   double heading = 0;    ///< rad, of its row
 };
 
-/// All vines, row by row.
+/// All places for vines, row by row; vine_at() tells which are empty.
 std::vector<VinePlace> vine_places(const WorldConfig& world);
 
-/// Where vines stand, m; row by row.
+/// The feet of vine_places(), m.
 std::vector<Eigen::Vector2d> vine_positions(const WorldConfig& world);
+
+/// What stands at a vine's place.
+enum class VineKind { kNone, kYoung, kGrown };
+
+/// The one decision about the place of that index in vine_places(), for picture and physics.
+VineKind vine_at(const WorldConfig& world, std::uint64_t seed, std::size_t place);
 
 /// Tag frame: x right and y down on the printed face, z into the tag.
 Pose tag_pose(const WorldConfig::Tag& tag);
