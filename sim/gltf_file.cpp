@@ -106,6 +106,15 @@ bool load(const std::string& bytes, const std::filesystem::path& file, tinygltf:
   }
 }
 
+/// In one line, and without most of the file: a parser may quote the whole string that it fails on.
+std::string brief(std::string text) {
+  constexpr std::size_t kHead = 160, kTail = 80;
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < ' '; }, ' ');
+  if (text.size() <= kHead + kTail) return text;
+  return text.substr(0, kHead) + " ... " + text.substr(text.size() - kTail);
+}
+
 }  // namespace
 
 tinygltf::Model parse_gltf(const std::filesystem::path& file) {
@@ -114,8 +123,7 @@ tinygltf::Model parse_gltf(const std::filesystem::path& file) {
   tinygltf::Model model;
   std::string problem;
   const bool whole = load(bytes, file, model, problem);
-  std::ranges::replace(problem, '\n', ' ');
-  if (!whole) fail("{}: expected glTF 2.0: {}", file.string(), problem);
+  if (!whole) fail("{}: expected glTF 2.0: {}", file.string(), brief(problem));
   if (!model.asset.version.starts_with("2.")) {
     fail("{}: expected glTF 2.0, found version '{}'", file.string(), model.asset.version);
   }

@@ -60,7 +60,8 @@ class GltfReader {
     const tinygltf::PbrMetallicRoughness& look = from.pbrMetallicRoughness;
     Material material = make_material(from.name, Label::kLeaf, look.baseColorTexture.index);
     if (material.texture >= 0) at(model_.textures, material.texture, "texture");
-    for (int i = 0; i < 3 && look.baseColorFactor.size() >= 3; ++i) {
+    expect_size(look.baseColorFactor, 4, "baseColorFactor");
+    for (int i = 0; i < 3 && !look.baseColorFactor.empty(); ++i) {
       material.colour[i] = static_cast<float>(look.baseColorFactor[static_cast<std::size_t>(i)]);
     }
     material.cutout = from.alphaMode != "OPAQUE";
@@ -144,7 +145,17 @@ class GltfReader {
     for (const int child : node.children) add_node(child, T_model_node, depth + 1, level);
   }
 
-  static Eigen::Matrix4f matrix_of(const tinygltf::Node& node) {
+  /// tinygltf keeps what it could read of a list that is broken.
+  void expect_size(const std::vector<double>& numbers, std::size_t size, const char* what) const {
+    if (numbers.empty() || numbers.size() == size) return;
+    fail("{}: {} of {} numbers, expected {}", file_, what, numbers.size(), size);
+  }
+
+  Eigen::Matrix4f matrix_of(const tinygltf::Node& node) const {
+    expect_size(node.matrix, 16, "matrix");
+    expect_size(node.translation, 3, "translation");
+    expect_size(node.rotation, 4, "rotation");
+    expect_size(node.scale, 3, "scale");
     if (node.matrix.size() == 16) {
       return Eigen::Map<const Eigen::Matrix4d>(node.matrix.data()).cast<float>();
     }

@@ -31,7 +31,9 @@ inline Asset small_plant() {
     MeshBuilder builder(blades);
     for (int i = 0; i < 3; ++i) {
       const auto axes = axes_along({0, static_cast<float>(i), 1}, Eigen::Vector3f::UnitX());
-      BladePlacement blade{{0.1f * static_cast<float>(i), 0, 0.7f}, axes};
+      BladePlacement blade;
+      blade.foot = {0.1f * static_cast<float>(i), 0, 0.7f};
+      blade.axes = axes;
       blade.shading_normal = axes.z;
       builder.blade(blade, 1);
     }

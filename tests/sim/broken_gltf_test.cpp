@@ -193,6 +193,7 @@ TEST_F(BrokenGltfTest, NodesThatFlattenOrThrowFar) {
   EXPECT_THAT(nodes(R"([{"mesh":0,"scale":[1e30,1e30,1e30]}])"),
               AnyOf(HasSubstr("finite"), HasSubstr("m from the origin")));
   EXPECT_THAT(nodes(R"([{"mesh":0,"translation":[1e300,0,0]}])"), HasSubstr("finite"));
+  EXPECT_THAT(nodes(R"([{"mesh":0,"matrix":[1,0]}])"), HasSubstr("matrix of 2 numbers"));
   EXPECT_THAT(nodes(R"([{"mesh":0,"translation":[1e7,0,0]}])"), HasSubstr("m from the origin"));
 }
 
@@ -208,6 +209,8 @@ TEST_F(BrokenGltfTest, MaterialsOutOfRange) {
   const std::string colour = R"("pbrMetallicRoughness":{"baseColorFactor":[)";
   EXPECT_THAT(material(colour + "1e30,1,1,1]}"), HasSubstr("expected a colour"));
   EXPECT_THAT(material(colour + "-1,1,1,1]}"), HasSubstr("expected a colour"));
+  EXPECT_THAT(material(colour + "NaN,1,1,1]}"), HasSubstr("expected glTF 2.0"));
+  EXPECT_THAT(material(colour + "1,1]}"), HasSubstr("baseColorFactor of 2 numbers, expected 4"));
   EXPECT_THAT(material(R"("pbrMetallicRoughness":{"baseColorTexture":{"index":4}})"),
               HasSubstr("names texture 4 of 0"));
   const std::string missing = R"(,"materials":[{}],"textures":[{"source":3}])";

@@ -75,7 +75,7 @@ TEST_F(BrokenWorldsTest, EmptyOrOtherFiles) {
 TEST_F(BrokenWorldsTest, NumbersThatAreNone) {
   for (const char* number : {".nan", ".NaN", "nan", ".inf", "-.inf", "inf", "1e999", "-1e999", "0x",
                              "1.0.0", "~", "[]", "{}", "'2'", "2 m"}) {
-    const std::string block = "block: {rows: 2, length: 10, spacing: " + number + "}\n";
+    const std::string block = fmt::format("block: {{rows: 2, spacing: {}}}\n", number);
     EXPECT_THAT(problem(block), HasSubstr("world.yaml:1: block.spacing: expected a number"));
     EXPECT_THAT(problem_of_set("block.spacing", number), HasSubstr("block.spacing"));
     EXPECT_THAT(problem_of_set("sun.azimuth_deg", number), HasSubstr("sun.azimuth_deg"));
