@@ -55,10 +55,11 @@ std::string_view glb_json(std::string_view bytes, const std::string& file) {
   if (number_at(bytes, 4) != 2) {
     fail("{}: expected glTF 2.0, found version {}", file, number_at(bytes, 4));
   }
-  if (number_at(bytes, 8) != bytes.size()) {
-    fail("{}: says that it has {} bytes, found {}: is it cut short?", file, number_at(bytes, 8),
-         bytes.size());
+  const std::size_t size = number_at(bytes, 8);
+  if (size > bytes.size()) {
+    fail("{}: says that it has {} bytes, found {}: is it cut short?", file, size, bytes.size());
   }
+  bytes = bytes.substr(0, std::max(size, kHeader + kChunkHeader));
   for (std::size_t at = kHeader; at < bytes.size();) {
     const std::size_t room = bytes.size() - at;
     if (room < kChunkHeader || number_at(bytes, at) > room - kChunkHeader) {
@@ -123,7 +124,8 @@ tinygltf::Model parse_gltf(const std::filesystem::path& file) {
   tinygltf::Model model;
   std::string problem;
   const bool whole = load(bytes, file, model, problem);
-  if (!whole) fail("{}: expected glTF 2.0: {}", file.string(), brief(problem));
+  // It also goes on without what it could not read.
+  if (!whole || !problem.empty()) fail("{}: expected glTF 2.0: {}", file.string(), brief(problem));
   if (!model.asset.version.starts_with("2.")) {
     fail("{}: expected glTF 2.0, found version '{}'", file.string(), model.asset.version);
   }

@@ -60,8 +60,7 @@ class GltfReader {
     const tinygltf::PbrMetallicRoughness& look = from.pbrMetallicRoughness;
     Material material = make_material(from.name, Label::kLeaf, look.baseColorTexture.index);
     if (material.texture >= 0) at(model_.textures, material.texture, "texture");
-    expect_size(look.baseColorFactor, 4, "baseColorFactor");
-    for (int i = 0; i < 3 && !look.baseColorFactor.empty(); ++i) {
+    for (int i = 0; i < 3 && look.baseColorFactor.size() >= 3; ++i) {
       material.colour[i] = static_cast<float>(look.baseColorFactor[static_cast<std::size_t>(i)]);
     }
     material.cutout = from.alphaMode != "OPAQUE";

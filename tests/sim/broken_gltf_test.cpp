@@ -210,7 +210,7 @@ TEST_F(BrokenGltfTest, MaterialsOutOfRange) {
   EXPECT_THAT(material(colour + "1e30,1,1,1]}"), HasSubstr("expected a colour"));
   EXPECT_THAT(material(colour + "-1,1,1,1]}"), HasSubstr("expected a colour"));
   EXPECT_THAT(material(colour + "NaN,1,1,1]}"), HasSubstr("expected glTF 2.0"));
-  EXPECT_THAT(material(colour + "1,1]}"), HasSubstr("baseColorFactor of 2 numbers, expected 4"));
+  EXPECT_THAT(material(colour + "1,1]}"), HasSubstr("must be 4, but got 2"));
   EXPECT_THAT(material(R"("pbrMetallicRoughness":{"baseColorTexture":{"index":4}})"),
               HasSubstr("names texture 4 of 0"));
   const std::string missing = R"(,"materials":[{}],"textures":[{"source":3}])";
