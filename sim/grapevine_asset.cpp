@@ -8,8 +8,8 @@
 namespace vinebench {
 namespace {
 
-constexpr std::array<MeshDetail, 3> kNear{{{0.9, 13800, 9, 4, 1, true, 2, true},
-                                           {2.0, 6900, 7, 3, 1, false, 1, false},
+constexpr std::array<MeshDetail, 3> kNear{{{0.9, 11000, 9, 4, 1, true, 2, true},
+                                           {2.0, 4600, 7, 3, 1, false, 1, false},
                                            {4.5, 2500, 5, 3, 2, false, 0, false}}};
 
 std::vector<Material> plant_materials() {

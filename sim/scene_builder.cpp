@@ -17,8 +17,6 @@
 namespace vinebench {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180.0;
-
 /// Models to choose from for each place of a row.
 struct PlantModels {
   std::vector<int> grown;
@@ -63,22 +61,14 @@ void add_vines(Scene& scene, const WorldConfig& world, const Terrain& terrain, s
   }
 }
 
-Light daylight(const WorldConfig::Sun& sun) {
-  const double azimuth = sun.azimuth_deg * kRadians, elevation = sun.elevation_deg * kRadians;
-  Light light;
-  light.towards_sun = Eigen::Vector3d(std::sin(azimuth) * std::cos(elevation),
-                                      std::cos(azimuth) * std::cos(elevation), std::sin(elevation))
-                          .cast<float>();
-  return light;
-}
-
 }  // namespace
 
 Scene build_scene(const WorldConfig& world, std::uint64_t seed,
                   const std::filesystem::path& cache) {
   Scene scene;
   scene.seed = seed;
-  scene.light = daylight(world.sun);
+  scene.light = daylight(world.sun, world.sky);
+  scene.wind = make_wind(world.wind, seed);
   const Terrain terrain(world);
   add_vines(scene, world, terrain, seed, cache);
   add_trellis(scene, world, terrain, seed);

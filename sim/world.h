@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/daylight.h"
 #include "sim/scene.h"
 #include "sim/vines.h"
 #include "slam/base/pose.h"
@@ -196,15 +197,6 @@ struct WorldConfig {
       archive("colour", colour, Range::between(0, 1));
     }
   };
-  struct Sun {
-    double azimuth_deg = 140;   ///< heading from north over east, where the sun stands
-    double elevation_deg = 50;  ///< above the horizon
-    template <class Archive>
-    void serialize(Archive& archive) {
-      archive("azimuth_deg", azimuth_deg, Range::between(-360, 360));
-      archive("elevation_deg", elevation_deg, Range::between(1, 90));
-    }
-  };
 
   std::string name = "world";
   double ground_size = 40;     ///< m, side of the square of ground around the rows' middle
@@ -217,7 +209,9 @@ struct WorldConfig {
   std::vector<Tag> tags;
   std::vector<Box> boxes;
   std::vector<Obstacle> obstacles;
-  Sun sun;
+  SunConfig sun;
+  SkyConfig sky;
+  WindConfig wind;
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -233,6 +227,8 @@ struct WorldConfig {
     archive("boxes", boxes);
     archive("obstacles", obstacles);
     archive("sun", sun);
+    archive("sky", sky);
+    archive("wind", wind);
     archive.require(block || !rows.empty(), "rows", "expected at least one row");
     if (!has_sound_rows()) return;  // which is reported by now
     const auto [key, problem] = placing_problem();
