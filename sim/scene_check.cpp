@@ -109,7 +109,7 @@ void check_scene(const Scene& scene) {
   const Light& light = scene.light;
   check_numbers(light.towards_sun.allFinite() && light.sun.allFinite() && light.sky.allFinite() &&
                     light.bounce.allFinite() && std::isfinite(light.overcast) &&
-                    std::isfinite(light.haze),
+                    std::isfinite(light.haze) && std::isfinite(light.glare),
                 "light");
   check_numbers(std::isfinite(scene.wind.speed) && scene.wind.towards.allFinite(), "wind");
 }

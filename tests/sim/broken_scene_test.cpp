@@ -85,6 +85,7 @@ TEST_F(BrokenSceneTest, NumbersThatAreNone) {
   EXPECT_THAT(broken(scene_.instances[0].T_world_model.translation.z()), HasSubstr("instance 0"));
   EXPECT_THAT(broken(scene_.wires[0].to.y()), HasSubstr("wire 0"));
   EXPECT_THAT(broken(scene_.light.haze), HasSubstr("light"));
+  EXPECT_THAT(broken(scene_.light.glare), HasSubstr("light"));
   EXPECT_THAT(broken(scene_.wind.speed), HasSubstr("wind"));
   EXPECT_NO_THROW(check_scene(scene_));
 }

@@ -134,6 +134,14 @@ TEST_F(BrokenWorldsTest, FilesThatAreNamedButMissingOrFolders) {
               AllOf(HasSubstr("vines.meshes.0"), HasSubstr("expected a file")));
 }
 
+TEST_F(BrokenWorldsTest, DaysThatAreNone) {
+  const std::string sun = "block: {rows: 1}\nsun: {at: ";
+  EXPECT_THAT(problem(sun + "{date: 2026-02-30}}\n"),
+              HasSubstr("sun.at.date: expected YYYY-MM-DD"));
+  EXPECT_THAT(problem(sun + "{time: \"25:00\"}}\n"), HasSubstr("sun.at.time: expected HH:MM"));
+  EXPECT_THAT(problem(sun + "{latitude_deg: .nan}}\n"), HasSubstr("sun.at.latitude_deg"));
+}
+
 TEST_F(BrokenWorldsTest, BrokenCultivars) {
   const auto error = [&](const std::string& text) {
     const auto file = folder_.write("grape.yaml", text);
