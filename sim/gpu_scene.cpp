@@ -8,48 +8,13 @@
 #include <cstddef>
 
 #include "sim/mip_levels.h"
-#include "slam/base/error.h"
+#include "sim/scene_check.h"
 
 namespace vinebench {
 namespace {
 
 constexpr std::size_t kSmall = 32;    // triangles; fewer are not worth an order
 constexpr std::size_t kLarge = 1500;  // triangles; a thing of fewer is drawn in one order
-
-void check_index(int index, std::size_t size, const char* what, const std::string& where) {
-  if (index < 0 || static_cast<std::size_t>(index) >= size) {
-    fail("scene: {} names {} {}, expected 0 to {}", where, what, index, static_cast<int>(size) - 1);
-  }
-}
-
-void check_scene(const Scene& scene) {
-  for (const Texture& texture : scene.textures) {
-    if (texture.rgba.empty() || texture.rgba.type() != CV_8UC4) {
-      fail("scene: texture '{}': expected a picture of 4 channels of 8 bits", texture.name);
-    }
-  }
-  for (const Material& material : scene.materials) {
-    if (material.texture == -1) continue;
-    check_index(material.texture, scene.textures.size(), "texture", "material " + material.name);
-  }
-  for (const Model& model : scene.models) {
-    for (const LevelOfDetail& level : model.levels) {
-      for (const Primitive& primitive : level.primitives) {
-        check_index(primitive.material, scene.materials.size(), "material", "model " + model.name);
-        for (const std::uint32_t index : primitive.indices) {
-          check_index(static_cast<int>(index), primitive.vertices.size(), "vertex",
-                      "model " + model.name);
-        }
-      }
-    }
-  }
-  for (const Instance& instance : scene.instances) {
-    check_index(instance.model, scene.models.size(), "model", "an instance");
-  }
-  for (const Wire& wire : scene.wires) {
-    check_index(wire.material, scene.materials.size(), "material", "a wire");
-  }
-}
 
 /// The vertices and indices of all primitives, one after the other.
 struct Geometry {

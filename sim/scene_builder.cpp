@@ -46,13 +46,11 @@ void add_vines(Scene& scene, const WorldConfig& world, const Terrain& terrain, s
   const std::vector<VinePlace> places = vine_places(world);
   const bool one_sided = world.vines.training == Training::kUnilateralCordon ||
                          world.vines.training == Training::kSingleGuyot;
-  const RandomStream gaps(seed, "vine gaps");
   for (std::size_t i = 0; i < places.size(); ++i) {
     RandomSequence random(RandomStream(seed, "vine", i));
-    const double stands = gaps.uniform(i);
-    if (stands < world.vines.missing) continue;
-    const bool young = stands < world.vines.missing + world.vines.young;
-    const std::vector<int>& choice = young ? models.young : models.grown;
+    const VineKind kind = vine_at(world, seed, i);
+    if (kind == VineKind::kNone) continue;
+    const std::vector<int>& choice = kind == VineKind::kYoung ? models.young : models.grown;
     const int model = choice.at(random.below(static_cast<int>(choice.size())));
     const double turn = places[i].heading + (one_sided ? 0 : random.below(2)) * std::numbers::pi;
     const Eigen::Vector2d& foot = places[i].foot;

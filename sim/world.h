@@ -22,6 +22,11 @@ namespace vinebench {
 struct WorldConfig {
   /// Where things may stand, m from the origin.
   static constexpr Range kPlace = Range::between(-5000, 5000);
+  // What a laptop can still hold and draw; a larger vineyard is simulated a part at a time.
+  static constexpr double kMostVines = 20'000;
+  static constexpr double kMostRow = 20'000;       ///< m, of all rows together
+  static constexpr double kMostGround = 200'000;   ///< m^2, of shaped ground
+  static constexpr double kMostCells = 3'000'000;  ///< of the ground
 
   /// One row of the trellis.
   struct Row {
@@ -108,6 +113,7 @@ struct WorldConfig {
       archive("post_height", post_height, Range::between(0.3, 6));
       archive("post_radius", post_radius, Range::between(0.005, 0.3));
       archive("wires", wires, Range::between(0.05, 6));
+      archive.require(wires.size() <= 20, "wires", "expected at most 20");
       archive("end_post_radius", end_post_radius, Range::between(0.005, 0.3));
       archive("end_lean_deg", end_lean_deg, Range::between(0, 45));
       archive("end_brace", end_brace);
@@ -238,6 +244,9 @@ struct WorldConfig {
   /// What place() cannot do: the key at fault and why; both empty where all is well.
   std::pair<std::string, std::string> placing_problem() const;
 
+  /// What makes the world larger than its limits: key and problem, as placing_problem().
+  std::pair<std::string, std::string> size_problem() const;
+
   /// Turns the block into rows.
   void expand_block();
 
@@ -271,11 +280,17 @@ struct VinePlace {
   double heading = 0;    ///< rad, of its row
 };
 
-/// All vines, row by row.
+/// All places for vines, row by row; vine_at() tells which are empty.
 std::vector<VinePlace> vine_places(const WorldConfig& world);
 
-/// Where vines stand, m; row by row.
+/// The feet of vine_places(), m.
 std::vector<Eigen::Vector2d> vine_positions(const WorldConfig& world);
+
+/// What stands at a vine's place.
+enum class VineKind { kNone, kYoung, kGrown };
+
+/// The one decision about the place of that index in vine_places(), for picture and physics.
+VineKind vine_at(const WorldConfig& world, std::uint64_t seed, std::size_t place);
 
 /// Tag frame: x right and y down on the printed face, z into the tag.
 Pose tag_pose(const WorldConfig::Tag& tag);
