@@ -161,25 +161,48 @@ void write_wires(Text text, const Scene& scene) {
   }
 }
 
+/// The trellis, or the origin where there is none: what sunlight must cast its shadows on.
+Eigen::AlignedBox3f lit_box(const Scene& scene) {
+  Eigen::AlignedBox3f box(Eigen::Vector3f::Zero());
+  if (!scene.wires.empty()) box.setEmpty();
+  for (const Wire& wire : scene.wires) box.extend(wire.from).extend(wire.to);
+  return box;
+}
+
+void write_settings(Text text, const Scene& scene, int width, int height) {
+  const Eigen::AlignedBox3f box = lit_box(scene);
+  const Eigen::Vector3f middle = box.center();
+  fmt::format_to(
+      text,
+      "<mujoco><size nuser_geom=\"1\"/><statistic extent=\"{}\" center=\"{} {} {}\"/>"
+      "<visual><global offwidth=\"{}\" offheight=\"{}\"/>"
+      "<quality offsamples=\"0\" shadowsize=\"2048\"/><headlight ambient=\"0.4 0.4 0.4\" "
+      "diffuse=\"0 0 0\" specular=\"0 0 0\"/></visual>"
+      "<default><geom contype=\"0\" conaffinity=\"0\"/></default>",
+      1 + box.diagonal().norm() / 2, middle.x(), middle.y(), middle.z(), width, height);
+}
+
+void write_sun(Text text, const Scene& scene) {
+  constexpr float kAway = 10;  // m
+  const Eigen::Vector3f at = lit_box(scene).center() + kAway * scene.light.towards_sun;
+  const Eigen::Vector3f sun = -scene.light.towards_sun;
+  fmt::format_to(text,
+                 "<light directional=\"true\" pos=\"{} {} {}\" dir=\"{} {} {}\" "
+                 "diffuse=\"0.7 0.7 0.7\" specular=\"0 0 0\"/>\n",
+                 at.x(), at.y(), at.z(), sun.x(), sun.y(), sun.z());
+}
+
 std::string scene_mjcf(const Scene& scene, Files& files, double distance, int width, int height) {
   std::string mjcf;
   const Text text = std::back_inserter(mjcf);
-  const Eigen::Vector3f sun = -scene.light.towards_sun;
-  fmt::format_to(
-      text,
-      "<mujoco><size nuser_geom=\"1\"/><visual><global offwidth=\"{}\" offheight=\"{}\"/>"
-      "<quality offsamples=\"0\" shadowsize=\"2048\"/><headlight ambient=\"0.4 0.4 0.4\" "
-      "diffuse=\"0 0 0\" specular=\"0 0 0\"/></visual>"
-      "<default><geom contype=\"0\" conaffinity=\"0\"/></default><asset>"
-      "<texture type=\"skybox\" builtin=\"gradient\" rgb1=\"0.55 0.7 0.9\" "
-      "rgb2=\"0.9 0.93 0.95\" width=\"256\" height=\"1536\"/>\n",
-      width, height);
+  write_settings(text, scene, width, height);
+  mjcf +=
+      "<asset><texture type=\"skybox\" builtin=\"gradient\" rgb1=\"0.55 0.7 0.9\" "
+      "rgb2=\"0.9 0.93 0.95\" width=\"256\" height=\"1536\"/>\n";
   write_materials(text, files, scene);
   write_meshes(text, files, scene, distance);
-  fmt::format_to(text,
-                 "</asset><worldbody><light directional=\"true\" pos=\"0 0 10\" dir=\"{} {} {}\" "
-                 "diffuse=\"0.7 0.7 0.7\" specular=\"0 0 0\"/>\n",
-                 sun.x(), sun.y(), sun.z());
+  mjcf += "</asset><worldbody>";
+  write_sun(text, scene);
   write_instances(text, scene, distance);
   write_wires(text, scene);
   mjcf += "</worldbody></mujoco>\n";
