@@ -10,7 +10,7 @@ packages=(
   # tools
   g++ cmake ninja-build git pkg-config ccache clang-format
   # simulation (qhull: Debian's MuJoCo package names its headers)
-  libmujoco-dev libqhull-dev libosmesa6-dev libgl-dev libassimp-dev libtinygltf-dev
+  libmujoco-dev libqhull-dev libosmesa6-dev libgl-dev libegl-dev libegl-mesa0 libgl1-mesa-dri libassimp-dev libtinygltf-dev
   # vision and optimisation
   libopencv-dev libeigen3-dev libceres-dev libapriltag-dev
   # files, text, command line
