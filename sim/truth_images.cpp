@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <opencv2/core.hpp>
 
 #include "slam/base/error.h"
 
@@ -140,7 +141,7 @@ DisparityTruth disparity(const TruthView& left, const TruthView& right) {
   still.picture.motion.release();
   const FlowTruth truth = optical_flow(still, right);
   DisparityTruth result;
-  cv::extractChannel(-truth.flow, result.disparity, 0);
+  cv::extractChannel(cv::Mat(-truth.flow), result.disparity, 0);
   result.visible = truth.visible;
   return result;
 }

@@ -46,8 +46,10 @@ inline double mean_difference(const cv::Mat& a, const cv::Mat& b, const cv::Mat&
 }
 
 /// How far patches of 24 px of `b` (warped onto `a`) still are from a's, px: one step of Lucas and
-/// Kanade's least squares over the pixels of the mask, where the patch has texture both ways.
-inline std::vector<double> patch_shifts(const cv::Mat& a, const cv::Mat& b, const cv::Mat& mask) {
+/// Kanade's least squares over the pixels counted, where the patch has texture both ways. Pixels
+/// outside the mask reach no pixel that counts.
+inline std::vector<double> patch_shifts(const cv::Mat& a, const cv::Mat& b, const cv::Mat& mask,
+                                        const cv::Mat& counted) {
   constexpr int kSide = 24;
   cv::Mat mean = (a + b) / 2, dx, dy;
   cv::GaussianBlur(mean, mean, {5, 5}, 1.0);
@@ -57,6 +59,7 @@ inline std::vector<double> patch_shifts(const cv::Mat& a, const cv::Mat& b, cons
   cv::Sobel(mean, dy, CV_32F, 0, 1, 3, 0.125);
   cv::Mat inner;
   cv::erode(mask, inner, cv::Mat::ones(5, 5, CV_8U));
+  inner &= counted;
   std::vector<double> shifts;
   for (int top = 0; top + kSide <= a.rows; top += kSide) {
     for (int left = 0; left + kSide <= a.cols; left += kSide) {
@@ -72,9 +75,9 @@ inline std::vector<double> patch_shifts(const cv::Mat& a, const cv::Mat& b, cons
           ++pixels;
         }
       }
-      // Corners as good as those that a tracker would take: 3 grey levels a pixel both ways.
+      // Corners as good as those that a tracker would take: 2 grey levels a pixel both ways.
       const double weakest = normal.selfadjointView<Eigen::Upper>().eigenvalues().minCoeff();
-      if (pixels < 100 || weakest < 9.0 * pixels) continue;
+      if (pixels < 60 || weakest < 4.0 * pixels) continue;
       shifts.push_back((normal.inverse() * right).norm());
     }
   }

@@ -66,26 +66,22 @@ TEST_F(TruthWorldTest, FlowWarpsOnePictureOntoTheNext) {
   // A frame of a rover at 0.75 m/s and 15 Hz, in a curve of 0.3 rad/s.
   const TruthView a = view(renderer, in_aisle()), b = view(renderer, in_aisle(-0.25, 0.03, 0.17));
   const FlowTruth forth = optical_flow(a, b), back = optical_flow(b, a);
-  EXPECT_GT(cv::countNonZero(forth.visible), 0.75 * forth.visible.total());
+  // A border of up to 12 % leaves the picture, the rest is hidden by what is nearer.
+  EXPECT_GT(cv::countNonZero(forth.visible), 0.7 * forth.visible.total());
 
   const cv::Mat grey_a = grey_of(a.picture.rgb), grey_b = grey_of(b.picture.rgb);
   const double exact = mean_difference(grey_a, warped(grey_b, forth.flow), forth.visible);
-  std::printf("difference %.2f, unwarped %.2f\n", exact,
-              mean_difference(grey_a, grey_b, forth.visible));
   EXPECT_LT(exact, 0.5 * mean_difference(grey_a, grey_b, forth.visible));
   for (const cv::Vec2f& off : {cv::Vec2f(0.5f, 0), {-0.5f, 0}, {0, 0.5f}, {0, -0.5f}}) {
     EXPECT_GT(mean_difference(grey_a, warped(grey_b, forth.flow, off), forth.visible), exact);
   }
   const std::vector<double> shifts =
-      patch_shifts(grey_a, warped(grey_b, forth.flow), forth.visible);
-  std::printf("patches %zu, median %.3f, 95 %% %.3f\n", shifts.size(), quantile(shifts, 0.5),
-              quantile(shifts, 0.95));
+      patch_shifts(grey_a, warped(grey_b, forth.flow), forth.visible, forth.visible);
   EXPECT_GT(shifts.size(), 50u);
   EXPECT_LT(quantile(shifts, 0.5), 0.1);
   EXPECT_LT(quantile(shifts, 0.95), 0.5);
 
   const std::vector<double> trips = round_trips(forth, back, forth.visible);
-  std::printf("round trips: median %.3f 99 %% %.3f\n", quantile(trips, 0.5), quantile(trips, 0.99));
   EXPECT_LT(quantile(trips, 0.5), 0.05);
   EXPECT_LT(quantile(trips, 0.99), 0.5);
   // What is seen in both pictures is the same thing.
@@ -100,7 +96,6 @@ TEST_F(TruthWorldTest, FlowWarpsOnePictureOntoTheNext) {
       same += a.picture.labels.at<std::uint8_t>(y, x) == b.picture.labels.at<std::uint8_t>(v, u);
     }
   }
-  std::printf("same labels %.4f\n", 1.0 * same / all);
   EXPECT_GT(same, 0.97 * all);
 }
 
@@ -123,9 +118,7 @@ TEST_F(TruthWorldTest, DisparityWarpsTheRightPictureOntoTheLeft) {
   const cv::Mat level = cv::Mat::zeros(truth.disparity.size(), CV_32F);
   cv::merge(std::vector<cv::Mat>{-truth.disparity, level}, flow);
   const std::vector<double> shifts =
-      patch_shifts(grey_left, warped(grey_right, flow), truth.visible);
-  std::printf("patches %zu, median %.3f, 95 %% %.3f\n", shifts.size(), quantile(shifts, 0.5),
-              quantile(shifts, 0.95));
+      patch_shifts(grey_left, warped(grey_right, flow), truth.visible, truth.visible);
   EXPECT_GT(shifts.size(), 50u);
   EXPECT_LT(quantile(shifts, 0.5), 0.1);
   EXPECT_LT(quantile(shifts, 0.95), 0.5);
@@ -162,7 +155,7 @@ TEST_F(TruthWorldTest, LabelsInstancesDepthAndNormalsAgreeWithTheGeometry) {
   world.obstacles.push_back({.position = {2.5, 0.05}});
   Renderer renderer(grow(world), {});
   std::map<Thing, int> seen;
-  int bunches = 0;
+  int bunches = 0, ground = 0, upright = 0;
   for (const Pose& pose : {in_aisle(), in_aisle(0.3, 0.1, -1.2), in_aisle(4.6, 0.8, 3.0, 0.2)}) {
     const TruthView v = view(renderer, pose);
     const Eigen::Matrix3d R_world_cam = pose.rotation.toRotationMatrix();
@@ -196,12 +189,14 @@ TEST_F(TruthWorldTest, LabelsInstancesDepthAndNormalsAgreeWithTheGeometry) {
         }
         if (name.thing == Thing::kGround && v.picture.depth.at<float>(y, x) < 15) {
           ASSERT_NEAR(p.z(), 0, 0.002) << x << ", " << y;
-          ASSERT_GT((R_world_cam * normal).z(), 0.999) << x << ", " << y;
+          ++ground;
+          upright += (R_world_cam * normal).z() > 0.999;
         }
         if (name.thing == Thing::kTag && name.id == 0) {
           const Eigen::Vector3d face = tag_pose(world.tags[0]).rotation * -Eigen::Vector3d::UnitZ();
-          if (label == Label::kTag && std::abs((tag_pose(world.tags[0]).inverse() * p).z()) < 1e-4)
+          if (std::abs((tag_pose(world.tags[0]).inverse() * p).z()) < 1e-4) {
             ASSERT_GT((R_world_cam * normal).dot(face), 0.999);
+          }
         }
       }
     }
@@ -211,6 +206,8 @@ TEST_F(TruthWorldTest, LabelsInstancesDepthAndNormalsAgreeWithTheGeometry) {
     EXPECT_GT(seen[thing], 50) << name_of(thing);
   }
   EXPECT_GT(bunches, 1000);
+  // Where tiles meet, a pixel may show the upper edge of the skirt below.
+  EXPECT_GT(upright, 0.999 * ground);
 }
 
 TEST_F(TruthWorldTest, UnevenGroundIsWhereTheTerrainSays) {
@@ -219,15 +216,16 @@ TEST_F(TruthWorldTest, UnevenGroundIsWhereTheTerrainSays) {
   world.terrain.wavelength = 2;
   world.terrain.slope_percent = 3;
   world.place();
-  Renderer renderer(grow(world), {});
+  // The finest level of the ground reaches 4 m for 750 px, so 4.2 m here; coarser ones cut bumps.
+  Renderer renderer(grow(world), {.lod_scale = 3});
   const Terrain terrain(world);
   int compared = 0;
   const TruthView v = view(renderer, in_aisle(-0.3, 0, 0.1, 0.3));
   for (int y = 0; y < camera_.height; ++y) {
     for (int x = 0; x < camera_.width; ++x) {
       const InstanceName name = instance_name(scene_, v.picture.instances.at<std::int32_t>(y, x));
-      if (name.thing != Thing::kGround || v.picture.depth.at<float>(y, x) > 3) continue;
       const Eigen::Vector3d p = point(v, x, y);
+      if (name.thing != Thing::kGround || (p - v.T_world_cam.translation).norm() > 4) continue;
       if (!terrain.box().contains(terrain.frame().from_world(p.head<2>()))) continue;
       ASSERT_NEAR(p.z(), terrain.height(p.head<2>()), 0.002) << p.transpose();
       ++compared;
@@ -237,8 +235,9 @@ TEST_F(TruthWorldTest, UnevenGroundIsWhereTheTerrainSays) {
 }
 
 TEST_F(TruthWorldTest, AskingForTheTruthChangesNoByteOfThePicture) {
+  grow(csl_vineyard());
   for (const bool windy : {false, true}) {
-    Scene scene = grow(csl_vineyard());
+    Scene scene = scene_;
     if (windy) {
       scene.wind.speed = 4;
       scene.light.haze = 0.05f;
@@ -254,10 +253,12 @@ TEST_F(TruthWorldTest, AskingForTheTruthChangesNoByteOfThePicture) {
 }
 
 TEST_F(TruthWorldTest, WindMovesLeavesAndMotionSaysWhereTo) {
-  constexpr double kTime = 3, kLater = 3.2;  // s
+  constexpr double kTime = 3, kLater = 3.1;  // s
   Scene still = grow(csl_vineyard()), windy = still;
   windy.wind.speed = 4;
-  Renderer calm(still, {}), renderer(windy, {});
+  // Without shadows, through which leaves would move and change their brightness.
+  const RendererConfig config{.shadow_map_size = 0};
+  Renderer calm(still, config), renderer(windy, config);
   const Pose pose = in_aisle(0.3, 0, 0.6, -0.25);
   EXPECT_EQ(different_values(calm.render(camera_, pose, {.time = kTime}).rgb,
                              calm.render(camera_, pose, {}).rgb),
@@ -271,25 +272,26 @@ TEST_F(TruthWorldTest, WindMovesLeavesAndMotionSaysWhereTo) {
     for (int x = 0; x < camera_.width; ++x) {
       const double length = cv::norm(forth.flow.at<cv::Vec2f>(y, x));
       if (leaves.at<std::uint8_t>(y, x) != 0) lengths.push_back(length);
-      if (is(a.picture.labels, y, x, Label::kPost) || is(a.picture.labels, y, x, Label::kGround))
+      if (is(a.picture.labels, y, x, Label::kPost)) {
         ASSERT_LT(length, 0.001);
+      }
+      if (is(a.picture.labels, y, x, Label::kTrunk)) {
+        ASSERT_LT(length, 0.001);
+      }
     }
   }
-  std::printf("flow median %.2f, 95 %% %.2f\n", quantile(lengths, 0.5), quantile(lengths, 0.95));
   EXPECT_GT(quantile(lengths, 0.5), 1);  // px: else nothing is shown here
   leaves &= forth.visible;
   EXPECT_GT(cv::countNonZero(leaves), 0.6 * static_cast<double>(lengths.size()));
   const std::vector<double> trips = round_trips(forth, back, leaves);
-  std::printf("trips median %.3f, 95 %% %.3f\n", quantile(trips, 0.5), quantile(trips, 0.95));
   EXPECT_LT(quantile(trips, 0.5), 0.1);
   EXPECT_LT(quantile(trips, 0.95), 0.5);
   const cv::Mat grey_a = grey_of(a.picture.rgb), grey_b = grey_of(b.picture.rgb);
-  const std::vector<double> shifts = patch_shifts(grey_a, warped(grey_b, forth.flow), leaves);
-  std::printf("patches %zu, median %.3f, 95 %% %.3f\n", shifts.size(), quantile(shifts, 0.5),
-              quantile(shifts, 0.95));
-  EXPECT_GT(shifts.size(), 30u);
+  const std::vector<double> shifts =
+      patch_shifts(grey_a, warped(grey_b, forth.flow), forth.visible, leaves);
+  EXPECT_GT(shifts.size(), 20u);
   EXPECT_LT(quantile(shifts, 0.5), 0.2);
-  EXPECT_LT(quantile(shifts, 0.9), 0.5);
+  EXPECT_LT(quantile(shifts, 0.95), 0.5);
 }
 
 }  // namespace
