@@ -2,121 +2,147 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/render_benchmark.h"
 
-#include <sys/resource.h>
-
-#include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
-#include <ctime>
+#include <cstdlib>
 #include <numbers>
+#include <optional>
 
+#include "scenarios/child_process.h"
+#include "scenarios/measurement.h"
+#include "scenarios/mujoco_benchmark.h"
 #include "scenarios/run_scenario.h"
+#include "scenarios/snapshot.h"
 #include "sim/renderer.h"
+#include "sim/terrain.h"
 #include "slam/base/worker_pool.h"
 
 namespace vinebench {
 namespace {
 
-double wall_ms() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration<double, std::milli>(now).count();
+using Json = nlohmann::ordered_json;
+
+constexpr double kBeside = 1.0;     // m from a row that stands alone
+constexpr double kHalfTrack = 0.2;  // m, of a rover that lies on its ground
+
+/// Mesa reads these once a process. One thread draws all by itself, without helpers.
+void prepare_software_rendering(int threads) {
+  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+  setenv("LP_NUM_THREADS", std::to_string(threads == 1 ? 0 : threads).c_str(), 1);
 }
 
-/// CPU time of all threads of the process.
-double cpu_ms() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-double rounded(double value) {
-  return std::round(100 * value) / 100;
-}
-
-double peak_memory_mib() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
-nlohmann::ordered_json measure_camera(Renderer& renderer, const RigCamera& camera,
-                                      const std::vector<Pose>& route) {
-  std::vector<double> cpu;
-  std::vector<double> wall;
-  for (const Pose& T_world_body : route) {
-    const double cpu_start = cpu_ms();
-    const double wall_start = wall_ms();
-    renderer.render(camera.model, T_world_body * camera.T_body_cam, {});
-    cpu.push_back(cpu_ms() - cpu_start);
-    wall.push_back(wall_ms() - wall_start);
+Json measure_camera(Renderer& renderer, const RigCamera& camera, const RenderBenchmark& benchmark) {
+  const Pose& first = benchmark.route.front();
+  const Picture picture = renderer.render(camera.model, first * camera.T_body_cam, {});  // warm up
+  if (!benchmark.pictures.empty()) {
+    write_picture(benchmark.pictures / fmt::format("{}.png", camera.name), picture.rgb);
   }
+  std::vector<Timing> timings;
+  for (const Pose& T_world_body : benchmark.route) {
+    timings.push_back(
+        measure([&] { renderer.render(camera.model, T_world_body * camera.T_body_cam, {}); }));
+  }
+  const Timing typical = median(timings);
   return {{"camera", camera.name},
           {"pixels", fmt::format("{} x {}", camera.model.width, camera.model.height)},
-          {"cpu_ms", rounded(median(cpu))},
-          {"wall_ms", rounded(median(wall))}};
+          {"cpu_ms", rounded(typical.cpu_ms)},
+          {"wall_ms", rounded(typical.wall_ms)}};
 }
 
-std::vector<double> measure_frames(std::vector<Renderer>& renderers, const Rig& rig,
-                                   const std::vector<Pose>& route) {
+void render_frame(WorkerPool& pool, std::vector<Renderer>& renderers, const Rig& rig,
+                  const Pose& T_world_body) {
+  std::atomic<std::size_t> next{0};
+  pool.for_each(renderers.size(), [&](std::size_t lane) {
+    for (std::size_t i = next++; i < rig.cameras.size(); i = next++) {
+      const RigCamera& camera = rig.cameras[rig.cameras.size() - 1 - i];  // the largest first
+      renderers[lane].render(camera.model, T_world_body * camera.T_body_cam, {});
+    }
+  });
+}
+
+double measure_frames(std::vector<Renderer>& renderers, const RenderBenchmark& benchmark) {
   WorkerPool pool(static_cast<int>(renderers.size()));
+  render_frame(pool, renderers, benchmark.rig, benchmark.route.front());  // warm up
   std::vector<double> wall;
-  for (const Pose& T_world_body : route) {
-    const double start = wall_ms();
-    std::atomic<std::size_t> next{0};
-    pool.for_each(renderers.size(), [&](std::size_t lane) {
-      for (std::size_t i = next++; i < rig.cameras.size(); i = next++) {
-        const RigCamera& camera = rig.cameras[rig.cameras.size() - 1 - i];  // the largest first
-        renderers[lane].render(camera.model, T_world_body * camera.T_body_cam, {});
-      }
-    });
-    wall.push_back(wall_ms() - start);
+  for (const Pose& T_world_body : benchmark.route) {
+    const Timing timing =
+        measure([&] { render_frame(pool, renderers, benchmark.rig, T_world_body); });
+    wall.push_back(timing.wall_ms);
   }
-  return wall;
+  return rounded(median(std::move(wall)));
+}
+
+/// In a process of its own.
+Json measure_with_threads(const RenderBenchmark& benchmark, int threads) {
+  prepare_software_rendering(threads);
+  std::optional<Scene> scene;
+  const Timing built =
+      measure([&] { scene = build_scene(benchmark.world, benchmark.seed, default_cache()); });
+  std::vector<Renderer> renderers;
+  const Timing uploaded = measure([&] {
+    for (int i = 0; i < threads; ++i) renderers.emplace_back(*scene, RendererConfig{});
+  });
+  Json result;
+  for (const RigCamera& camera : benchmark.rig.cameras) {
+    if (threads > 1) break;
+    result["cameras"].push_back(measure_camera(renderers[0], camera, benchmark));
+  }
+  result["plants"] = vine_positions(benchmark.world).size();
+  result["frame_wall_ms"] = measure_frames(renderers, benchmark);
+  result["build_s"] = rounded(built.wall_ms / 1e3);
+  result["upload_s"] = rounded(uploaded.wall_ms / 1e3);
+  result["memory_mib"] = std::round(peak_memory_mib());
+  return result;
+}
+
+Json in_child(const RenderBenchmark& benchmark, const std::function<Json()>& job) {
+  return Json::parse(run_in_child(benchmark.name, [&] { return job().dump(); }));
 }
 
 }  // namespace
 
 std::vector<Pose> aisle_route(const WorldConfig& world, int count) {
-  const WorldConfig::Row& first = world.rows.at(0);
-  const WorldConfig::Row& second = world.rows.at(world.rows.size() > 1 ? 1 : 0);
-  const Eigen::Vector2d start = (first.start + second.start) / 2;
-  const Eigen::Vector2d along = (first.end + second.end) / 2 - start;
+  WorldConfig placed = world;
+  if (placed.block) placed.place();
+  const std::size_t middle = placed.rows.size() / 2;
+  const WorldConfig::Row& last = placed.rows.at(middle);
+  WorldConfig::Row first = placed.rows.at(middle == 0 ? 0 : middle - 1);
+  const Eigen::Vector2d direction = (last.end - last.start).normalized();
+  if ((first.end - first.start).dot(direction) < 0) std::swap(first.start, first.end);
+  Eigen::Vector2d start = (first.start + last.start) / 2;
+  const Eigen::Vector2d along = (first.end + last.end) / 2 - start;
+  if (middle == 0) start += kBeside * Eigen::Vector2d(direction.y(), -direction.x());
   const double heading = std::atan2(along.y(), along.x());
+  const Terrain terrain(placed);
   std::vector<Pose> route;
   for (int i = 0; i < count; ++i) {
-    const bool back = i % 2 == 1;
-    const Eigen::Vector2d at = start + along * ((i + 0.5) / count);
-    route.push_back({from_roll_pitch_yaw({0, 0, heading + (back ? std::numbers::pi : 0)}),
-                     {at.x(), at.y(), 0}});
+    const double yaw = heading + (i % 2 == 1 ? std::numbers::pi : 0);
+    route.push_back(terrain.lie(start + along * ((i + 0.5) / count), yaw, kHalfTrack));
   }
   return route;
 }
 
-nlohmann::ordered_json measure_rendering(const RenderBenchmark& benchmark, int threads) {
-  const double start = wall_ms();
-  const Scene scene = build_scene(benchmark.world, benchmark.seed, default_cache());
-  const double built = wall_ms();
-  std::vector<Renderer> renderers;
-  for (int i = 0; i < threads; ++i) renderers.emplace_back(scene, RendererConfig{});
-  const double uploaded = wall_ms();
-  nlohmann::ordered_json result{{"name", benchmark.name}, {"threads", threads}};
-  for (const RigCamera& camera : benchmark.rig.cameras) {
-    renderers[0].render(camera.model, benchmark.route.front() * camera.T_body_cam, {});  // warm up
-    result["cameras"].push_back(measure_camera(renderers[0], camera, benchmark.route));
+Json measure_rendering(const RenderBenchmark& benchmark) {
+  const Json one = in_child(benchmark, [&] { return measure_with_threads(benchmark, 1); });
+  Json all = one;
+  if (benchmark.threads > 1) {
+    all = in_child(benchmark, [&] { return measure_with_threads(benchmark, benchmark.threads); });
   }
-  measure_frames(renderers, benchmark.rig, {benchmark.route.front()});
-  result["frame_wall_ms"] =
-      rounded(median(measure_frames(renderers, benchmark.rig, benchmark.route)));
-  result["build_s"] = rounded((built - start) / 1e3);
-  result["upload_s"] = rounded((uploaded - built) / 1e3);
-  result["memory_mib"] = std::round(peak_memory_mib());
+  Json result{{"name", benchmark.name},
+              {"rows", benchmark.world.rows.size()},
+              {"plants", one["plants"]},
+              {"cameras", one["cameras"]}};
+  result["frame_wall_ms"]["1"] = one["frame_wall_ms"];
+  result["frame_wall_ms"][std::to_string(benchmark.threads)] = all["frame_wall_ms"];
+  result["scaling"] =
+      rounded(one["frame_wall_ms"].get<double>() / all["frame_wall_ms"].get<double>());
+  for (const char* key : {"memory_mib", "build_s", "upload_s"}) result[key] = all[key];
+  if (!benchmark.mujoco) return result;
+  result["mujoco"] = in_child(benchmark, [&] {
+    prepare_software_rendering(1);
+    return measure_mujoco(benchmark);
+  });
+  compare_with_mujoco(result["mujoco"], result["cameras"]);
   return result;
 }
 

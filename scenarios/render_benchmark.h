@@ -13,22 +13,26 @@
 
 namespace vinebench {
 
-/// What `vinebench bench render` measures.
+/// What `vinebench bench render` measures of one world.
 struct RenderBenchmark {
   std::string name;
   WorldConfig world;
   Rig rig;
   std::vector<Pose> route;  ///< T_world_body of each frame
   std::uint64_t seed = 1;
+  int threads = 2;
+  bool mujoco = false;             ///< also measure MuJoCo's own renderer on the same scene
+  std::filesystem::path pictures;  ///< folder for both renderers' pictures of one place, if any
 };
 
-/// Poses of a rover that drives up the aisle between the first two rows and back along it, `count`
-/// in all.
+/// Poses of a rover in the middle aisle (in the order of `rows`), which sees the most of a world:
+/// `count` places from one end to the other, by turns looking ahead and back.
 std::vector<Pose> aisle_route(const WorldConfig& world, int count);
 
-/// Renders every frame of the route with `threads` threads. Returns medians over the frames, ms:
-/// for each camera alone, `cpu_ms` of the whole process and `wall_ms`; for whole frames
-/// `frame_wall_ms`; and `memory_mib` of the process, and a hash of all pictures.
-nlohmann::ordered_json measure_rendering(const RenderBenchmark& benchmark, int threads);
+/// Measures in processes of their own, so that memory is the world's. Returns medians over the
+/// frames: for each camera `cpu_ms` (all threads of the process) and `wall_ms` of a picture with
+/// one thread; for whole frames `frame_wall_ms` with 1 and with `threads` threads and their ratio
+/// `scaling`; and `memory_mib` of the process with `threads` threads. Throws Error.
+nlohmann::ordered_json measure_rendering(const RenderBenchmark& benchmark);
 
 }  // namespace vinebench

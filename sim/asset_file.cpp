@@ -4,31 +4,60 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
+#include "sim/picture_size.h"
 #include "slam/base/error.h"
+#include "slam/base/files.h"
 
 namespace vinebench {
 namespace {
 
-void check_primitive(const Primitive& primitive, const std::string& file) {
+constexpr float kFarthest = 1e5f;  // m; what lies further from its origin is no plant
+
+std::string problem_of(const Vertex& v) {
+  if (!v.position.allFinite() || !v.uv.allFinite() || !v.normal.allFinite() ||
+      !std::isfinite(v.occlusion)) {
+    return "is not a finite number";
+  }
+  if (v.position.cwiseAbs().maxCoeff() <= kFarthest) return "";
+  return fmt::format("lies more than {} m from the origin", kFarthest);
+}
+
+void check(const Primitive& primitive, std::size_t materials, const std::string& file) {
   for (std::size_t i = 0; i < primitive.vertices.size(); ++i) {
-    const Vertex& v = primitive.vertices[i];
-    if (!v.position.allFinite() || !v.uv.allFinite() || !v.normal.allFinite()) {
-      fail("{}: vertex {} is not a finite number", file, i);
-    }
+    const std::string problem = problem_of(primitive.vertices[i]);
+    if (!problem.empty()) fail("{}: vertex {} {}", file, i, problem);
   }
   for (const std::uint32_t index : primitive.indices) {
     if (index >= primitive.vertices.size()) {
       fail("{}: a triangle names vertex {} of {}", file, index, primitive.vertices.size());
     }
   }
+  if (primitive.material < 0 || static_cast<std::size_t>(primitive.material) >= materials) {
+    fail("{}: names material {} of {}", file, primitive.material, materials);
+  }
+}
+
+void check(const Material& material, std::size_t textures, const std::string& file) {
+  if (!material.colour.allFinite() || material.colour.minCoeff() < 0 ||
+      material.colour.maxCoeff() > 1) {
+    fail("{}: material '{}': expected a colour of numbers from 0 to 1", file, material.name);
+  }
+  if (material.texture < -1 || material.texture >= static_cast<int>(textures)) {
+    fail("{}: names texture {} of {}", file, material.texture, textures);
+  }
 }
 
 void check(const Asset& asset, const std::string& file) {
+  for (const Material& material : asset.materials) check(material, asset.textures.size(), file);
   for (const LevelOfDetail& level : asset.model.levels) {
-    for (const Primitive& primitive : level.primitives) check_primitive(primitive, file);
+    for (const Primitive& primitive : level.primitives) {
+      check(primitive, asset.materials.size(), file);
+    }
     if (triangle_count(level) == 0) fail("{}: expected a mesh, found no triangles", file);
   }
   if (asset.model.levels.empty()) fail("{}: expected a mesh, found no triangles", file);
@@ -39,8 +68,8 @@ void normalise(Asset& asset) {
   for (LevelOfDetail& level : asset.model.levels) {
     for (Primitive& primitive : level.primitives) {
       for (Vertex& vertex : primitive.vertices) {
-        const float length = vertex.normal.norm();
-        if (length < 1e-6f) {
+        const float length = vertex.normal.stableNorm();
+        if (length < 1e-6f || !std::isfinite(length)) {
           vertex.normal = Eigen::Vector3f::UnitZ();
         } else if (std::abs(length - 1) > 1e-4f) {
           vertex.normal /= length;
@@ -52,24 +81,65 @@ void normalise(Asset& asset) {
 
 }  // namespace
 
-cv::Mat decode_picture(std::string_view bytes, const std::string& where) {
-  cv::Mat picture;
-  try {
-    const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
-    if (!bytes.empty()) picture = cv::imdecode(raw, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
-    picture.release();
+namespace {
+
+constexpr const char* kPictures = "expected a picture (PNG, JPEG, TIFF)";
+
+/// A few bytes can ask for gigabytes of pixels.
+void check_size(std::string_view bytes, const std::string& where) {
+  constexpr double kLargest = 16384, kMost = 1 << 24;  // px, on a side and in all
+  const std::optional<cv::Size2d> size = picture_size(bytes);
+  if (!size) fail("{}: {}, found something else", where, kPictures);
+  if (size->width >= 1 && size->height >= 1 && std::max(size->width, size->height) <= kLargest &&
+      size->area() <= kMost) {
+    return;
   }
-  if (picture.empty())
-    fail("{}: expected a picture (PNG, JPEG, TIFF), found something else", where);
+  fail("{}: expected a picture of 1 to {} pixels a side and {} in all, found {} x {}", where,
+       kLargest, kMost, size->width, size->height);
+}
+
+cv::Mat decode(std::string_view bytes) {
+  const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
+  cv::Mat picture = cv::imdecode(raw, cv::IMREAD_UNCHANGED);
   if (picture.depth() == CV_16U) picture.convertTo(picture, CV_8U, 1 / 257.0);
-  if (picture.depth() != CV_8U) fail("{}: expected a picture of 8 or 16 bits a channel", where);
+  if (picture.empty() || picture.depth() != CV_8U) return {};
   cv::Mat rgba;
   const int channels = picture.channels();
   cv::cvtColor(picture, rgba,
                channels == 4   ? cv::COLOR_BGRA2RGBA
                : channels == 3 ? cv::COLOR_BGR2RGBA
                                : cv::COLOR_GRAY2RGBA);
+  return rgba;
+}
+
+}  // namespace
+
+std::string read_mesh_file(const std::filesystem::path& file) {
+  constexpr std::uintmax_t kMost = std::uintmax_t{1} << 30;
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  // A pipe or a device may never end.
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+      !std::filesystem::is_directory(status)) {
+    fail("{}: expected a file, found a pipe or a device", file.string());
+  }
+  if (const auto size = std::filesystem::file_size(file, error); !error && size > kMost) {
+    fail("{}: expected at most 1 GiB, found {} bytes", file.string(), size);
+  }
+  std::string bytes = read_file(file);
+  if (bytes.empty()) fail("{}: expected a mesh or its parts, found an empty file", file.string());
+  return bytes;
+}
+
+cv::Mat decode_picture(std::string_view bytes, const std::string& where) {
+  check_size(bytes, where);
+  cv::Mat rgba;
+  try {
+    rgba = decode(bytes);
+  } catch (const cv::Exception&) {
+    rgba.release();
+  }
+  if (rgba.empty()) fail("{}: {} of 8 or 16 bits a channel, found a broken one", where, kPictures);
   return rgba;
 }
 

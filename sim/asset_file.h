@@ -23,7 +23,12 @@ std::string to_glb(const Asset& asset);
 Asset read_gltf(const std::filesystem::path& file);
 Asset import_mesh(const std::filesystem::path& file);  ///< by assimp
 
-/// A picture file's bytes as the pixels of a Texture. Throws Error that names `where`.
+/// The whole of a mesh's, a picture's or a buffer's file. Throws Error when it is no file, cannot
+/// be read, is empty or larger than 1 GiB.
+std::string read_mesh_file(const std::filesystem::path& file);
+
+/// A picture file's bytes as the pixels of a Texture. Throws Error that names `where`, also
+/// for a picture of more than 16384 pixels on a side or 2^24 in all.
 cv::Mat decode_picture(std::string_view bytes, const std::string& where);
 
 /// Normals from the triangles around each vertex, weighted by their areas.

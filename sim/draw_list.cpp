@@ -19,9 +19,11 @@ struct Visible {
   auto batch_key() const { return std::tie(shell, model, level, order); }
 };
 
-/// Shells grow with the distance: few batches far away, a good order nearby.
-int shell_of(double distance) {
-  return static_cast<int>(std::floor(6 * std::log2(1 + distance)));
+/// Shells grow with the distance: few batches far away, a good order nearby. Small things hide
+/// little, so their shells are wide.
+int shell_of(double distance, bool ordered) {
+  const double octave = std::log2(1 + distance);
+  return ordered ? static_cast<int>(6 * octave) : 6 * static_cast<int>(octave) + 5;
 }
 
 int level_of(const GpuModel& model, double distance) {
@@ -55,10 +57,10 @@ DrawList make_draw_list(const GpuScene& scene, const PinholeCamera& camera, cons
     const int level = level_of(model, distance * nearer);
     if (level < 0) continue;
     Visible& v = visible.emplace_back();
-    v.shell = shell_of(distance);
+    v.shell = shell_of(distance, model.ordered);
     v.model = instance.model;
     v.level = level;
-    v.order = draw_order(eye - bounds.center());
+    v.order = model.ordered ? draw_order(eye - bounds.center()) : 0;
     v.row = {cam_from_model.topRows<3>().cast<float>(), static_cast<std::uint32_t>(i + 1)};
   }
   std::stable_sort(visible.begin(), visible.end(), [](const Visible& a, const Visible& b) {

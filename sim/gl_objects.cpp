@@ -82,7 +82,7 @@ GlVertexArray make_vertex_array() {
   return array;
 }
 
-GlTexture make_texture(const std::vector<cv::Mat>& levels, bool repeat) {
+GlTexture make_texture(const std::vector<cv::Mat>& levels, bool repeat, bool smooth) {
   GlTexture texture(generate(gl.GenTextures));
   gl.BindTexture(GL_TEXTURE_2D, texture.get());
   gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
@@ -94,11 +94,12 @@ GlTexture make_texture(const std::vector<cv::Mat>& levels, bool repeat) {
   const GLint wrap = repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE;
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, smooth ? GL_LINEAR : GL_NEAREST);
+  const GLint smaller = smooth ? GL_LINEAR_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_NEAREST;
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, levels.size() > 1 ? smaller : GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, static_cast<GLint>(levels.size()) - 1);
   // Round up to the coarser level: a texel is then never smaller than a pixel, and nothing aliases.
-  gl.TexParameterf(GL_TEXTURE_2D, GL_TEXTURE_LOD_BIAS, 0.5f);
+  if (smooth && levels.size() > 1) gl.TexParameterf(GL_TEXTURE_2D, GL_TEXTURE_LOD_BIAS, 0.5f);
   return texture;
 }
 

@@ -56,8 +56,9 @@ GlBuffer make_buffer(GLenum target, const std::vector<T>& data) {
 }
 GlVertexArray make_vertex_array();
 
-/// A texture of the given mip levels (CV_8UC4, finest first): bilinear in the nearest level.
-GlTexture make_texture(const std::vector<cv::Mat>& levels, bool repeat);
+/// A texture of the given mip levels (CV_8UC4, finest first), of which the nearest is sampled:
+/// bilinearly where `smooth`, else one texel, at two thirds of the cost.
+GlTexture make_texture(const std::vector<cv::Mat>& levels, bool repeat, bool smooth = true);
 
 /// Makes it the texture of that unit, and the unit the active one.
 void bind_texture(GLint unit, const GlTexture& texture);

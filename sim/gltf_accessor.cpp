@@ -36,8 +36,8 @@ std::string_view gltf_view(const tinygltf::Model& model, int index, const std::s
   return {reinterpret_cast<const char*>(buffer.data()) + view.byteOffset, view.byteLength};
 }
 
-GltfNumbers::GltfNumbers(const tinygltf::Model& model, int index, int type,
-                         const std::string& file) {
+GltfNumbers::GltfNumbers(const tinygltf::Model& model, int index, int type, const std::string& file)
+    : index_(index) {
   if (index < 0 || static_cast<std::size_t>(index) >= model.accessors.size()) {
     fail("{}: names accessor {} of {}", file, index, model.accessors.size());
   }
@@ -45,6 +45,7 @@ GltfNumbers::GltfNumbers(const tinygltf::Model& model, int index, int type,
   if (accessor.type != type) fail("{}: accessor {} has an unexpected type", file, index);
   if (accessor.sparse.isSparse)
     fail("{}: accessor {} is sparse, expected a dense one", file, index);
+  if (accessor.bufferView < 0) fail("{}: accessor {} names no buffer view", file, index);
   count_ = accessor.count;
   component_ = accessor.componentType;
   normalised_ = accessor.normalized;
@@ -70,6 +71,25 @@ const char* GltfNumbers::at(std::size_t element, int component) const {
   return bytes_.data() + element * stride_ + static_cast<std::size_t>(component) * component_size_;
 }
 
+void GltfNumbers::expect_whole(const std::string& file) const {
+  if (component_ == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+      component_ == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+      component_ == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
+    return;
+  }
+  fail("{}: accessor {} has component type {}, expected whole numbers (5121, 5123, 5125)", file,
+       index_, component_);
+}
+
+void GltfNumbers::expect_real(const std::string& file) const {
+  if (component_ != TINYGLTF_COMPONENT_TYPE_INT &&
+      component_ != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
+    return;
+  }
+  fail("{}: accessor {} has component type {}, expected real numbers (5126) or small whole ones",
+       file, index_, component_);
+}
+
 float GltfNumbers::real(std::size_t element, int component) const {
   const char* from = at(element, component);
   const auto scaled = [&](auto value, float largest) {
@@ -90,7 +110,7 @@ float GltfNumbers::real(std::size_t element, int component) const {
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
       return scaled(load<std::uint16_t>(from), 65535);
     default:
-      return static_cast<float>(whole(element));
+      return 0;  // expect_real() has refused it
   }
 }
 

@@ -20,6 +20,9 @@ class GltfNumbers {
   GltfNumbers(const tinygltf::Model& model, int accessor, int type, const std::string& file);
 
   std::size_t size() const { return count_; }
+  /// Throw Error unless `whole`, or `real`, can read these numbers.
+  void expect_whole(const std::string& file) const;
+  void expect_real(const std::string& file) const;
   /// Integers of a normalised accessor are brought to [0, 1] or [-1, 1].
   float real(std::size_t element, int component) const;
   std::uint32_t whole(std::size_t element) const;
@@ -27,6 +30,7 @@ class GltfNumbers {
  private:
   const char* at(std::size_t element, int component) const;
 
+  int index_ = 0;
   std::string_view bytes_;
   std::size_t count_ = 0;
   std::size_t stride_ = 0;

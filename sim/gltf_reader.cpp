@@ -6,8 +6,8 @@
 #include "sim/asset_file.h"
 #include "sim/gltf.h"
 #include "sim/gltf_accessor.h"
+#include "sim/gltf_file.h"
 #include "slam/base/error.h"
-#include "slam/base/files.h"
 
 namespace vinebench {
 namespace {
@@ -22,45 +22,10 @@ Eigen::Matrix4f z_up() {
   return m;
 }
 
-/// Keeps a picture file's bytes as they are; those inside a buffer are found there later.
-bool keep_bytes(tinygltf::Image* image, int, std::string*, std::string*, int, int,
-                const unsigned char* bytes, int size, void*) {
-  if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
-  return true;
-}
-
-tinygltf::Model parse(const std::filesystem::path& file) {
-  const std::string bytes = read_file(file);
-  if (bytes.empty()) fail("{}: expected glTF, found an empty file", file.string());
-  const std::string folder = file.parent_path().string();
-  const auto size = static_cast<unsigned int>(bytes.size());
-  tinygltf::TinyGLTF reader;
-  reader.SetImageLoader(keep_bytes, nullptr);
-  tinygltf::Model model;
-  std::string problem, warning;
-  bool whole = false;
-  try {
-    whole =
-        bytes.starts_with("glTF")
-            ? reader.LoadBinaryFromMemory(&model, &problem, &warning,
-                                          reinterpret_cast<const unsigned char*>(bytes.data()),
-                                          size, folder)
-            : reader.LoadASCIIFromString(&model, &problem, &warning, bytes.data(), size, folder);
-  } catch (const std::exception& exception) {
-    problem = exception.what();
-  }
-  std::ranges::replace(problem, '\n', ' ');
-  if (!whole) fail("{}: expected glTF 2.0: {}", file.string(), problem);
-  for (const std::string& extension : model.extensionsRequired) {
-    fail("{}: needs the glTF extension {}, which is not supported", file.string(), extension);
-  }
-  return model;
-}
-
 class GltfReader {
  public:
   explicit GltfReader(const std::filesystem::path& file)
-      : file_(file.string()), model_(parse(file)) {}
+      : file_(file.string()), model_(parse_gltf(file)) {}
 
   Asset read() {
     for (const tinygltf::Texture& texture : model_.textures) add(texture);
@@ -101,14 +66,13 @@ class GltfReader {
     material.cutout = from.alphaMode != "OPAQUE";
     material.double_sided = from.doubleSided;
     if (from.extras.Has(kLabel)) {
-      const int label = from.extras.Get(kLabel).GetNumberAsInt();
-      const int last = static_cast<int>(Label::kPerson);
-      if (label < 0 || label > last) fail("{}: label {}, expected 0 to {}", file_, label, last);
-      material.label = static_cast<Label>(label);
+      const double last = static_cast<int>(Label::kPerson);
+      material.label =
+          static_cast<Label>(static_cast<int>(number(from.extras.Get(kLabel), kLabel, 0, last)));
     }
     if (from.extras.Has(kTranslucency)) {
       material.translucency =
-          static_cast<float>(from.extras.Get(kTranslucency).GetNumberAsDouble());
+          static_cast<float>(number(from.extras.Get(kTranslucency), kTranslucency, 0, 1));
     }
     asset_.add(std::move(material));
   }
@@ -123,28 +87,45 @@ class GltfReader {
     asset_.model.name = node.name.empty() ? asset_.model.name : node.name;
     const Value until = node.extras.Has(kUntil) ? node.extras.Get(kUntil) : Value();
     const auto extension = node.extensions.find(kLevelsExtension);
-    if (until.ArrayLen() > 0) asset_.model.levels[0].until = until.Get(0).GetNumberAsDouble();
+    if (until.ArrayLen() > 0) asset_.model.levels[0].until = distance(until.Get(0));
     if (extension == node.extensions.end() || !extension->second.Has("ids")) return;
     const Value& ids = extension->second.Get("ids");
     // Without our distances, only the finest level can be used.
     if (until.ArrayLen() != ids.ArrayLen() + 1) return;
     for (int i = 0; i < static_cast<int>(ids.ArrayLen()); ++i) {
-      LevelOfDetail level{until.Get(i + 1).GetNumberAsDouble(), {}};
-      add_node(ids.Get(i).GetNumberAsInt(), z_up(), 0, level);
+      LevelOfDetail level{distance(until.Get(i + 1)), {}};
+      const double last = static_cast<double>(model_.nodes.size()) - 1;
+      add_node(static_cast<int>(number(ids.Get(i), kLevelsExtension, 0, last)), z_up(), 0, level);
       asset_.model.levels.push_back(std::move(level));
     }
   }
+
+  /// A number within bounds; `what` names it.
+  double number(const Value& value, const char* what, double least, double most) const {
+    const double found = value.IsNumber() ? value.GetNumberAsDouble() : std::nan("");
+    if (!(found >= least && found <= most)) {
+      fail("{}: {}: expected a number from {} to {}, found {}", file_, what, least, most,
+           value.IsNumber() ? fmt::format("{}", found) : "none");
+    }
+    return found;
+  }
+
+  double distance(const Value& value) const { return number(value, kUntil, 0, 1e9); }
 
   std::vector<int> scene_roots() const {
     if (!model_.scenes.empty()) {
       return at(model_.scenes, std::max(0, model_.defaultScene), "scene").nodes;
     }
+    std::vector<bool> is_child(model_.nodes.size());
+    for (const tinygltf::Node& node : model_.nodes) {
+      for (const int child : node.children) {
+        at(model_.nodes, child, "node");
+        is_child[static_cast<std::size_t>(child)] = true;
+      }
+    }
     std::vector<int> roots;
-    for (int i = 0; i < static_cast<int>(model_.nodes.size()); ++i) {
-      const auto is_child = [&](const tinygltf::Node& n) {
-        return std::ranges::find(n.children, i) != n.children.end();
-      };
-      if (std::ranges::none_of(model_.nodes, is_child)) roots.push_back(i);
+    for (std::size_t i = 0; i < is_child.size(); ++i) {
+      if (!is_child[i]) roots.push_back(static_cast<int>(i));
     }
     return roots;
   }
@@ -163,7 +144,17 @@ class GltfReader {
     for (const int child : node.children) add_node(child, T_model_node, depth + 1, level);
   }
 
-  static Eigen::Matrix4f matrix_of(const tinygltf::Node& node) {
+  /// tinygltf keeps what it could read of a list that is broken.
+  void expect_size(const std::vector<double>& numbers, std::size_t size, const char* what) const {
+    if (numbers.empty() || numbers.size() == size) return;
+    fail("{}: {} of {} numbers, expected {}", file_, what, numbers.size(), size);
+  }
+
+  Eigen::Matrix4f matrix_of(const tinygltf::Node& node) const {
+    expect_size(node.matrix, 16, "matrix");
+    expect_size(node.translation, 3, "translation");
+    expect_size(node.rotation, 4, "rotation");
+    expect_size(node.scale, 3, "scale");
     if (node.matrix.size() == 16) {
       return Eigen::Map<const Eigen::Matrix4d>(node.matrix.data()).cast<float>();
     }
@@ -203,10 +194,12 @@ class GltfReader {
     };
     if (attribute("POSITION") < 0) fail("{}: a mesh has no positions", file_);
     const GltfNumbers positions(model_, attribute("POSITION"), TINYGLTF_TYPE_VEC3, file_);
+    take(sizeof(Primitive) + positions.size() * sizeof(Vertex));
     primitive.vertices.resize(positions.size());
     const auto read = [&](const char* name, int type, auto set) {
       if (attribute(name) < 0) return false;
       const GltfNumbers numbers(model_, attribute(name), type, file_);
+      name == kPart ? numbers.expect_whole(file_) : numbers.expect_real(file_);
       if (numbers.size() != positions.size()) {
         fail("{}: {} of {} vertices, expected {}", file_, name, numbers.size(), positions.size());
       }
@@ -230,11 +223,20 @@ class GltfReader {
     });
   }
 
+  /// Nodes may show one mesh many times: what is small in the file could fill the memory.
+  void take(std::size_t bytes) {
+    constexpr std::size_t kMost = 512;  // MiB
+    taken_ += bytes;
+    if (taken_ > kMost << 20) fail("{}: its meshes take more than {} MiB", file_, kMost);
+  }
+
   void read_indices(const tinygltf::Primitive& from, Primitive& primitive) {
     if (from.indices < 0) {
       for (std::uint32_t i = 0; i < primitive.vertices.size(); ++i) primitive.indices.push_back(i);
     } else {
       const GltfNumbers numbers(model_, from.indices, TINYGLTF_TYPE_SCALAR, file_);
+      take(numbers.size() * sizeof(std::uint32_t));
+      numbers.expect_whole(file_);
       for (std::size_t i = 0; i < numbers.size(); ++i)
         primitive.indices.push_back(numbers.whole(i));
     }
@@ -279,6 +281,7 @@ class GltfReader {
   Asset asset_;
   int default_material_ = -1;
   int visited_ = 0;
+  std::size_t taken_ = 0;  ///< bytes of memory, by the meshes so far
 };
 
 }  // namespace

@@ -49,8 +49,12 @@ class GltfWriter {
   std::string bytes() {
     std::ostringstream out;
     tinygltf::TinyGLTF writer;
-    if (!writer.WriteGltfSceneToStream(&model_, out, false, true)) fail("a .glb cannot be written");
-    return out.str();
+    try {
+      if (writer.WriteGltfSceneToStream(&model_, out, false, true)) return out.str();
+    } catch (const std::exception& problem) {  // such as a name that is no UTF-8
+      fail("a .glb cannot be written: {}", problem.what());
+    }
+    fail("a .glb cannot be written");
   }
 
  private:

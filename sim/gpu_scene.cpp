@@ -8,60 +8,27 @@
 #include <cstddef>
 
 #include "sim/mip_levels.h"
-#include "slam/base/error.h"
+#include "sim/scene_check.h"
 
 namespace vinebench {
 namespace {
 
-constexpr std::size_t kSmall = 32;  // triangles; fewer are not worth an order
-
-void check_index(int index, std::size_t size, const char* what, const std::string& where) {
-  if (index < 0 || static_cast<std::size_t>(index) >= size) {
-    fail("scene: {} names {} {}, expected 0 to {}", where, what, index, static_cast<int>(size) - 1);
-  }
-}
-
-void check_scene(const Scene& scene) {
-  for (const Texture& texture : scene.textures) {
-    if (texture.rgba.empty() || texture.rgba.type() != CV_8UC4) {
-      fail("scene: texture '{}': expected a picture of 4 channels of 8 bits", texture.name);
-    }
-  }
-  for (const Material& material : scene.materials) {
-    if (material.texture == -1) continue;
-    check_index(material.texture, scene.textures.size(), "texture", "material " + material.name);
-  }
-  for (const Model& model : scene.models) {
-    for (const LevelOfDetail& level : model.levels) {
-      for (const Primitive& primitive : level.primitives) {
-        check_index(primitive.material, scene.materials.size(), "material", "model " + model.name);
-        for (const std::uint32_t index : primitive.indices) {
-          check_index(static_cast<int>(index), primitive.vertices.size(), "vertex",
-                      "model " + model.name);
-        }
-      }
-    }
-  }
-  for (const Instance& instance : scene.instances) {
-    check_index(instance.model, scene.models.size(), "model", "an instance");
-  }
-  for (const Wire& wire : scene.wires) {
-    check_index(wire.material, scene.materials.size(), "material", "a wire");
-  }
-}
+constexpr std::size_t kSmall = 32;    // triangles; fewer are not worth an order
+constexpr std::size_t kLarge = 1500;  // triangles; a thing of fewer is drawn in one order
 
 /// The vertices and indices of all primitives, one after the other.
 struct Geometry {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> indices;
 
-  GpuPrimitive add(const Primitive& primitive) {
+  GpuPrimitive add(const Primitive& primitive, bool ordered) {
     GpuPrimitive gpu;
     gpu.material = primitive.material;
     gpu.first_vertex = static_cast<GLint>(vertices.size());
     gpu.first_index = indices.size();
     gpu.count = static_cast<GLsizei>(primitive.indices.size());
-    const std::vector<std::uint32_t> sorted = sorted_indices(primitive);
+    const std::vector<std::uint32_t> sorted =
+        ordered ? sorted_indices(primitive) : primitive.indices;
     vertices.insert(vertices.end(), primitive.vertices.begin(), primitive.vertices.end());
     indices.insert(indices.end(), sorted.begin(), sorted.end());
     return gpu;
@@ -78,16 +45,26 @@ bool casts_shadow(const Model& model, const std::vector<Material>& materials) {
   return false;
 }
 
+bool is_large(const Model& model) {
+  std::size_t indices = 0;
+  if (model.levels.empty()) return false;
+  for (const Primitive& primitive : model.levels.front().primitives) {
+    indices += primitive.indices.size();
+  }
+  return indices > 3 * kLarge;
+}
+
 GpuModel add_model(Geometry& geometry, const Model& model, const std::vector<Material>& materials) {
   GpuModel gpu;
   gpu.casts_shadow = casts_shadow(model, materials);
+  gpu.ordered = is_large(model);
   for (const LevelOfDetail& level : model.levels) {
     GpuLevel& to = gpu.levels.emplace_back();
     to.until = level.until;
     for (const Primitive& primitive : level.primitives) {
       if (primitive.indices.empty()) continue;
       for (const Vertex& vertex : primitive.vertices) gpu.bounds.extend(vertex.position);
-      to.primitives.push_back(geometry.add(primitive));
+      to.primitives.push_back(geometry.add(primitive, gpu.ordered));
     }
   }
   return gpu;
@@ -151,6 +128,18 @@ bool is_cutout(const Scene& scene, int texture) {
                      [&](const Material& m) { return m.texture == texture && m.cutout; });
 }
 
+/// Whether only things grown use it: small and rough, they do not show how they are sampled.
+bool is_vegetation(const Scene& scene, int texture) {
+  for (const Material& material : scene.materials) {
+    if (material.texture != texture) continue;
+    const bool grown = material.label == Label::kLeaf || material.label == Label::kCane ||
+                       material.label == Label::kBunch || material.label == Label::kGrass ||
+                       material.label == Label::kTrunk;
+    if (!grown || material.terrain) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 int draw_order(const Eigen::Vector3d& towards_camera) {
@@ -193,7 +182,8 @@ GpuScene::GpuScene(const Scene& scene)
   for (std::size_t i = 0; i < scene.textures.size(); ++i) {
     const Texture& texture = scene.textures[i];
     const bool cutout = is_cutout(scene, static_cast<int>(i));
-    textures.push_back(make_texture(mip_levels(texture.rgba, cutout), texture.repeat));
+    const bool smooth = !is_vegetation(scene, static_cast<int>(i));
+    textures.push_back(make_texture(mip_levels(texture.rgba, cutout), texture.repeat, smooth));
   }
   Geometry geometry;
   for (const Model& model : scene.models) {

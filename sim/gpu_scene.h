@@ -39,6 +39,7 @@ struct GpuModel {
   std::vector<GpuLevel> levels;
   Eigen::AlignedBox3f bounds;  ///< of all levels
   bool casts_shadow = false;   ///< ground and grass do not
+  bool ordered = false;        ///< large enough for its triangles' order to matter
 };
 
 /// A thing in its place, and a ball around it for a first guess at whether it is in view.

@@ -8,9 +8,9 @@
 namespace vinebench {
 namespace {
 
-constexpr std::array<MeshDetail, 3> kNear{{{0.9, 13800, 9, 4, 1, true, 2, true},
-                                           {2.0, 6900, 7, 3, 1, false, 1, false},
-                                           {4.5, 2500, 5, 3, 2, false, 0, false}}};
+constexpr std::array<MeshDetail, 3> kNear{{{0.5, 11000, 9, 4, 1, true, 2, true},
+                                           {1.15, 4600, 7, 3, 1, false, 1, false},
+                                           {3.3, 2500, 5, 3, 2, false, 0, false}}};
 
 std::vector<Material> plant_materials() {
   std::vector<Material> materials(kPlantMaterials);

@@ -181,7 +181,7 @@ std::vector<LevelOfDetail> FarPlants::levels(std::size_t plant) const {
     int bunch_triangles;
   };
   constexpr std::array<Spec, 3> kSpecs{
-      {{10, kReliefColumns, kReliefRows, 5, 4, 150}, {25, 2, 3, 15, 3, 0}, {1e9, 1, 1, 9, 0, 0}}};
+      {{8, kReliefColumns, kReliefRows, 5, 4, 150}, {20, 2, 3, 15, 3, 0}, {1e9, 1, 1, 9, 0, 0}}};
   std::vector<LevelOfDetail> levels;
   for (const Spec& spec : kSpecs) {
     LevelOfDetail& level = levels.emplace_back(LevelOfDetail{spec.until, {}});

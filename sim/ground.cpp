@@ -22,7 +22,7 @@ using Eigen::Vector3f;
 constexpr double kRowShade = 0.25;  // m either side of a row that its canopy darkens
 constexpr double kSkirt = 0.06;     // m that a tile's rim hangs down, against cracks between levels
 constexpr int kLevels = 4;
-constexpr std::array<double, kLevels> kUntil{4, 8, 20, 1e9};  // m
+constexpr std::array<double, kLevels> kUntil{6, 14, 40, 1e9};  // m
 
 enum GroundMaterial { kPlain, kAisle };
 

@@ -39,7 +39,7 @@ constexpr std::array<PatchSpec, 5> kPatches{{
     {"fringe", 0.50f, 0.10f, 10, 11, 0.04f, 0.13f, 4, 3},
 }};
 constexpr int kVariants = 4;
-constexpr double kFullUntil = 2.5, kThinUntil = 8;  // m
+constexpr double kFullUntil = 2.5, kThinUntil = 13;  // m
 
 void add_blade(MeshBuilder& builder, const Vector3f& root, float height, float turn, float bend,
                bool fine) {

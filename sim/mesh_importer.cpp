@@ -7,15 +7,18 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <cmath>
 #include <opencv2/core.hpp>
 
 #include "sim/asset_file.h"
+#include "sim/collada_check.h"
 #include "slam/base/error.h"
-#include "slam/base/files.h"
 
 namespace vinebench {
 namespace {
+
+constexpr double kMostVertices = 10e6;
 
 float linear(float srgb) {
   return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
@@ -24,16 +27,21 @@ float linear(float srgb) {
 class MeshImporter {
  public:
   explicit MeshImporter(const std::filesystem::path& file) : file_(file) {
-    // Assimp turns a .dae to y up, whatever it says of itself, and leaves the others as they are.
-    y_up_ = file.extension() == ".dae" || file.extension() == ".DAE";
+    const std::string kind = file.extension().string();
+    is_collada_ = kind.size() == 4 && std::tolower(kind[1]) == 'd';
   }
 
   Asset read() {
-    if (read_file(file_).empty()) fail("{}: expected a mesh, found an empty file", file_.string());
+    const std::string text = read_mesh_file(file_);
+    if (is_collada_) check_collada(text, file_.string());
     importer_.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                                  aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    const aiScene* scene = loaded(importer_.ReadFile(file_.string(), 0));
+    const aiScene* scene =
+        loaded(importer_.ReadFile(file_.string(), aiProcess_ValidateDataStructure));
     check_vertices(*scene);
+    if (vertices_below(*scene, *scene->mRootNode) > kMostVertices) {
+      fail("{}: expected at most {} vertices", file_.string(), kMostVertices);
+    }
     scene = loaded(importer_.ApplyPostProcessing(
         aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenSmoothNormals |
         aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices));
@@ -68,6 +76,18 @@ class MeshImporter {
   }
 
   /// These formats do not say what has one side only: leaves of other tools are often sheets.
+  /// Of all meshes that the nodes show; nodes may show one mesh many times.
+  static double vertices_below(const aiScene& scene, const aiNode& node) {
+    double count = 0;
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+      count += scene.mMeshes[node.mMeshes[i]]->mNumVertices;
+    }
+    for (unsigned i = 0; i < node.mNumChildren; ++i) {
+      count += vertices_below(scene, *node.mChildren[i]);
+    }
+    return count;
+  }
+
   void add(const aiMaterial& from, Asset& asset) const {
     aiString name("material"), picture;
     from.Get(AI_MATKEY_NAME, name);
@@ -94,14 +114,15 @@ class MeshImporter {
     const std::string where = fmt::format("{}: picture {}", file_.string(), path.string());
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) fail("{}: no such file", where);
-    return {name, decode_picture(read_file(path), where), true};
+    return {name, decode_picture(read_mesh_file(path), where), true};
   }
 
   Primitive part(const aiMesh& mesh) const {
     Primitive primitive;
     primitive.material = static_cast<int>(mesh.mMaterialIndex);
     const auto z_up = [&](const aiVector3D& v) {
-      return y_up_ ? Eigen::Vector3f(v.x, -v.z, v.y) : Eigen::Vector3f(v.x, v.y, v.z);
+      // Assimp turns a .dae to y up, whatever it says of itself, and leaves the others as they are.
+      return is_collada_ ? Eigen::Vector3f(v.x, -v.z, v.y) : Eigen::Vector3f(v.x, v.y, v.z);
     };
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
       Vertex vertex;
@@ -123,7 +144,7 @@ class MeshImporter {
   }
 
   std::filesystem::path file_;
-  bool y_up_ = false;
+  bool is_collada_ = false;
   Assimp::Importer importer_;
 };
 

@@ -118,6 +118,7 @@ void Painter::draw(const PinholeCamera& camera, const Pose& T_world_cam, double 
   ViewBlock view = make_view_block(camera, T_world_cam, scene_.light, scene_.wind, settings);
   view.shadow_from_cam = (shadow_map_.map_from_world() * T_world_cam.matrix()).cast<float>();
   view.light_map = light_map_.map_from_world();
+  view.lens.z() *= static_cast<float>(kSkyBrightest);
   view_.set(view);
   ground_light_ = LightMap::kBrightest * static_cast<double>(encoded(settings.exposure));
   const DrawList list = make_draw_list(scene_, camera, T_world_cam, lod_scale);

@@ -102,10 +102,11 @@ std::string posts_mjcf(const WorldConfig& world, const Terrain& terrain) {
   return geoms;
 }
 
-std::string trunks_mjcf(const WorldConfig& world, const Terrain& terrain) {
+std::string trunks_mjcf(const WorldConfig& world, const Terrain& terrain, std::uint64_t seed) {
   std::string geoms;
   const std::vector<Eigen::Vector2d> vines = vine_positions(world);
   for (std::size_t i = 0; i < vines.size(); ++i) {
+    if (vine_at(world, seed, i) == VineKind::kNone) continue;
     const Eigen::Vector3d foot(vines[i].x(), vines[i].y(), terrain.height(vines[i]));
     geoms += upright(fmt::format("trunk {}", i), foot,
                      foot + kTrunkHeight * Eigen::Vector3d::UnitZ(), kTrunkRadius);
@@ -181,9 +182,10 @@ GroundText height_field_mjcf(const Terrain& terrain) {
 
 }  // namespace
 
-std::string world_mjcf(const WorldConfig& world, const std::filesystem::path& rover_include) {
+std::string world_mjcf(const WorldConfig& world, const std::filesystem::path& rover_include,
+                       std::uint64_t seed) {
   const Terrain terrain(world);
-  std::string geoms = posts_mjcf(world, terrain) + trunks_mjcf(world, terrain);
+  std::string geoms = posts_mjcf(world, terrain) + trunks_mjcf(world, terrain, seed);
   for (std::size_t i = 0; i < world.boxes.size(); ++i) {
     geoms += carton(fmt::format("box {}", i), world.boxes[i]);
   }
@@ -206,7 +208,8 @@ std::string world_mjcf(const WorldConfig& world, const std::filesystem::path& ro
                      xml_escaped(rover_include.string()), asset, ground, geoms);
 }
 
-PhysicsWorld::PhysicsWorld(const std::filesystem::path& rover, const WorldConfig& world)
+PhysicsWorld::PhysicsWorld(const std::filesystem::path& rover, const WorldConfig& world,
+                           std::uint64_t seed)
     : rover_(rover) {
   silence_warnings();
   if (mj_version() != mjVERSION_HEADER) {
@@ -222,7 +225,7 @@ PhysicsWorld::PhysicsWorld(const std::filesystem::path& rover, const WorldConfig
   // MuJoCo joins an included name to the folder of the including file, even an absolute one.
   const std::filesystem::path include = std::filesystem::relative(rover, folder, problem);
   if (problem) fail("{}: {}", rover.string(), problem.message());
-  write_file_atomically(file.name(), world_mjcf(world, include));
+  write_file_atomically(file.name(), world_mjcf(world, include, seed));
   std::array<char, 1000> reason{};
   model_.reset(mj_loadXML(file.name().c_str(), nullptr, reason.data(), reason.size()));
   if (!model_) fail("{}: no valid MJCF model: {}", rover.string(), reason.data());

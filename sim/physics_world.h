@@ -15,8 +15,10 @@ namespace vinebench {
 class Terrain;
 
 /// The MJCF text of a world: ground, posts, trunks and carton boxes as static geoms, and the rover
-/// by include. `rover_include` is the rover's MJCF file as the text's own folder reaches it.
-std::string world_mjcf(const WorldConfig& world, const std::filesystem::path& rover_include);
+/// by include. `rover_include` is the rover's MJCF file as the text's own folder reaches it. `seed`
+/// decides, as in build_scene, where vines are missing.
+std::string world_mjcf(const WorldConfig& world, const std::filesystem::path& rover_include,
+                       std::uint64_t seed = 1);
 
 /// A MuJoCo model and its state. Positions and velocities always belong to the same instant:
 /// `step` integrates and then evaluates what depends on them, so poses, encoders and gyro are those
@@ -24,7 +26,8 @@ std::string world_mjcf(const WorldConfig& world, const std::filesystem::path& ro
 class PhysicsWorld {
  public:
   /// Throws Error that names `rover` when it is missing or no valid MJCF.
-  PhysicsWorld(const std::filesystem::path& rover, const WorldConfig& world);
+  PhysicsWorld(const std::filesystem::path& rover, const WorldConfig& world,
+               std::uint64_t seed = 1);
 
   const mjModel& model() const { return *model_; }
   mjModel& model() { return *model_; }

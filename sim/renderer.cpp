@@ -10,6 +10,7 @@
 #include "sim/frustum.h"
 #include "sim/gl_context.h"
 #include "sim/gl_objects.h"
+#include "sim/glare.h"
 #include "sim/painter.h"
 #include "slam/base/error.h"
 
@@ -63,7 +64,7 @@ cv::Mat instance_numbers(const cv::Mat& bytes) {
 class Renderer::Impl {
  public:
   Impl(const Scene& scene, const RendererConfig& config)
-      : config_(config), context_(make_gl_context(config.backend)) {
+      : config_(config), light_(scene.light), context_(make_gl_context(config.backend)) {
     const CurrentContext current(*context_);
     painter_ = std::make_unique<Painter>(scene, config.shadow_map_size);
   }
@@ -84,6 +85,10 @@ class Renderer::Impl {
                    {request.exposure, request.time, request.other_time}, truth);
     Picture picture = read(camera, request);
     check_gl("drawing a picture");
+    const Eigen::Vector3d sun = light_.towards_sun.cast<double>();
+    add_glare(picture.rgb, picture.labels, camera, T_world_cam.rotation.inverse() * sun, light_,
+              request.exposure);
+    if (!request.labels) picture.labels.release();
     return picture;
   }
 
@@ -97,8 +102,11 @@ class Renderer::Impl {
     Picture picture;
     const cv::Size size(camera.width, camera.height);
     read_pixels(0, size, GL_RGBA, GL_UNSIGNED_BYTE, CV_8UC4, pixels_);
-    cv::cvtColor(pixels_, picture.rgb, cv::COLOR_RGBA2RGB);
-    if (request.labels) cv::extractChannel(pixels_, picture.labels, 3);
+    picture.rgb.create(size, CV_8UC3);
+    picture.labels.create(size, CV_8UC1);
+    cv::Mat parts[] = {picture.rgb, picture.labels};
+    constexpr int kFromTo[] = {0, 0, 1, 1, 2, 2, 3, 3};
+    cv::mixChannels(&pixels_, 1, parts, 2, kFromTo, 4);
     if (request.depth) {
       read_pixels(0, size, GL_DEPTH_COMPONENT, GL_FLOAT, CV_32FC1, picture.depth);
       linearise(picture.depth);
@@ -121,6 +129,7 @@ class Renderer::Impl {
   }
 
   RendererConfig config_;
+  Light light_;
   std::unique_ptr<GlContext> context_;
   std::unique_ptr<Painter> painter_;
   std::map<std::tuple<int, int, bool>, GlTarget> targets_;  // by width, height, truth

@@ -42,7 +42,8 @@ struct RoverConfig {
 class Rover {
  public:
   /// Stands still on the ground at `start` (x, y in m, heading in rad), wheels settled. `seed`
-  /// varies each motor's gain and each wheel's friction by up to 1 %. Throws Error for a model that
+  /// varies each motor's gain and each wheel's friction by up to 1 % and says where vines are
+  /// missing. Throws Error for a model that
   /// is missing, invalid or at odds with `config`, and for a start inside an obstacle.
   Rover(const RoverConfig& config, const WorldConfig& world, const Eigen::Vector3d& start,
         std::uint64_t seed);

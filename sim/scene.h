@@ -63,7 +63,7 @@ struct Primitive {
   std::vector<std::uint32_t> indices;
 };
 
-inline constexpr double kLevelFocalLength = 750;  ///< px
+inline constexpr double kLevelFocalLength = 1100;  ///< px
 
 struct LevelOfDetail {
   /// m from a camera of kLevelFocalLength; the next level is drawn beyond. Longer lenses see the
@@ -102,6 +102,7 @@ struct Light {
   Eigen::Vector3f bounce = Eigen::Vector3f(0.18f, 0.16f, 0.13f);  ///< ambient from below
   float overcast = 0;  ///< share of the sky that cloud covers, 0 to 1
   float haze = 0;      ///< extinction of the air, 1/m
+  float glare = 1;     ///< how much of a sun in the picture the lens scatters
 };
 
 /// What moves leaves, canes and bunches.

@@ -17,8 +17,6 @@
 namespace vinebench {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180.0;
-
 /// Models to choose from for each place of a row.
 struct PlantModels {
   std::vector<int> grown;
@@ -48,13 +46,11 @@ void add_vines(Scene& scene, const WorldConfig& world, const Terrain& terrain, s
   const std::vector<VinePlace> places = vine_places(world);
   const bool one_sided = world.vines.training == Training::kUnilateralCordon ||
                          world.vines.training == Training::kSingleGuyot;
-  const RandomStream gaps(seed, "vine gaps");
   for (std::size_t i = 0; i < places.size(); ++i) {
     RandomSequence random(RandomStream(seed, "vine", i));
-    const double stands = gaps.uniform(i);
-    if (stands < world.vines.missing) continue;
-    const bool young = stands < world.vines.missing + world.vines.young;
-    const std::vector<int>& choice = young ? models.young : models.grown;
+    const VineKind kind = vine_at(world, seed, i);
+    if (kind == VineKind::kNone) continue;
+    const std::vector<int>& choice = kind == VineKind::kYoung ? models.young : models.grown;
     const int model = choice.at(random.below(static_cast<int>(choice.size())));
     const double turn = places[i].heading + (one_sided ? 0 : random.below(2)) * std::numbers::pi;
     const Eigen::Vector2d& foot = places[i].foot;
@@ -65,22 +61,14 @@ void add_vines(Scene& scene, const WorldConfig& world, const Terrain& terrain, s
   }
 }
 
-Light daylight(const WorldConfig::Sun& sun) {
-  const double azimuth = sun.azimuth_deg * kRadians, elevation = sun.elevation_deg * kRadians;
-  Light light;
-  light.towards_sun = Eigen::Vector3d(std::sin(azimuth) * std::cos(elevation),
-                                      std::cos(azimuth) * std::cos(elevation), std::sin(elevation))
-                          .cast<float>();
-  return light;
-}
-
 }  // namespace
 
 Scene build_scene(const WorldConfig& world, std::uint64_t seed,
                   const std::filesystem::path& cache) {
   Scene scene;
   scene.seed = seed;
-  scene.light = daylight(world.sun);
+  scene.light = daylight(world.sun, world.sky);
+  scene.wind = make_wind(world.wind, seed);
   const Terrain terrain(world);
   add_vines(scene, world, terrain, seed, cache);
   add_trellis(scene, world, terrain, seed);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/view_block.h"
 #include "slam/base/random.h"
 
 namespace vinebench {
@@ -44,20 +45,38 @@ double cloud(const RandomStream& stream, const Eigen::Vector3d& ray) {
   return smooth_step(0.48, 0.85, shape) * smooth_step(0.05, 0.3, ray.z());
 }
 
-/// Linear light from that direction.
-Eigen::Vector3d sky_light(const Light& light, const RandomStream& stream,
+/// Linear light from that direction of a clear sky with a few clouds.
+Eigen::Vector3d clear_sky(const Light& light, const RandomStream& stream,
                           const Eigen::Vector3d& ray) {
   const Eigen::Vector3d sky = light.sky.cast<double>();
   const Eigen::Vector3d zenith = sky.cwiseProduct(Eigen::Vector3d(0.50, 0.75, 1.15));
   const Eigen::Vector3d horizon = sky.cwiseProduct(Eigen::Vector3d(1.55, 1.50, 1.35));
-  const Eigen::Vector3d land =
-      light.bounce.cast<double>().cwiseProduct(Eigen::Vector3d(0.8, 0.95, 0.8));
   Eigen::Vector3d c = horizon + (zenith - horizon) * std::sqrt(std::clamp(ray.z(), 0.0, 1.0));
   const double towards_sun = std::max(0.0, ray.dot(light.towards_sun.cast<double>()));
   c += light.sun.cast<double>() *
        (0.25 * std::pow(towards_sun, 12) + 0.6 * std::pow(towards_sun, 200));
   const Eigen::Vector3d white = 0.55 * light.sun.cast<double>() + 0.6 * sky;
-  c += (white - c) * (0.75 * cloud(stream, ray));
+  return c + (white - c) * (0.75 * cloud(stream, ray));
+}
+
+/// Linear light from that direction.
+Eigen::Vector3d sky_light(const Light& light, const RandomStream& stream,
+                          const Eigen::Vector3d& ray) {
+  Eigen::Vector3d c = clear_sky(light, stream, ray);
+  if (light.overcast > 0) {
+    // Moon and Spencer's overcast sky, brighter towards the zenith, with a little structure.
+    const double height = std::clamp(ray.z(), 0.0, 1.0);
+    const double grey = (1 + 2 * height) / 2.2 * (0.92 + 0.16 * cloud(stream, ray));
+    c += light.overcast * (grey * 1.1 * light.sky.cast<double>() - c);
+  }
+  Eigen::Vector3d land = light.bounce.cast<double>().cwiseProduct(Eigen::Vector3d(0.8, 0.95, 0.8));
+  if (light.haze > 0) {
+    const Eigen::Vector3d haze = horizon_light(light).cast<double>();
+    // The air thins upwards within about a kilometre.
+    const double thickness = 1000 * static_cast<double>(light.haze) / std::max(0.02, ray.z());
+    c += (haze - c) * (1 - std::exp(-thickness));
+    land = haze;
+  }
   return c + (land - c) * (1 - smooth_step(-0.05, 0.015, ray.z()));
 }
 
@@ -75,7 +94,8 @@ cv::Mat sky_picture(const Light& light, std::uint64_t seed) {
       const Eigen::Vector3d c = sky_light(light, stream, ray);
       cv::Vec4b& pixel = picture.at<cv::Vec4b>(row, column);
       for (int i = 0; i < 3; ++i) {
-        pixel[i] = cv::saturate_cast<std::uint8_t>(255 * std::pow(std::max(0.0, c[i]), 1 / 2.2));
+        pixel[i] = cv::saturate_cast<std::uint8_t>(255 / kSkyBrightest *
+                                                   std::pow(std::max(0.0, c[i]), 1 / 2.2));
       }
       pixel[3] = 255;
     }

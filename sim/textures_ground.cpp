@@ -11,12 +11,18 @@
 namespace vinebench {
 namespace {
 
+/// Of the nearest pixel; beyond the last one comes the first.
+float value_at(const cv::Mat& share, const cv::Point2d& at) {
+  const cv::Point nearest = at;
+  return share.at<float>(nearest.y % share.rows, nearest.x % share.cols);
+}
+
 /// Each stone with the shadow it throws and the light on its upper side.
 void scatter_stones(cv::Mat& rgb, RandomSequence& random, int count, double min_px, double max_px,
                     const cv::Mat* share = nullptr) {
   for (int i = 0; i < count; ++i) {
     const cv::Point2d at = somewhere(random, rgb);
-    if (share && share->at<float>(at) < 0.5f) continue;
+    if (share && value_at(*share, at) < 0.5f) continue;
     const double size = min_px * std::pow(max_px / min_px, std::pow(random.uniform(), 2.5));
     const cv::Size2d axes(size, size * random.uniform(0.55, 0.95));
     const double angle = random.uniform(0, 180);
@@ -116,7 +122,7 @@ void scatter_blades(cv::Mat& rgb, RandomSequence& random, const cv::Mat& share, 
     const cv::Vec3d fresh(random.uniform(74, 112), random.uniform(98, 132), random.uniform(34, 58));
     const cv::Vec3d dry(random.uniform(130, 160), random.uniform(124, 146), 80);
     const cv::Scalar skin = jitter(random, random.below(6) == 0 ? dry : fresh, 0.25);
-    const bool grows = random.uniform() < share.at<float>(at);
+    const bool grows = random.uniform() < value_at(share, at);
     if (!grows) continue;
     const cv::Point2d way(length * std::cos(angle), length * std::sin(angle));
     draw_wrapped(rgb, at, 2 * length,
@@ -134,7 +140,7 @@ void scatter_tufts(cv::Mat& rgb, RandomSequence& random, const cv::Mat& share, i
     const cv::Vec3d heart(34, 46, 18);
     const double first = random.uniform(0, 2 * std::numbers::pi);
     const int blades = 12 + random.below(10);
-    if (share.at<float>(at) < random.uniform()) continue;
+    if (value_at(share, at) < random.uniform()) continue;
     draw_wrapped(rgb, at, 2 * reach, [&](const cv::Point2d& p) {
       cv::circle(rgb, p, cvRound(0.2 * reach), heart, cv::FILLED, cv::LINE_AA);
     });

@@ -11,14 +11,14 @@
 #include "sim/tag_family.h"
 #include "sim/terrain.h"
 #include "slam/base/error.h"
+#include "slam/base/random.h"
 
 namespace vinebench {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kShortestRow = 0.1;  // m
-constexpr double kMostNodes = 16e6;
-constexpr double kSamePlace = 1e-3;  // m; two posts nearer than this are one
+constexpr double kSamePlace = 1e-3;   // m; two posts nearer than this are one
 
 /// Points from `start` to `end`, the first `offset` from the start, then every `spacing`.
 std::vector<Eigen::Vector2d> along(const WorldConfig::Row& row, double offset, double spacing) {
@@ -99,11 +99,7 @@ std::pair<std::string, std::string> WorldConfig::placing_problem() const {
   const int count = static_cast<int>(rows.size()) + (block ? block->rows : 0);
   WorldConfig laid = *this;
   laid.expand_block();
-  if (const double nodes = vinebench::Terrain(laid).nodes(); nodes > kMostNodes) {
-    return {"terrain", fmt::format("{:.0f} million cells of {} m, expected at most {:.0f}: make "
-                                   "terrain.cell larger",
-                                   nodes / 1e6, terrain.cell, kMostNodes / 1e6)};
-  }
+  if (const auto [key, problem] = laid.size_problem(); !problem.empty()) return {key, problem};
   std::vector<int> posts(static_cast<std::size_t>(count), 0);
   for (const TrellisPost& post : trellis_posts(laid)) ++posts[static_cast<std::size_t>(post.row)];
   for (std::size_t i = 0; i < tags.size(); ++i) {
@@ -118,6 +114,31 @@ std::pair<std::string, std::string> WorldConfig::placing_problem() const {
       return {key, fmt::format("expected an index from {} to {} in row {}, found {}", -of_row,
                                of_row - 1, on.row, on.index)};
     }
+  }
+  return {};
+}
+
+std::pair<std::string, std::string> WorldConfig::size_problem() const {
+  double row = 0;
+  for (const Row& r : rows) row += (r.end - r.start).norm();
+  if (row > kMostRow) {
+    return {"rows",
+            fmt::format("{:.0f} m of rows in all, expected at most {:.0f} m", row, kMostRow)};
+  }
+  if (const double count = row / vines.spacing; count > kMostVines) {
+    return {"vines", fmt::format("about {:.0f} places for vines, expected at most {:.0f}: make "
+                                 "vines.spacing larger or the rows fewer",
+                                 count, kMostVines)};
+  }
+  const vinebench::Terrain ground_now(*this);
+  if (const double area = ground_now.box().volume(); area > kMostGround) {
+    return {"rows", fmt::format("the rows lie on {:.0f} m^2 of ground, expected at most {:.0f}",
+                                area, kMostGround)};
+  }
+  if (const double nodes = ground_now.nodes(); nodes > kMostCells) {
+    return {"terrain", fmt::format("{:.1f} million cells of {} m, expected at most {:.1f}: make "
+                                   "terrain.cell larger",
+                                   nodes / 1e6, terrain.cell, kMostCells / 1e6)};
   }
   return {};
 }
@@ -198,6 +219,12 @@ std::vector<Eigen::Vector2d> vine_positions(const WorldConfig& world) {
   std::vector<Eigen::Vector2d> feet;
   for (const VinePlace& vine : vine_places(world)) feet.push_back(vine.foot);
   return feet;
+}
+
+VineKind vine_at(const WorldConfig& world, std::uint64_t seed, std::size_t place) {
+  const double draw = RandomStream(seed, "vine gaps").uniform(place);
+  if (draw < world.vines.missing) return VineKind::kNone;
+  return draw < world.vines.missing + world.vines.young ? VineKind::kYoung : VineKind::kGrown;
 }
 
 Pose tag_pose(const WorldConfig::Tag& tag) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/daylight.h"
 #include "sim/scene.h"
 #include "sim/vines.h"
 #include "slam/base/pose.h"
@@ -21,6 +22,11 @@ namespace vinebench {
 struct WorldConfig {
   /// Where things may stand, m from the origin.
   static constexpr Range kPlace = Range::between(-5000, 5000);
+  // What a laptop can still hold and draw; a larger vineyard is simulated a part at a time.
+  static constexpr double kMostVines = 20'000;
+  static constexpr double kMostRow = 20'000;       ///< m, of all rows together
+  static constexpr double kMostGround = 200'000;   ///< m^2, of shaped ground
+  static constexpr double kMostCells = 3'000'000;  ///< of the ground
 
   /// One row of the trellis.
   struct Row {
@@ -107,6 +113,7 @@ struct WorldConfig {
       archive("post_height", post_height, Range::between(0.3, 6));
       archive("post_radius", post_radius, Range::between(0.005, 0.3));
       archive("wires", wires, Range::between(0.05, 6));
+      archive.require(wires.size() <= 20, "wires", "expected at most 20");
       archive("end_post_radius", end_post_radius, Range::between(0.005, 0.3));
       archive("end_lean_deg", end_lean_deg, Range::between(0, 45));
       archive("end_brace", end_brace);
@@ -190,15 +197,6 @@ struct WorldConfig {
       archive("colour", colour, Range::between(0, 1));
     }
   };
-  struct Sun {
-    double azimuth_deg = 140;   ///< heading from north over east, where the sun stands
-    double elevation_deg = 50;  ///< above the horizon
-    template <class Archive>
-    void serialize(Archive& archive) {
-      archive("azimuth_deg", azimuth_deg, Range::between(-360, 360));
-      archive("elevation_deg", elevation_deg, Range::between(1, 90));
-    }
-  };
 
   std::string name = "world";
   double ground_size = 40;     ///< m, side of the square of ground around the rows' middle
@@ -211,7 +209,9 @@ struct WorldConfig {
   std::vector<Tag> tags;
   std::vector<Box> boxes;
   std::vector<Obstacle> obstacles;
-  Sun sun;
+  SunConfig sun;
+  SkyConfig sky;
+  WindConfig wind;
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -227,6 +227,8 @@ struct WorldConfig {
     archive("boxes", boxes);
     archive("obstacles", obstacles);
     archive("sun", sun);
+    archive("sky", sky);
+    archive("wind", wind);
     archive.require(block || !rows.empty(), "rows", "expected at least one row");
     if (!has_sound_rows()) return;  // which is reported by now
     const auto [key, problem] = placing_problem();
@@ -241,6 +243,9 @@ struct WorldConfig {
 
   /// What place() cannot do: the key at fault and why; both empty where all is well.
   std::pair<std::string, std::string> placing_problem() const;
+
+  /// What makes the world larger than its limits: key and problem, as placing_problem().
+  std::pair<std::string, std::string> size_problem() const;
 
   /// Turns the block into rows.
   void expand_block();
@@ -275,11 +280,17 @@ struct VinePlace {
   double heading = 0;    ///< rad, of its row
 };
 
-/// All vines, row by row.
+/// All places for vines, row by row; vine_at() tells which are empty.
 std::vector<VinePlace> vine_places(const WorldConfig& world);
 
-/// Where vines stand, m; row by row.
+/// The feet of vine_places(), m.
 std::vector<Eigen::Vector2d> vine_positions(const WorldConfig& world);
+
+/// What stands at a vine's place.
+enum class VineKind { kNone, kYoung, kGrown };
+
+/// The one decision about the place of that index in vine_places(), for picture and physics.
+VineKind vine_at(const WorldConfig& world, std::uint64_t seed, std::size_t place);
 
 /// Tag frame: x right and y down on the printed face, z into the tag.
 Pose tag_pose(const WorldConfig::Tag& tag);

@@ -3,35 +3,95 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <memory>
 #include <thread>
 
+#include "scenarios/measurement.h"
 #include "scenarios/render_benchmark.h"
+#include "scenarios/render_report.h"
 #include "scenarios/snapshot.h"
+#include "slam/base/error.h"
 #include "slam/base/files.h"
 #include "tools/commands.h"
 
 namespace vinebench {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 struct BenchArguments {
-  std::vector<std::string> worlds{"worlds/csl-vineyard.yaml"};
+  std::vector<std::string> worlds;
   std::string rig = "models/csl-rover/rig.yaml";
   std::string json;
+  std::string pictures;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   int frames = 24;
+  bool no_mujoco = false;
 };
 
-int bench_render(const BenchArguments& arguments) {
-  nlohmann::ordered_json results;
+constexpr const char* kSmallWorld = "worlds/csl-vineyard.yaml";
+constexpr const char* kLargeWorld = "worlds/typical-vineyard.yaml";
+constexpr int kManyRows = 40;
+
+RenderBenchmark benchmark_of(const BenchArguments& arguments, const std::string& file) {
+  RenderBenchmark benchmark;
+  benchmark.world = load_world(file);
+  benchmark.name = benchmark.world.name;
+  benchmark.rig = load_rig(arguments.rig);
+  benchmark.route = aisle_route(benchmark.world, arguments.frames);
+  benchmark.threads = arguments.threads;
+  benchmark.mujoco = !arguments.no_mujoco && benchmark.name == "csl-vineyard";
+  benchmark.pictures = arguments.pictures;
+  return benchmark;
+}
+
+/// The large world with many rows more, of which as much is to be seen.
+RenderBenchmark with_many_rows(RenderBenchmark benchmark) {
+  const Override rows = parse_override(fmt::format("block.rows={}", kManyRows));
+  benchmark.world = load_world(kLargeWorld, {rows});
+  benchmark.name += fmt::format(", {} rows", kManyRows);
+  benchmark.route = aisle_route(benchmark.world, static_cast<int>(benchmark.route.size()));
+  return benchmark;
+}
+
+std::vector<RenderBenchmark> benchmarks_of(const BenchArguments& arguments) {
+  std::vector<RenderBenchmark> benchmarks;
   for (const std::string& file : arguments.worlds) {
-    RenderBenchmark benchmark;
-    benchmark.world = load_world(file);
-    benchmark.name = benchmark.world.name;
-    benchmark.rig = load_rig(arguments.rig);
-    benchmark.route = aisle_route(benchmark.world, arguments.frames);
-    results.push_back(measure_rendering(benchmark, arguments.threads));
-    fmt::print("{}\n", results.back().dump(2));
+    benchmarks.push_back(benchmark_of(arguments, file));
+  }
+  if (!benchmarks.empty()) return benchmarks;
+  for (const char* file : {kSmallWorld, kLargeWorld}) {
+    if (std::filesystem::exists(file)) continue;
+    fail("bench render: no {} here; run it in the project's folder or name a --world", file);
+  }
+  benchmarks.push_back(benchmark_of(arguments, kSmallWorld));
+  benchmarks.push_back(benchmark_of(arguments, kLargeWorld));
+  benchmarks.push_back(with_many_rows(benchmarks.back()));
+  return benchmarks;
+}
+
+/// How much more a frame takes where there are many more rows, percent.
+double growth_percent(const Json& few, const Json& many, int threads) {
+  const std::string key = std::to_string(threads);
+  const double before = few.at("frame_wall_ms").at(key).get<double>();
+  const double after = many.at("frame_wall_ms").at(key).get<double>();
+  return rounded(100 * (after / before - 1));
+}
+
+int bench_render(const BenchArguments& arguments) {
+  Json results{{"frames", arguments.frames}, {"threads", arguments.threads}};
+  for (const RenderBenchmark& benchmark : benchmarks_of(arguments)) {
+    results["worlds"].push_back(measure_rendering(benchmark));
+    fmt::print("{}\n", render_table(results["worlds"].back()));
+    std::fflush(stdout);
+  }
+  if (arguments.worlds.empty()) {
+    const Json& worlds = results["worlds"];
+    const double growth = growth_percent(worlds[1], worlds[2], arguments.threads);
+    results["growth_percent"] = growth;
+    fmt::print("A frame takes {:+.1f} % from {} to {} rows.\n", growth,
+               worlds[1].at("rows").get<int>(), worlds[2].at("rows").get<int>());
   }
   if (!arguments.json.empty()) write_file_atomically(arguments.json, results.dump(2) + "\n");
   return 0;
@@ -43,14 +103,25 @@ void add_bench_command(CLI::App& app, Command& chosen) {
   CLI::App* bench = app.add_subcommand("bench", "Measure the speed of a part");
   bench->require_subcommand(1);
   const auto arguments = std::make_shared<BenchArguments>();
-  CLI::App* render = bench->add_subcommand("render", "Rendering, without SLAM");
-  render->add_option("--world", arguments->worlds, "World files");
+  CLI::App* render = bench->add_subcommand(
+      "render", "Rendering, without SLAM, in the middle aisle: medians over the frames");
+  render->add_option("--world", arguments->worlds,
+                     "World files; csl-vineyard, typical-vineyard and the latter with 40 rows "
+                     "where absent");
   render->add_option("--rig", arguments->rig, "Rig file")->capture_default_str();
   render->add_option("--json", arguments->json, "Also write the results to this file");
-  render->add_option("--threads", arguments->threads, "Threads")->check(CLI::Range(1, 64));
+  render->add_option("--threads", arguments->threads, "Threads, to compare with one")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
   render->add_option("--frames", arguments->frames, "Places on the route")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
+  render->add_flag("--no-mujoco", arguments->no_mujoco,
+                   "Leave out MuJoCo's own renderer, which draws csl-vineyard for comparison");
+  render
+      ->add_option("--pictures", arguments->pictures,
+                   "Folder for the pictures that the renderers made of the route's first place")
+      ->check(CLI::ExistingDirectory);
   render->callback(
       [&chosen, arguments] { chosen = [arguments] { return bench_render(*arguments); }; });
 }

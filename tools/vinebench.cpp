@@ -15,7 +15,7 @@ namespace {
 int dispatch(int argc, char** argv) {
   CLI::App app{"Deterministic test bench for multicamera visual SLAM in vineyards", "vinebench"};
   app.require_subcommand(0, 1);
-  app.set_version_flag("--version", versions_text());
+  app.set_version_flag("--version", [] { return versions_text(); });  // starts OpenGL
   Command chosen;
   add_run_command(app, chosen);
   add_eval_command(app, chosen);

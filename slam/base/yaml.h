@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -150,6 +151,12 @@ class YamlReader {
     if constexpr (std::is_integral_v<T>) {
       std::int64_t wide = static_cast<std::int64_t>(value);
       read_integer(node, key, wide, range);
+      if (!std::in_range<T>(wide)) {
+        violation(key, node,
+                  fmt::format("expected a whole number from {} to {}",
+                              std::numeric_limits<T>::min(), std::numeric_limits<T>::max()));
+        return;
+      }
       value = static_cast<T>(wide);
     } else if constexpr (std::is_enum_v<T>) {
       int index = static_cast<int>(value);
@@ -325,7 +332,8 @@ class Validator {
   template <class T>
   void check(const std::string& key, T& value, const Range& range) {
     if constexpr (std::is_arithmetic_v<T>) {
-      if (!range.contains(static_cast<double>(value))) {
+      const auto number = static_cast<double>(value);
+      if (!std::isfinite(number) || !range.contains(number)) {
         violations_.push_back(fmt::format("{}: expected {}, found {}", key, range.text(), value));
       }
     } else if constexpr (yaml_detail::IsOptional<T>::value) {

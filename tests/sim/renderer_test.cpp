@@ -335,7 +335,7 @@ TEST_F(TwoPanelsTest, DistortionIsAnError) {
 TEST_F(TwoPanelsTest, ASceneThatRefersToNothingIsAnError) {
   scene_.instances[0].model = 7;
   EXPECT_THAT([&] { Renderer(scene_, {}); },
-              testing::ThrowsMessage<Error>(testing::HasSubstr("an instance names model 7")));
+              testing::ThrowsMessage<Error>(testing::HasSubstr("instance 0 names model 7")));
 }
 
 }  // namespace

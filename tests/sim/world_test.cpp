@@ -366,7 +366,7 @@ TEST(WorldFileTest, ProblemsOfBlocksPostsAndNumbersAreNamed) {
   EXPECT_THAT(error_of_world("rows: [{start: [0, 0], end: [4, 0]}, {start: [0, 1], end: [4, 3]}]\n"
                              "ground: {aisles: grass}\n"),
               HasSubstr("parallel and evenly spaced"));
-  EXPECT_THAT(error_of_world("block: {rows: 400, length: 2000, spacing: 9}\n"
+  EXPECT_THAT(error_of_world("block: {rows: 20, length: 200, spacing: 9}\n"
                              "terrain: {amplitude: 0.1}\n"),
               AllOf(HasSubstr("terrain"), HasSubstr("make terrain.cell larger")));
 }

@@ -106,6 +106,19 @@ sed 's/^/10/' "$work/truth.tum" >"$work/later.tum"
 expect 2 "eval of strangers" "later.tum: fewer than three" -- \
   eval "$work/truth.tum" "$work/later.tum"
 
+# A world without a block, and one place: some seconds.
+world "ground_size: 20"
+expect 0 "bench" "bad: 1 rows, 4 plants" "frame of 5 cameras" "memory" -- \
+  bench render --world "$work/world.yaml" --rig "$root/models/csl-rover/rig.yaml" --frames 1 \
+  --json "$work/bench.json"
+for key in '"cpu_ms"' '"frame_wall_ms"' '"scaling"' '"memory_mib"'; do
+  grep -qF "$key" "$work/bench.json" || report "bench: its JSON lacks $key"
+done
+expect 2 "bench of a missing world" "none.yaml" -- bench render --world "$work/none.yaml"
+pushd "$work" >/dev/null || exit 1
+expect 2 "bench elsewhere" "no worlds/csl-vineyard.yaml here" "--world" -- bench render
+popd >/dev/null || exit 1
+
 if [[ $failures -ne 0 ]]; then
   echo "$failures failed"
   exit 1
