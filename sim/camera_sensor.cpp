@@ -3,6 +3,7 @@
 #include "sim/camera_sensor.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -11,6 +12,10 @@
 
 namespace vinebench {
 namespace {
+
+using Layer = cv::Mat Picture::*;
+constexpr std::array<Layer, 6> kLayers{&Picture::rgb,       &Picture::labels,  &Picture::depth,
+                                       &Picture::instances, &Picture::normals, &Picture::motion};
 
 /// Instant of a sub-frame, off the middle of the exposure.
 Stamp subframe_offset(int subframe, int count, double exposure_time) {
@@ -63,9 +68,9 @@ Picture CameraSensor::expose(const Shot& shot, const PoseAt& T_world_body,
   Picture whole;
   for (std::size_t i = 0; i < bands_.size(); ++i) {
     const Picture part = expose_band(i, shot, T_world_body, render);
-    put_rows(part.rgb, bands_[i].top, size, whole.rgb);
-    put_rows(part.labels, bands_[i].top, size, whole.labels);
-    put_rows(part.depth, bands_[i].top, size, whole.depth);
+    for (const Layer layer : kLayers) {
+      put_rows(part.*layer, bands_[i].top, size, whole.*layer);
+    }
   }
   return whole;
 }
@@ -89,9 +94,9 @@ Picture CameraSensor::expose_band(std::size_t index, const Shot& shot, const Pos
     if (i == count / 2) result = std::move(drawn);
   }
   if (count > 1) result.rgb = light;
-  result.rgb = band.resample(result.rgb, false);
-  result.labels = band.resample(result.labels, true);
-  result.depth = band.resample(result.depth, true);
+  for (const Layer layer : kLayers) {
+    result.*layer = band.resample(result.*layer, layer != &Picture::rgb);
+  }
   return result;
 }
 

@@ -79,7 +79,7 @@ class CameraSensor {
   using Render = std::function<Picture(const PinholeCamera&, const Pose& T_world_cam,
                                        const Renderer::Request&)>;
 
-  /// Labels and depth are those of the middle sub-frame, through the same lens.
+  /// All but the colours is that of the middle sub-frame, through the same lens.
   Picture capture(const Shot& shot, const PoseAt& T_world_body, const Render& render);
 
  private:

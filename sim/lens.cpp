@@ -105,6 +105,8 @@ void add_map(LensBand& band, const PinholeCamera& whole, const cv::Mat& places) 
   band.view = crop_rows(whole, top, bottom - top);
   part -= cv::Scalar(0, top);
   cv::convertMaps(part, cv::noArray(), band.map, band.map_fraction, CV_16SC2);
+  cv::Mat none;
+  cv::convertMaps(part, cv::noArray(), band.map_nearest, none, CV_16SC2, true);
 }
 
 }  // namespace
@@ -112,8 +114,12 @@ void add_map(LensBand& band, const PinholeCamera& whole, const cv::Mat& places) 
 cv::Mat LensBand::resample(const cv::Mat& picture, bool nearest) const {
   if (map.empty() || picture.empty()) return picture;
   cv::Mat rows_seen;
-  cv::remap(picture, rows_seen, map, map_fraction, nearest ? cv::INTER_NEAREST : cv::INTER_CUBIC,
-            cv::BORDER_REPLICATE);
+  // Given the fractions too, OpenCV 4.6 takes the pixel that is not the nearest.
+  if (nearest) {
+    cv::remap(picture, rows_seen, map_nearest, {}, cv::INTER_NEAREST, cv::BORDER_REPLICATE);
+  } else {
+    cv::remap(picture, rows_seen, map, map_fraction, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
+  }
   return rows_seen;
 }
 

@@ -16,6 +16,7 @@ struct LensBand {
   PinholeCamera view;    ///< without distortion; what is to be rendered
   cv::Mat map;           ///< CV_16SC2 and CV_16UC1 as cv::convertMaps makes them: for each pixel of
   cv::Mat map_fraction;  ///< the rows its place in the view; empty where the view is the rows
+  cv::Mat map_nearest;   ///< CV_16SC2: the view's pixel that is nearest to this place
 
   /// From the view to the rows: bicubic for colours, the nearest pixel for everything else.
   cv::Mat resample(const cv::Mat& picture, bool nearest) const;

@@ -21,7 +21,9 @@ struct Picture {
   cv::Mat depth;   ///< CV_32FC1, z along the optical axis in m, 0 for sky
   /// CV_32SC1: 256 * (index into Scene::instances + 1) + Vertex::part; 0 for sky and wires.
   cv::Mat instances;
-  cv::Mat normals;  ///< CV_32FC3, unit, camera frame, towards the camera; 0 for sky
+  /// CV_32FC3, unit, camera frame, towards the camera: of the triangles drawn, so that it fits
+  /// depth; of a wire, its way to the camera. 0 for sky.
+  cv::Mat normals;
   /// CV_32FC3, m, world frame: where the wind takes this point from `time` to `other_time`.
   cv::Mat motion;
 };

@@ -72,7 +72,7 @@ out vec2 v_uv;
 layout(location = 7) in uint instance;
 layout(location = 8) in float part;
 flat out uvec2 v_id;
-out vec3 v_normal;
+out vec3 v_place;
 out vec3 v_motion;
 #endif
 #ifdef HAZE
@@ -115,7 +115,7 @@ void main() {
   v_uv = uv;
 #ifdef TRUTH
   v_id = uvec2(instance, uint(part + 0.5));
-  v_normal = n_cam;
+  v_place = p_cam;
 #endif
 #ifdef HAZE
   v_haze = 1.0 - exp(-haze.a * length(p_cam));
@@ -145,7 +145,7 @@ layout(binding = 0) uniform sampler2D picture;
 in vec2 v_uv;
 #ifdef TRUTH
 flat in uvec2 v_id;
-in vec3 v_normal;
+in vec3 v_place;
 in vec3 v_motion;
 layout(location = 1) out vec4 identity;
 layout(location = 2) out vec4 facing;
@@ -168,6 +168,10 @@ in vec3 v_light;
 layout(location = 0) out vec4 colour;
 
 void main() {
+#ifdef TRUTH
+  // The triangle's own normal: that of its vertices is bent for the light's sake.
+  vec3 across = cross(dFdx(v_place), dFdy(v_place));
+#endif
 #ifdef TEXTURED
   vec4 texel = texture(picture, v_uv);
 #ifdef CUTOUT
@@ -193,7 +197,7 @@ void main() {
   colour = vec4(light, surface.a);
 #ifdef TRUTH
   identity = vec4(v_id.x & 255u, (v_id.x >> 8u) & 255u, (v_id.x >> 16u) & 255u, v_id.y) / 255.0;
-  facing = vec4(normalize(v_normal), 1.0);
+  facing = vec4(normalize(dot(across, v_place) < 0.0 ? across : -across), 1.0);
   motion = vec4(v_motion, 1.0);
 #endif
 }

@@ -8,7 +8,9 @@
 
 #include "scenarios/run_scenario.h"
 #include "scenarios/snapshot.h"
+#include "scenarios/truth_colours.h"
 #include "sim/renderer.h"
+#include "sim/truth_images.h"
 #include "slam/base/error.h"
 #include "slam/base/rig.h"
 #include "tools/commands.h"
@@ -24,6 +26,12 @@ struct RenderArguments {
   std::string out;
   std::string labels;
   std::string depth;
+  std::string instances;
+  std::string normals;
+  std::string flow;
+  std::string flow_to;
+  std::string disparity;
+  double baseline = 0.12;
   std::vector<std::string> overrides;
   std::int64_t seed = 1;
   bool turntable = false;
@@ -41,6 +49,46 @@ RigCamera camera_of(const RenderArguments& arguments) {
   return rig.cameras[static_cast<std::size_t>(index)];
 }
 
+Renderer::Request request_of(const RenderArguments& arguments) {
+  const bool warps = !arguments.flow.empty() || !arguments.disparity.empty();
+  Renderer::Request request;
+  request.labels = !arguments.labels.empty();
+  request.depth = !arguments.depth.empty() || warps;
+  request.instances = !arguments.instances.empty();
+  request.normals = !arguments.normals.empty() || warps;
+  return request;
+}
+
+void write_pictures(const RenderArguments& arguments, const Picture& picture) {
+  write_picture(arguments.out, picture.rgb);
+  const auto write = [](const std::string& file, const auto& colours) {
+    if (!file.empty()) write_picture(file, colours());
+  };
+  write(arguments.labels, [&] { return colour_labels(picture.labels); });
+  write(arguments.depth, [&] { return picture.depth; });
+  write(arguments.instances, [&] { return colour_instances(picture.instances); });
+  write(arguments.normals, [&] { return colour_normals(picture.normals); });
+}
+
+/// What takes a second view: flow and disparity.
+void write_warps(const RenderArguments& arguments, Renderer& renderer, const TruthView& view,
+                 const RigCamera& camera) {
+  const Renderer::Request request = request_of(arguments);
+  const auto view_from = [&](const Pose& T_world_cam) {
+    return TruthView{camera.model, T_world_cam,
+                     renderer.render(camera.model, T_world_cam, request)};
+  };
+  if (!arguments.flow.empty()) {
+    const Pose there = parse_view(arguments.flow_to) * camera.T_body_cam;
+    write_flow(arguments.flow, optical_flow(view, view_from(there)).flow);
+  }
+  if (!arguments.disparity.empty()) {
+    const Pose T_left_right{Eigen::Quaterniond::Identity(), {arguments.baseline, 0, 0}};
+    const TruthView right = view_from(view.T_world_cam * T_left_right);
+    write_picture(arguments.disparity, kitti_disparity(disparity(view, right).disparity));
+  }
+}
+
 int render(const RenderArguments& arguments) {
   std::vector<Override> overrides;
   for (const std::string& text : arguments.overrides) overrides.push_back(parse_override(text));
@@ -52,16 +100,34 @@ int render(const RenderArguments& arguments) {
     return 0;
   }
   if (arguments.pose.empty()) fail("render: expected --pose X,Y,Z,YAW or --turntable");
+  if (arguments.flow.empty() != arguments.flow_to.empty()) {
+    fail("render: expected --flow FILE and --flow-to X,Y,Z,YAW together");
+  }
   const Pose T_world_cam = parse_view(arguments.pose) * camera.T_body_cam;
   Renderer renderer(build_scene(world, seed, default_cache()), {});
-  Renderer::Request request;
-  request.labels = !arguments.labels.empty();
-  request.depth = !arguments.depth.empty();
-  const Picture picture = renderer.render(camera.model, T_world_cam, request);
-  write_picture(arguments.out, picture.rgb);
-  if (request.labels) write_picture(arguments.labels, colour_labels(picture.labels));
-  if (request.depth) write_picture(arguments.depth, picture.depth);
+  const TruthView view{camera.model, T_world_cam,
+                       renderer.render(camera.model, T_world_cam, request_of(arguments))};
+  write_pictures(arguments, view.picture);
+  write_warps(arguments, renderer, view, camera);
   return 0;
+}
+
+void add_truth_options(CLI::App& command, RenderArguments& arguments) {
+  command.add_option("--labels", arguments.labels, "Also write what each pixel shows, in colours");
+  command.add_option("--depth", arguments.depth, "Also write the depth, 16-bit PNG in mm");
+  command.add_option("--instances", arguments.instances,
+                     "Also write which plant, bunch or thing each pixel shows, in colours");
+  command.add_option("--normals", arguments.normals,
+                     "Also write the surfaces' normals (red right, green up, blue to the camera)");
+  command.add_option("--flow", arguments.flow,
+                     "Also write the optical flow to the view of --flow-to: .flo, or .png in "
+                     "colours");
+  command.add_option("--flow-to", arguments.flow_to, "X,Y,Z,YAW[,PITCH], as --pose");
+  command.add_option("--disparity", arguments.disparity,
+                     "Also write the disparity to a right eye, 16-bit PNG in 1/256 px");
+  command.add_option("--baseline", arguments.baseline, "m from the camera to that right eye")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -78,9 +144,7 @@ void add_render_command(CLI::App& app, Command& chosen) {
                       "WIDTHxHEIGHT@FOCAL in pixels (default 752x480@263.2786), or with --rig the "
                       "name of its camera");
   command->add_option("--rig", arguments->rig, "Rig file (YAML) whose camera to use");
-  command->add_option("--labels", arguments->labels,
-                      "Also write what each pixel shows, in colours");
-  command->add_option("--depth", arguments->depth, "Also write the depth, 16-bit PNG in mm");
+  add_truth_options(*command, *arguments);
   command->add_flag("--turntable", arguments->turntable, "Eight views from all round on one sheet");
   command->add_option("--seed", arguments->seed, "Seed of plants, ground and sky")
       ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))
