@@ -41,7 +41,7 @@ typical=worlds/typical-vineyard.yaml
 
 tile worlds csl-vineyard_from_the_rover "$csl" --camera $small --pose 0.6,0,0.5,0
 tile worlds csl-vineyard_from_outside "$csl" --camera $person --pose=-2.2,-2.4,1.7,45,-12
-tile worlds many-rows_from_the_rover "$many" --camera $small --pose 1,1,0.5,0
+tile worlds many-rows_from_the_rover "$many" --camera $small --pose 0.5,0,0.5,0
 tile worlds many-rows_from_above "$many" --camera $person --pose=-6,-5,4,42,-14
 tile worlds typical-vineyard_from_the_rover "$typical" --camera $small --pose 3,1.25,0.5,0
 tile worlds typical-vineyard_from_above "$typical" --camera $person --pose=-8,-7,5,42,-12
@@ -50,11 +50,11 @@ sheet worlds 2 560x
 for stage in "00 dormant" "09 budburst" "65 flowering" "75 pea_size" "83 veraison" "89 harvest" \
   "95 leaf_fall"; do
   code=${stage%% *}
-  tile plants "BBCH_${code}_${stage#* }" "$csl" --camera 700x900@620 --pose 1.5,-1.7,0.85,90 \
+  tile plants "BBCH_${code}_${stage#* }" "$csl" --camera 1400x1800@1240 --pose 1.5,-1.7,0.85,90 \
     --set "vines.bbch=$((10#$code))"
 done
 for training in unilateral_cordon single_guyot double_guyot; do
-  tile plants "harvest,_$training" "$csl" --camera 700x900@620 --pose 1.5,-1.7,0.85,90 \
+  tile plants "harvest,_$training" "$csl" --camera 1400x1800@1240 --pose 1.5,-1.7,0.85,90 \
     --set "vines.training=$training"
 done
 sheet plants 5 280x
@@ -66,6 +66,51 @@ tile lights low_sun_into_the_lens "$typical" "${view[@]}" --set sun.azimuth_deg=
 tile lights overcast "$typical" "${view[@]}" --set sky.overcast=1
 tile lights haze,_60_m_of_visibility "$typical" "${view[@]}" --set sky.visibility=60
 tile lights dusk,_2_degrees_below_the_horizon "$typical" "${view[@]}" --set sun.elevation_deg=-2
-tile lights September_at_17:00_UTC "$typical" "${view[@]}" \
+tile lights 20_September,_45_degrees_north,_16:30_UTC "$typical" "${view[@]}" \
   --set 'sun.at={latitude_deg: 45.4, longitude_deg: 9, date: 2026-09-20, time: "16:30"}'
 sheet lights 3 420x
+
+# Sensor effects need exposures in motion: the rover turns on the spot, and a frame of the run is
+# taken.
+cat >"$work/sensors.yaml" <<END
+name: sensors
+seed: 1
+world: $PWD/worlds/csl-vineyard.yaml
+rover: $PWD/models/csl-rover/rover.yaml
+duration: 0.6
+route:
+  speed: 1
+  turn_rate_deg: 90
+  turn_acceleration_deg: 720
+  waypoints:
+    - {position: [0.5, 0], heading_deg: 40}
+    - {position: [0.5, 0], heading_deg: -80}
+slam: {cameras: front}
+END
+effect() {
+  count=$((count + 1))
+  mkdir -p "$work/sensors"
+  # No scenario is judged here, and tracking may be lost.
+  "$vinebench" run "$work/sensors.yaml" --out "$work/run_$count" "${@:2}" >/dev/null 2>&1 || true
+  cp "$work/run_$count/frames/000006_front_left.png" \
+    "$(printf '%s/sensors/%02d_%s.png' "$work" "$count" "$1")"
+}
+c=sensors.camera
+effect everything_off --set $c.noise.enabled=false
+effect the_default
+effect gain_of_20_dB --set $c.exposure.gain_db=20 --set $c.exposure.time=0.0002
+effect lens_distortion --set \
+  'sensors.calibration.cameras=[{name: front_left, distortion: [-0.2, 0.035, 0, 0]}]'
+effect motion_blur --set $c.exposure.time=0.03 --set $c.exposure.reference_time=0.03 \
+  --set $c.blur_subframes=24
+effect rolling_shutter --set $c.readout_time=0.06 --set $c.readout_bands=60
+effect vignetting --set $c.vignetting.natural=0.7
+effect dirt --set $c.dirt='[{count: 60, opacity: 0.6}]'
+effect a_leaf_on_the_glass --set $c.leaves='[{position: [0.3, 0.5], size: 0.8, angle_deg: 25}]'
+effect colour_filters --set $c.bayer=rggb --set $c.exposure.gain_db=12 \
+  --set $c.exposure.time=0.0005
+effect fixed_pattern --set $c.fixed_pattern.response=0.08 \
+  --set $c.fixed_pattern.hot_pixels=0.001 --set $c.exposure.gain_db=12 \
+  --set $c.exposure.time=0.0005
+effect automatic_exposure_at_dusk --set $c.exposure.automatic=true --set world.sun.elevation_deg=-1
+sheet sensors 4 376x
