@@ -293,3 +293,7 @@ TEST_F(TruthWorldTest, WindMovesLeavesAndMotionSaysWhereTo) {
   // Fewer and smaller patches than in still air: single ones are measured to half a pixel only.
   EXPECT_LT(quantile(shifts, 0.5), 0.2);
   EXPECT_LT(quantile(shifts, 0.9), 0.5);
+}
+
+}  // namespace
+}  // namespace vinebench
