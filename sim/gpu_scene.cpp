@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 
 #include "sim/mip_levels.h"
 #include "sim/scene_check.h"
@@ -91,29 +92,66 @@ struct WireVertex {
   Eigen::Vector3f shape;  // end, side, radius
 };
 
-void append_wire(const Wire& wire, std::vector<WireVertex>& vertices) {
+/// Cuts a wire into pieces and hands each to `take`.
+template <class Take>
+void cut_wire(const Wire& wire, const Take& take) {
   constexpr float kPiece = 0.25f;  // m
   const Eigen::Vector3f along = wire.to - wire.from;
   const int pieces = std::max(1, static_cast<int>(std::ceil(along.norm() / kPiece)));
+  for (int i = 0; i < pieces; ++i) {
+    Wire piece = wire;
+    piece.from = wire.from + along * (static_cast<float>(i) / static_cast<float>(pieces));
+    piece.to = wire.from + along * (static_cast<float>(i + 1) / static_cast<float>(pieces));
+    take(piece);
+  }
+}
+
+void append_piece(const Wire& piece, std::vector<WireVertex>& vertices) {
   constexpr std::array<std::array<float, 2>, 6> kCorners{
       {{0, -1}, {1, -1}, {1, 1}, {0, -1}, {1, 1}, {0, 1}}};
-  for (int i = 0; i < pieces; ++i) {
-    const Eigen::Vector3f from = wire.from + along * (static_cast<float>(i) / pieces);
-    const Eigen::Vector3f to = wire.from + along * (static_cast<float>(i + 1) / pieces);
-    for (const auto& [end, side] : kCorners) {
-      vertices.push_back({from, to, {end, side, wire.radius}});
-    }
+  for (const auto& [end, side] : kCorners) {
+    vertices.push_back({piece.from, piece.to, {end, side, piece.radius}});
   }
+}
+
+/// Pieces by the square of ground that they hang over, west to east and south to north.
+std::map<std::pair<int, int>, std::vector<Wire>> pieces_by_place(const Scene& scene, int material) {
+  constexpr float kPlace = 4;  // m
+  std::map<std::pair<int, int>, std::vector<Wire>> places;
+  for (const Wire& wire : scene.wires) {
+    if (wire.material != material) continue;
+    cut_wire(wire, [&](const Wire& piece) {
+      const Eigen::Vector2f at = piece.from.head<2>() / kPlace;
+      places[{static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y()))}]
+          .push_back(piece);
+    });
+  }
+  return places;
+}
+
+WireChunk make_chunk(const std::vector<Wire>& pieces, std::size_t first) {
+  Eigen::AlignedBox3f box;
+  WireChunk chunk;
+  for (const Wire& piece : pieces) {
+    box.extend(piece.from).extend(piece.to);
+    chunk.thickest = std::max(chunk.thickest, static_cast<double>(piece.radius));
+  }
+  chunk.centre = box.center().cast<double>();
+  chunk.reach = 0.5 * static_cast<double>(box.sizes().norm()) + chunk.thickest;
+  chunk.first = static_cast<GLint>(first);
+  chunk.count = static_cast<GLsizei>(6 * pieces.size());
+  return chunk;
 }
 
 GpuWires upload_wires(const Scene& scene, int material) {
   std::vector<WireVertex> vertices;
-  for (const Wire& wire : scene.wires) {
-    if (wire.material == material) append_wire(wire, vertices);
-  }
   GpuWires gpu;
   gpu.material = material;
-  gpu.count = static_cast<GLsizei>(vertices.size());
+  for (const auto& [place, pieces] : pieces_by_place(scene, material)) {
+    gpu.chunks.push_back(make_chunk(pieces, vertices.size()));
+    for (const Wire& piece : pieces) append_piece(piece, vertices);
+  }
+  if (vertices.empty()) return gpu;
   gpu.array = make_vertex_array();
   gpu.vertices = make_buffer(GL_ARRAY_BUFFER, vertices);
   vertex_attribute(0, 3, sizeof(WireVertex), offsetof(WireVertex, from));
@@ -208,7 +246,7 @@ GpuScene::GpuScene(const Scene& scene)
   gl.BindVertexArray(0);
   for (int i = 0; i < static_cast<int>(scene.materials.size()); ++i) {
     GpuWires pieces = upload_wires(scene, i);
-    if (pieces.count > 0) wires.push_back(std::move(pieces));
+    if (!pieces.chunks.empty()) wires.push_back(std::move(pieces));
   }
 }
 

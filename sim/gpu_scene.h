@@ -52,12 +52,21 @@ struct GpuInstance {
   double radius = 0;       ///< m
 };
 
+/// The wires of a few metres of vineyard, which are in view together.
+struct WireChunk {
+  Eigen::Vector3d centre;  ///< m, world frame
+  double reach = 0;        ///< m, radius of a ball around them
+  double thickest = 0;     ///< m, radius of the thickest wire
+  GLint first = 0;
+  GLsizei count = 0;  ///< vertices
+};
+
 /// Wires in pieces short enough that a strip's width can be interpolated along each.
 struct GpuWires {
   int material = 0;
+  std::vector<WireChunk> chunks;
   GlVertexArray array;
   GlBuffer vertices;
-  GLsizei count = 0;
 };
 
 /// What the shaders read of an instance: one row of its matrix after the other, and its number.

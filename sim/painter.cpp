@@ -84,33 +84,34 @@ void Painter::draw_sky(const ViewBlock& view) const {
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Painter::draw_wire_pieces(const GlProgram& program) const {
+void Painter::draw_wire_pieces(const GlProgram& program,
+                               const std::vector<VisibleWires>& wires) const {
   program.use();
   gl.Disable(GL_CULL_FACE);
-  for (const GpuWires& wires : scene_.wires) {
-    const Material& material = scene_.materials[static_cast<std::size_t>(wires.material)];
+  for (const VisibleWires& visible : wires) {
+    const GpuWires& of = scene_.wires[visible.wires];
+    const Material& material = scene_.materials[static_cast<std::size_t>(of.material)];
     const Eigen::Vector4f surface(material.colour.x(), material.colour.y(), material.colour.z(),
                                   static_cast<float>(material.label) / 255.0f);
     gl.Uniform4fv(program.uniform("surface"), 1, surface.data());
-    gl.BindVertexArray(wires.array.get());
-    gl.DrawArrays(GL_TRIANGLES, 0, wires.count);
+    gl.BindVertexArray(of.array.get());
+    gl.DrawArrays(GL_TRIANGLES, visible.first, visible.count);
   }
 }
 
-void Painter::draw_wires() const {
+void Painter::draw_wires(const PinholeCamera& camera, const Pose& T_world_cam, bool truth) const {
+  const std::vector<VisibleWires> wires = visible_wires(scene_, camera, T_world_cam);
   gl.DepthMask(GL_FALSE);
   gl.Enable(GL_BLEND);
   gl.BlendFunc(GL_SRC1_COLOR, GL_ONE_MINUS_SRC1_COLOR);
-  draw_wire_pieces(wire_program_);
+  draw_wire_pieces(wire_program_, wires);
   gl.Disable(GL_BLEND);
   gl.BlendFunc(GL_ONE, GL_ZERO);  // two sources forbid several targets even where nothing blends
   gl.DepthMask(GL_TRUE);
-}
-
-/// Blending by two sources has but one target, so the wires' truth is drawn by itself.
-void Painter::draw_wires_truth() const {
+  if (!truth) return;
+  // Blending by two sources has but one target, so the wires' truth is drawn by itself.
   gl.DrawBuffers(static_cast<GLsizei>(kTruthTargets.size()), kTruthTargets.data());
-  draw_wire_pieces(wire_truth_program_);
+  draw_wire_pieces(wire_truth_program_, wires);
 }
 
 void Painter::draw(const PinholeCamera& camera, const Pose& T_world_cam, double lod_scale,
@@ -138,10 +139,7 @@ void Painter::draw(const PinholeCamera& camera, const Pose& T_world_cam, double 
   draw_meshes(list, true, truth);
   gl.DrawBuffers(1, kTargets.data());
   draw_sky(view);
-  if (!scene_.wires.empty()) {
-    draw_wires();
-    if (truth) draw_wires_truth();
-  }
+  draw_wires(camera, T_world_cam, truth);
   gl.BindVertexArray(0);
 }
 

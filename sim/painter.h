@@ -8,6 +8,7 @@
 #include "sim/mesh_programs.h"
 #include "sim/shadow_map.h"
 #include "sim/view_block.h"
+#include "sim/visible_wires.h"
 
 namespace vinebench {
 
@@ -24,9 +25,8 @@ class Painter {
   void clear(bool truth) const;
   void draw_meshes(const DrawList& list, bool terrain, bool truth);
   void draw_sky(const ViewBlock& view) const;
-  void draw_wires() const;
-  void draw_wires_truth() const;
-  void draw_wire_pieces(const GlProgram& program) const;
+  void draw_wires(const PinholeCamera& camera, const Pose& T_world_cam, bool truth) const;
+  void draw_wire_pieces(const GlProgram& program, const std::vector<VisibleWires>& wires) const;
   MeshShader shader_of(const Material& material, bool truth) const;
 
   GpuScene scene_;
