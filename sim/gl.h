@@ -53,7 +53,6 @@ namespace vinebench {
   X(DELETEPROGRAM, DeleteProgram)                                                             \
   X(USEPROGRAM, UseProgram)                                                                   \
   X(GETUNIFORMLOCATION, GetUniformLocation)                                                   \
-  X(UNIFORM1I, Uniform1i)                                                                     \
   X(UNIFORM1F, Uniform1f)                                                                     \
   X(UNIFORM3FV, Uniform3fv)                                                                   \
   X(UNIFORM4FV, Uniform4fv)                                                                   \

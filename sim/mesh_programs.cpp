@@ -42,6 +42,11 @@ MeshShader shader_for(const Material& material) {
   return shader;
 }
 
+Eigen::Vector4f surface_of(const Material& material) {
+  const Eigen::Vector3f& colour = material.colour;
+  return {colour.x(), colour.y(), colour.z(), static_cast<float>(material.label) / 255.0f};
+}
+
 MeshProgram::MeshProgram(const MeshShader& shader)
     : program_("mesh", mesh_vertex_shader(shader), mesh_fragment_shader(shader)),
       surface_(program_.uniform("surface")),
@@ -52,9 +57,7 @@ MeshProgram::MeshProgram(const MeshShader& shader)
 void MeshProgram::use_for(const Material& material, double shadow_texel,
                           double ground_light) const {
   program_.use();
-  const Eigen::Vector4f surface(material.colour.x(), material.colour.y(), material.colour.z(),
-                                static_cast<float>(material.label) / 255.0f);
-  gl.Uniform4fv(surface_, 1, surface.data());
+  gl.Uniform4fv(surface_, 1, surface_of(material).data());
   // Away from the surface so that it does not shade itself; leaves further, as their own plant's
   // foliage is what the map is too coarse for.
   const bool foliage = material.double_sided || material.label == Label::kBunch;

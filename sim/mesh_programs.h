@@ -19,6 +19,9 @@ inline constexpr GLint kCoarseShadowUnit = 3;
 /// The leanest shader that shows the material.
 MeshShader shader_for(const Material& material);
 
+/// The shaders' `surface`: linear colour, and the label as alpha.
+Eigen::Vector4f surface_of(const Material& material);
+
 /// A linked mesh shader and the places of what changes from material to material.
 class MeshProgram {
  public:

@@ -91,9 +91,7 @@ void Painter::draw_wire_pieces(const GlProgram& program,
   for (const VisibleWires& visible : wires) {
     const GpuWires& of = scene_.wires[visible.wires];
     const Material& material = scene_.materials[static_cast<std::size_t>(of.material)];
-    const Eigen::Vector4f surface(material.colour.x(), material.colour.y(), material.colour.z(),
-                                  static_cast<float>(material.label) / 255.0f);
-    gl.Uniform4fv(program.uniform("surface"), 1, surface.data());
+    gl.Uniform4fv(program.uniform("surface"), 1, surface_of(material).data());
     gl.BindVertexArray(of.array.get());
     gl.DrawArrays(GL_TRIANGLES, visible.first, visible.count);
   }
