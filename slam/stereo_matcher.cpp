@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "slam/base/error.h"
-#include "slam/patch_alignment.h"
 #include "slam/row_search.h"
 
 namespace vinebench {
@@ -60,9 +59,7 @@ std::vector<StereoMatch> match_stereo(const Extraction& left,
         search_disparity({left.pyramid[l], right_pyramid[l], farthest}, x, y, config.uniqueness);
     if (whole < 0) continue;
     const auto aligned = align_patch(left.pyramid[l], right_pyramid[l], x, y, whole);
-    if (!aligned) continue;
-    const double limit = config.noise + config.max_residual * aligned->contrast;
-    if (aligned->difference > limit) continue;
+    if (!aligned || !config.accepts(*aligned)) continue;
     const double disparity = aligned->shift * scale;
     if (disparity <= 0) continue;
     const double depth = focal_baseline / disparity;
