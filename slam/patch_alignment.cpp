@@ -64,8 +64,8 @@ float deviation(Window window) {
 
 /// Left window, and its derivatives by shift and slopes, of zero mean: the brightness solved for.
 struct Template {
-  Window grey{};
-  std::array<Window, 3> derivative{};
+  Window grey;
+  std::array<Window, 3> derivative;
   Eigen::Matrix3f normal;
 };
 
@@ -81,6 +81,8 @@ Template make_template(const cv::Mat& left, int x, int y) {
       t.derivative[1][i] = gradient * static_cast<float>(dx);
       t.derivative[2][i] = gradient * static_cast<float>(dy);
     }
+    t.grey[i] = 0;
+    for (Window& derivative : t.derivative) derivative[i] = 0;
   }
   for (Window& derivative : t.derivative) remove_mean(derivative);
   for (int r = 0; r < 3; ++r) {
@@ -93,8 +95,18 @@ Template make_template(const cv::Mat& left, int x, int y) {
   return t;
 }
 
-constexpr int kTried = 2 * kSearch + 1;
-constexpr int kTriedLanes = 16;  ///< a round number for the processor
+/// Eight grey levels as whole numbers of 16 bits, which the processor treats at once.
+using Eight [[gnu::vector_size(16)]] = std::int16_t;
+
+Eight load_eight(const std::uint8_t* at) {
+  using Bytes [[gnu::vector_size(8)]] = std::uint8_t;
+  Bytes bytes;
+  std::memcpy(&bytes, at, sizeof bytes);
+  return __builtin_convertvector(bytes, Eight);
+}
+
+constexpr int kTriedLanes = 16;  ///< tried columns are 11 at most; two times eight are computed
+static_assert(2 * kSearch + 1 <= kTriedLanes);
 /// The right picture's rows as far as windows at all tried columns reach.
 using Strip = std::array<std::array<std::uint8_t, kSide + kTriedLanes - 1>, kSide>;
 
@@ -108,38 +120,49 @@ Strip cut_strip(const cv::Mat& right, int first, int last, int y) {
   return strip;
 }
 
-/// Sums of absolute differences at all tried columns, windows less their mean (rounded). The
-/// largest, 121 * 510, fits 16 bits.
+/// By how much the left window is brighter than the right one at each of eight columns, rounded.
+Eight brightness_offsets(int left_sum, const Strip& strip, std::size_t lane) {
+  Eight sums{};
+  for (std::size_t row = 0; row < kSide; ++row) {
+    for (std::size_t column = 0; column < kSide; ++column) {
+      sums += load_eight(&strip[row][column + lane]);
+    }
+  }
+  Eight offsets;
+  for (int k = 0; k < 8; ++k) offsets[k] = static_cast<std::int16_t>((left_sum - sums[k]) / kArea);
+  return offsets;
+}
+
+using LeftWindow = std::array<std::int16_t, kArea>;
+
+/// Sums of absolute differences at eight columns, windows less their mean. The largest possible,
+/// 121 * 510, fits 16 bits without a sign.
+void zero_mean_sads(const LeftWindow& left, int left_sum, const Strip& strip, std::size_t lane,
+                    std::uint16_t* sads) {
+  const Eight offsets = brightness_offsets(left_sum, strip, lane);
+  Eight sum{};
+  const std::int16_t* grey = left.data();
+  for (std::size_t row = 0; row < kSide; ++row) {
+    for (std::size_t column = 0; column < kSide; ++column, ++grey) {
+      const Eight difference = *grey - load_eight(&strip[row][column + lane]) - offsets;
+      sum += difference < 0 ? -difference : difference;
+    }
+  }
+  std::memcpy(sads, &sum, sizeof sum);
+}
+
 std::array<std::uint16_t, kTriedLanes> zero_mean_sads(const cv::Mat& left, int x, int y,
                                                       const Strip& strip) {
-  std::array<std::int16_t, kTriedLanes> offset{};
+  LeftWindow window;
   int left_sum = 0;
-  for (std::size_t row = 0; row < kSide; ++row) {
-    const std::uint8_t* a =
-        left.ptr<std::uint8_t>(y - kRadius + static_cast<int>(row)) + x - kRadius;
-    for (std::size_t column = 0; column < kSide; ++column) {
-      left_sum += a[column];
-      const std::uint8_t* b = &strip[row][column];
-      for (std::size_t k = 0; k < kTriedLanes; ++k) {
-        offset[k] = static_cast<std::int16_t>(offset[k] + b[k]);
-      }
-    }
+  std::size_t i = 0;
+  for (int dy = -kRadius; dy <= kRadius; ++dy) {
+    const std::uint8_t* row = left.ptr<std::uint8_t>(y + dy) + x;
+    for (int dx = -kRadius; dx <= kRadius; ++dx, ++i) left_sum += window[i] = row[dx];
   }
-  for (auto& sum : offset) sum = static_cast<std::int16_t>((left_sum - sum) / kArea);
-  std::array<std::uint16_t, kTriedLanes> sads{};
-  for (std::size_t row = 0; row < kSide; ++row) {
-    const std::uint8_t* a =
-        left.ptr<std::uint8_t>(y - kRadius + static_cast<int>(row)) + x - kRadius;
-    for (std::size_t column = 0; column < kSide; ++column) {
-      const std::int16_t grey = a[column];
-      const std::uint8_t* b = &strip[row][column];
-      for (std::size_t k = 0; k < kTriedLanes; ++k) {
-        const auto difference = static_cast<std::int16_t>(grey - b[k] - offset[k]);
-        const auto size = static_cast<std::uint16_t>(difference < 0 ? -difference : difference);
-        sads[k] = static_cast<std::uint16_t>(sads[k] + size);
-      }
-    }
-  }
+  std::array<std::uint16_t, kTriedLanes> sads;
+  zero_mean_sads(window, left_sum, strip, 0, sads.data());
+  zero_mean_sads(window, left_sum, strip, 8, sads.data() + 8);
   return sads;
 }
 
@@ -212,7 +235,8 @@ std::optional<PatchAlignment> align_patch(const cv::Mat& left, const cv::Mat& ri
 
   Vector3f p(static_cast<float>(whole), 0, 0);
   Window residual;
-  for (int step = 0; step < kMaxSteps; ++step) {
+  bool converged = false;
+  for (int step = 0; step < kMaxSteps && !converged; ++step) {
     if (!compare(right, y, p, t.grey, residual)) return std::nullopt;
     Vector3f gradient(0, static_cast<float>(kSlopePrior) * p[1],
                       static_cast<float>(kSlopePrior) * p[2]);
@@ -222,9 +246,10 @@ std::optional<PatchAlignment> align_patch(const cv::Mat& left, const cv::Mat& ri
     const Vector3f delta = solver.solve(gradient);
     p -= delta;
     if (!(std::abs(p[0] - static_cast<float>(whole)) < kMaxCorrection)) return std::nullopt;
-    if (std::abs(delta[0]) < kConverged) break;
+    converged = std::abs(delta[0]) < kConverged;
   }
-  if (!compare(right, y, p, t.grey, residual)) return std::nullopt;
+  // Once converged, what is left before the last step is as good as what is left after it.
+  if (!converged && !compare(right, y, p, t.grey, residual)) return std::nullopt;
   return PatchAlignment{static_cast<double>(x) - static_cast<double>(p[0]),
                         -static_cast<double>(p[1]), -static_cast<double>(p[2]),
                         static_cast<double>(deviation(residual)),

@@ -73,55 +73,37 @@ void differences(const Strip& strip, const std::array<int, N>& rows, int first, 
 #endif
 }
 
-/// The sums along a row, completed where they are asked for.
-class Sums {
- public:
-  Sums(const Strip& strip, int first, int last) : strip_(strip), first_(first), sums_(scratch()) {
-    sums_.resize(static_cast<std::size_t>(last - first + 1));
-    differences(strip_, kFirstRows, first, static_cast<int>(sums_.size()), sums_.data());
-  }
-  int size() const { return static_cast<int>(sums_.size()); }
-  int at_least(int i) const { return sums_[static_cast<std::size_t>(i)]; }
-  int whole(int i) const {
-    int rest = 0;
-    differences(strip_, kOtherRows, first_ + i, 1, &rest);
-    return at_least(i) + rest;
-  }
-
- private:
-  static std::vector<int>& scratch() {
-    thread_local std::vector<int> sums;
-    return sums;
-  }
-  const Strip strip_;
-  const int first_;
-  std::vector<int>& sums_;
+/// A column that may be the best or its rival.
+struct Candidate {
+  int column;
+  int sum;
 };
 
-/// The first least sum, and where.
-std::pair<int, int> find_best(const Sums& sums) {
-  int hope = 0;
-  for (int i = 1; i < sums.size(); ++i) hope = sums.at_least(i) < sums.at_least(hope) ? i : hope;
-  int best = sums.whole(hope);
-  int at = hope;
-  for (int i = 0; i < sums.size(); ++i) {
-    if (i == hope || sums.at_least(i) > best) continue;
-    const int sum = sums.whole(i);
-    if (sum > best || (sum == best && i > at)) continue;
-    best = sum;
-    at = i;
+/// Every column whose sum is at most the best one's or below `rivalry` times that, with those sums,
+/// and perhaps some more.
+const std::vector<Candidate>& find_candidates(const Strip& strip, int first, int last,
+                                              double rivalry) {
+  thread_local std::vector<int> sums;
+  thread_local std::vector<Candidate> candidates;
+  sums.resize(static_cast<std::size_t>(last - first + 1));
+  differences(strip, kFirstRows, first, static_cast<int>(sums.size()), sums.data());
+  const auto complete = [&](int column) {
+    int rest = 0;
+    differences(strip, kOtherRows, column, 1, &rest);
+    return sums[static_cast<std::size_t>(column - first)] + rest;
+  };
+  int least = sums[0];
+  for (const int sum : sums) least = std::min(least, sum);
+  const auto hope = std::find(sums.begin(), sums.end(), least) - sums.begin();
+  // The best is no worse than the most hopeful.
+  const double reach = std::max(1.0, rivalry) * complete(first + static_cast<int>(hope));
+  const int limit = static_cast<int>(std::min<double>(reach, std::numeric_limits<int>::max()));
+  candidates.clear();
+  for (int column = first; column <= last; ++column) {
+    if (sums[static_cast<std::size_t>(column - first)] > limit) continue;
+    candidates.push_back({column, complete(column)});
   }
-  return {best, at};
-}
-
-/// The least sum outside of the best's neighbourhood, where it is below `limit`.
-int find_rival(const Sums& sums, int best_at, double limit) {
-  int rival = std::numeric_limits<int>::max();
-  for (int i = 0; i < sums.size(); ++i) {
-    if (sums.at_least(i) >= std::min<double>(rival, limit)) continue;
-    if (std::abs(i - best_at) > kNeighbourhood) rival = std::min(rival, sums.whole(i));
-  }
-  return rival < limit ? rival : std::numeric_limits<int>::max();
+  return candidates;
 }
 
 }  // namespace
@@ -135,9 +117,15 @@ RowSearch search_row(const cv::Mat& from, int x, int y, const cv::Mat& in, int f
   if (!on_picture || first > last) return {};
   const Strip strip{from.ptr<std::uint8_t>(y) + x - kHalfWidth, from.step[0],
                     in.ptr<std::uint8_t>(y) - kHalfWidth, in.step[0]};
-  const Sums sums(strip, first, last);
-  const auto [best, at] = find_best(sums);
-  return {first + at, best, find_rival(sums, at, rivalry * best + 1)};
+  const std::vector<Candidate>& candidates = find_candidates(strip, first, last, rivalry);
+  const auto less = [](const Candidate& a, const Candidate& b) { return a.sum < b.sum; };
+  const Candidate best = *std::min_element(candidates.begin(), candidates.end(), less);
+  RowSearch found{best.column, best.sum, std::numeric_limits<int>::max()};
+  for (const Candidate& other : candidates) {
+    const bool rival = std::abs(other.column - best.column) > kNeighbourhood;
+    if (rival && other.sum <= rivalry * best.sum) found.second = std::min(found.second, other.sum);
+  }
+  return found;
 }
 
 }  // namespace vinebench
