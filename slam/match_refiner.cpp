@@ -21,10 +21,10 @@ class Refiner {
     for (auto o = seen.begin(); o != seen.end(); ++o) {
       const std::optional<PatchView> oldest = projector_.on_level(*o, view, landmark, level);
       if (!oldest) continue;
-      if (try_patch(*o, oldest->warp, v, f)) return true;
+      if (try_patch(oldest->window, v, f)) return true;
       for (auto newer = seen.rbegin(); &*newer != &*o; ++newer) {
         const std::optional<PatchView> newest = projector_.on_level(*newer, view, landmark, level);
-        if (newest) return try_patch(*newer, newest->warp, v, f);
+        if (newest) return try_patch(newest->window, v, f);
       }
       return false;
     }
@@ -32,12 +32,12 @@ class Refiner {
   }
 
  private:
-  bool try_patch(const Observation& o, const PatchWarp& warp, std::size_t v, std::size_t f) {
+  bool try_patch(const PatchWindow& window, std::size_t v, std::size_t f) {
     StereoView& view = frame_.views[v];
     Keypoint& keypoint = view.features.keypoints[f];
     const auto level = static_cast<std::size_t>(keypoint.level);
     const double pixel = rig_.level_scales[level];
-    const auto fit = fit_patch(projector_.patch(o), warp, frame_.pyramids[v][level],
+    const auto fit = fit_patch(window, frame_.pyramids[v][level],
                                to_level(static_cast<double>(keypoint.x), pixel),
                                to_level(static_cast<double>(keypoint.y), pixel));
     if (!fit || !rig_.refinement.accepts(*fit)) return false;

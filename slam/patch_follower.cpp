@@ -122,8 +122,8 @@ class Follower {
     const double pixel = rig_.level_scales[level];
     if (level >= frame_.pyramids[v].size()) return false;
     const auto fit =
-        fit_patch(projector_.patch(seen), patch.warp, frame_.pyramids[v][level],
-                  to_level(candidate.pixel.x(), pixel), to_level(candidate.pixel.y(), pixel));
+        fit_patch(patch.window, frame_.pyramids[v][level], to_level(candidate.pixel.x(), pixel),
+                  to_level(candidate.pixel.y(), pixel));
     if (!fit || !rig_.refinement.accepts(*fit)) return false;
     append(seen, patch.level, *fit, candidate);
     return true;

@@ -20,15 +20,9 @@ Eigen::Matrix3d calibration(const PinholeCamera& lens) {
   return K;
 }
 
+/// Whether the plane does not come near the eye within the patch.
 bool wholly_in_front(const Eigen::Matrix3d& H) {
-  for (const double x : {-1.0, 1.0}) {
-    for (const double y : {-1.0, 1.0}) {
-      if ((H * Eigen::Vector3d(x * Patch::kRadius, y * Patch::kRadius, 1)).z() < 0.2 * H(2, 2)) {
-        return false;
-      }
-    }
-  }
-  return true;
+  return H(2, 2) - Patch::kRadius * (std::abs(H(2, 0)) + std::abs(H(2, 1))) > 0.2 * H(2, 2);
 }
 
 /// Pixels of the picture to a pixel of the patch, about its centre.
@@ -93,18 +87,20 @@ std::optional<Eigen::Matrix3d> PatchProjector::homography(const Observation& see
   return H;
 }
 
-std::optional<PatchView> PatchProjector::view_on(const Eigen::Matrix3d& H, int level) const {
+std::optional<PatchView> PatchProjector::view_on(const Eigen::Matrix3d& H, const Patch& patch,
+                                                 int level) const {
   const double pixel = rig_.level_scales[static_cast<std::size_t>(level)];
   const double scale = magnification(H) / pixel;
   if (!(scale < kMaxScale && scale > 1 / kMaxScale)) return std::nullopt;
-  // The origin of the level's pixels does not matter: a warp is about its centre.
-  return PatchView{level, make_warp(Eigen::Vector3d(1 / pixel, 1 / pixel, 1).asDiagonal() * H)};
+  // The origin of the level's pixels does not matter: a window is about its centre.
+  const auto window = warp_patch(patch, Eigen::Vector3d(1 / pixel, 1 / pixel, 1).asDiagonal() * H);
+  return window ? std::optional(PatchView{level, *window}) : std::nullopt;
 }
 
 std::optional<PatchView> PatchProjector::on_level(const Observation& seen, int v,
                                                   const Landmark& landmark, int level) {
   const auto H = homography(seen, v, landmark);
-  return H ? view_on(*H, level) : std::nullopt;
+  return H ? view_on(*H, *find_patch(seen), level) : std::nullopt;
 }
 
 std::optional<PatchView> PatchProjector::on_best_level(const Observation& seen, int v,
@@ -113,7 +109,7 @@ std::optional<PatchView> PatchProjector::on_best_level(const Observation& seen, 
   if (!H) return std::nullopt;
   const double level = std::log(magnification(*H)) / std::log(map_.level_scale());
   const int top = static_cast<int>(rig_.level_scales.size()) - 1;
-  return view_on(*H, std::clamp(static_cast<int>(std::lround(level)), 0, top));
+  return view_on(*H, *find_patch(seen), std::clamp(static_cast<int>(std::lround(level)), 0, top));
 }
 
 }  // namespace vinebench

@@ -12,8 +12,8 @@ namespace vinebench {
 
 /// How a landmark's patch, cut out of a keyframe's picture, appears from another pose of the body.
 struct PatchView {
-  int level = 0;   ///< of the pyramid
-  PatchWarp warp;  ///< patch pixels to pixels of that level
+  int level = 0;       ///< of the pyramid
+  PatchWindow window;  ///< of that level's picture
 };
 
 /// Predicts patches as one pose sees them: the homography of the landmark's plane, whose slant
@@ -23,14 +23,12 @@ class PatchProjector {
   PatchProjector(const Map& map, const Pose& T_map_body, const EstimatorRig& rig);
 
   /// On that level of view `v`. None where the observation has no patch, is of another view, or is
-  /// so much nearer or farther that it would be another picture.
+  /// so much nearer, farther or turned that it would be another picture.
   std::optional<PatchView> on_level(const Observation& seen, int v, const Landmark& landmark,
                                     int level);
 
   /// On the level where its pixels come out nearest to the patch's own.
   std::optional<PatchView> on_best_level(const Observation& seen, int v, const Landmark& landmark);
-
-  const Patch& patch(const Observation& seen) const { return *find_patch(seen); }
 
  private:
   /// From a keyframe's left eye to the same eye now: pixels of a plane at inverse depth rho,
@@ -45,7 +43,7 @@ class PatchProjector {
   const Step& step(int keyframe, int v);
   std::optional<Eigen::Matrix3d> homography(const Observation& seen, int v,
                                             const Landmark& landmark);
-  std::optional<PatchView> view_on(const Eigen::Matrix3d& H, int level) const;
+  std::optional<PatchView> view_on(const Eigen::Matrix3d& H, const Patch& patch, int level) const;
 
   const Map& map_;
   Pose T_map_body_;
