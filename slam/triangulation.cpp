@@ -71,8 +71,8 @@ std::vector<EpipolarMatch> match_epipolar(const Keyframe& a, const Keyframe& b, 
       if (distance >= best) continue;
       const auto p_map = intersect_rays(p_a, candidate.direction, p_b, other.direction);
       if (!p_map) continue;
-      const ReprojectionError in_a(rig.eyes[v], candidate.measurement);
-      const ReprojectionError in_b(rig.eyes[v], other.measurement);
+      const Reprojection in_a(rig.eyes[v], candidate.measurement);
+      const Reprojection in_b(rig.eyes[v], other.measurement);
       if (in_a.chi_squared(a.T_map_body, *p_map) > kChiSquared2 ||
           in_b.chi_squared(b.T_map_body, *p_map) > kChiSquared2) {
         continue;
