@@ -46,6 +46,20 @@ class View {
         nearer_(kLevelFocalLength / (lod_scale * std::max(camera.fx, camera.fy))),
         shadow_(shadow) {}
 
+  /// Adds the rover where it may be in view: closely looked at, as its own cameras stand within its
+  /// bounds.
+  void add_rover(const Pose& T_world_rover) {
+    const Eigen::Affine3d cam_from_rover(cam_from_world_ * T_world_rover.matrix());
+    std::vector<Eigen::Vector3d> corners;
+    corners.reserve(scene_.rover_corners.size());
+    for (const Eigen::Vector3d& corner : scene_.rover_corners) {
+      corners.push_back(cam_from_rover * corner);
+    }
+    if (!frustum_.may_see(corners)) return;
+    const GpuModel& model = scene_.models[static_cast<std::size_t>(scene_.rover_model)];
+    add(place(scene_.rover_model, model, T_world_rover, 1), scene_.instances.size());
+  }
+
   /// Adds the instance where it may be in view.
   void add(const GpuInstance& instance, std::size_t index) {
     const GpuModel& model = scene_.models[static_cast<std::size_t>(instance.model)];
@@ -101,10 +115,7 @@ DrawList make_draw_list(const GpuScene& scene, const PinholeCamera& camera, cons
                         double lod_scale, const RoverInView& rover) {
   View view(scene, camera, T_world_cam, lod_scale, rover.shadow);
   for (std::size_t i = 0; i < scene.instances.size(); ++i) view.add(scene.instances[i], i);
-  if (rover.T_world_rover && scene.rover_model >= 0) {
-    const GpuModel& model = scene.models[static_cast<std::size_t>(scene.rover_model)];
-    view.add(place(scene.rover_model, model, *rover.T_world_rover, 1), scene.instances.size());
-  }
+  if (rover.T_world_rover && scene.rover_model >= 0) view.add_rover(*rover.T_world_rover);
   return view.list();
 }
 

@@ -163,6 +163,17 @@ bool is_vegetation(const Scene& scene, int texture) {
   return true;
 }
 
+std::vector<Eigen::Vector3d> corners_of(const Model& model) {
+  std::vector<Eigen::Vector3d> corners;
+  if (model.levels.empty()) return corners;
+  for (const Primitive& primitive : model.levels.front().primitives) {
+    for (const Vertex& vertex : primitive.vertices) {
+      corners.push_back(vertex.position.cast<double>());
+    }
+  }
+  return corners;
+}
+
 }  // namespace
 
 GpuInstance place(int model_index, const GpuModel& model, const Pose& T_world_model, double scale) {
@@ -233,6 +244,9 @@ GpuScene::GpuScene(const Scene& scene)
   for (const Instance& instance : scene.instances) {
     instances.push_back(place(instance.model, models[static_cast<std::size_t>(instance.model)],
                               instance.T_world_model, static_cast<double>(instance.scale)));
+  }
+  if (rover_model >= 0) {
+    rover_corners = corners_of(scene.models[static_cast<std::size_t>(rover_model)]);
   }
   array_ = make_vertex_array();
   vertices_ = make_buffer(GL_ARRAY_BUFFER, geometry.vertices);

@@ -93,6 +93,7 @@ struct GpuScene {
   std::vector<GpuModel> models;
   std::vector<GpuInstance> instances;
   int rover_model = -1;
+  std::vector<Eigen::Vector3d> rover_corners;  ///< m, the rover's frame: its finest vertices
   std::vector<GpuWires> wires;
   Light light;
   Wind wind;

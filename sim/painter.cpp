@@ -20,7 +20,7 @@ Painter::Painter(const Scene& scene, int shadow_map_size)
     : scene_(scene),
       shadow_map_(scene_, shadow_map_size),
       light_map_(scene_, shadow_map_, programs_, view_, shadow_map_size),
-      rover_shadow_(scene, scene_, shadow_map_size),
+      rover_shadow_(scene_, shadow_map_size),
       coarse_shadows_(make_coarse_depth_sampler()),
       sky_program_("sky", sky_vertex_shader(), sky_fragment_shader()),
       sky_(make_texture({sky_picture(scene.light, scene.seed)}, false)),

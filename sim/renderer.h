@@ -71,8 +71,9 @@ class Renderer {
     double time = 0;        ///< s, for what the wind moves
     double other_time = 0;  ///< s, for motion
     /// Where Scene::rover_model stands; it is not there, and casts no shadow, where absent.
-    std::optional<Pose> T_world_rover;
-    std::optional<Pose> T_world_rover_other;  ///< at other_time, for motion; the same where absent
+    std::optional<Pose> T_world_rover = std::nullopt;
+    /// The same at other_time, for motion; it stays where absent.
+    std::optional<Pose> T_world_rover_other = std::nullopt;
   };
   Picture render(const PinholeCamera& camera, const Pose& T_world_cam, const Request& request);
 

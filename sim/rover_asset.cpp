@@ -33,6 +33,14 @@ struct ProfilePoint {
   float r, z, normal_r, normal_z;
 };
 
+/// How finely round things are drawn: of an ellipsoid rings and sides, and sides of the rest.
+struct RoverDetail {
+  double until;  ///< m
+  int rings, roller_sides, sides;
+};
+
+constexpr std::array<RoverDetail, 2> kDetails{{{4, 5, 7, 20}, {1e9, 3, 5, 10}}};
+
 /// A geom in the body's frame.
 struct Geom {
   int type = mjGEOM_BOX;
@@ -49,8 +57,9 @@ float occlusion_at(const Vector3f& p_body) {
 
 class GeomBuilder {
  public:
-  GeomBuilder(MeshBuilder& builder, const mjModel& model, const Geom& geom)
-      : builder_(builder), model_(model), geom_(geom) {}
+  GeomBuilder(MeshBuilder& builder, const RoverDetail& detail, const mjModel& model,
+              const Geom& geom)
+      : builder_(builder), detail_(detail), model_(model), geom_(geom) {}
 
   void build() {
     const Vector3f& s = geom_.size;
@@ -58,13 +67,13 @@ class GeomBuilder {
       case mjGEOM_BOX:
         return box();
       case mjGEOM_SPHERE:
-        return round({s.x(), s.x(), s.x()}, 0, 10, 10);
+        return round({s.x(), s.x(), s.x()}, 0, detail_.sides / 2, detail_.sides);
       case mjGEOM_ELLIPSOID:
-        return round(s, 0, 6, 8);
+        return round(s, 0, detail_.rings, detail_.roller_sides);
       case mjGEOM_CAPSULE:
-        return round({s.x(), s.x(), s.x()}, s.y(), 6, 12);
+        return round({s.x(), s.x(), s.x()}, s.y(), 6, detail_.sides);
       case mjGEOM_CYLINDER:
-        return cylinder(s.x(), s.y(), 20);
+        return cylinder(s.x(), s.y(), detail_.sides);
       case mjGEOM_MESH:
         return mesh();
       default:
@@ -97,6 +106,7 @@ class GeomBuilder {
   /// Turns the profile, from low to high, about z; then scales it.
   void revolve(const std::vector<ProfilePoint>& profile, int sides, const Vector3f& scale) {
     std::vector<std::uint32_t> last, ring;
+    float last_r = 0;
     for (const ProfilePoint& point : profile) {
       ring.clear();
       for (int i = 0; i < sides; ++i) {
@@ -108,9 +118,11 @@ class GeomBuilder {
       }
       for (std::size_t i = 0; i < last.size(); ++i) {
         const std::size_t next = (i + 1) % last.size();
-        builder_.quad(last[i], last[next], ring[next], ring[i]);
+        if (last_r > 0) builder_.triangle(last[i], last[next], ring[next]);
+        if (point.r > 0) builder_.triangle(last[i], ring[next], ring[i]);
       }
       last = ring;
+      last_r = point.r;
     }
   }
 
@@ -121,9 +133,9 @@ class GeomBuilder {
     const float apart = half_length / half_axes.z();
     for (int i = 0; i <= rings; ++i) {
       const float angle = std::numbers::pi_v<float> * (static_cast<float>(i) / rings - 0.5f);
-      const float r = std::max(0.0f, std::cos(angle)), z = std::sin(angle);
+      const float r = i % rings == 0 ? 0 : std::cos(angle), z = std::sin(angle);
       if (2 * i <= rings) profile.push_back({r, z - apart, r, z});
-      if (2 * i >= rings) profile.push_back({r, z + apart, r, z});
+      if (2 * i > rings || (2 * i == rings && apart > 0)) profile.push_back({r, z + apart, r, z});
     }
     revolve(profile, sides, half_axes);
   }
@@ -152,6 +164,7 @@ class GeomBuilder {
   }
 
   MeshBuilder& builder_;
+  const RoverDetail& detail_;
   const mjModel& model_;
   const Geom& geom_;
 };
@@ -220,23 +233,28 @@ int material_of(Asset& asset, const float* rgba) {
   return static_cast<int>(asset.materials.size()) - 1;
 }
 
+void add_level(Asset& asset, const RoverModel& rover, const RoverDetail& detail) {
+  LevelOfDetail& level = asset.model.levels.emplace_back();
+  level.until = detail.until;
+  for (int i = 0; i < rover.model().ngeom; ++i) {
+    if (!rover.shows(i)) continue;
+    const int material = material_of(asset, rover.colour(i));
+    level.primitives.resize(asset.materials.size());
+    Primitive& part = level.primitives[static_cast<std::size_t>(material)];
+    part.material = material;
+    MeshBuilder builder(part);
+    const Geom geom = rover.geom(i);
+    GeomBuilder(builder, detail, rover.model(), geom).build();
+  }
+}
+
 }  // namespace
 
 Asset rover_asset(const std::filesystem::path& mjcf) {
   const RoverModel rover(mjcf);
   Asset asset;
   asset.model.name = "rover";
-  std::vector<Primitive>& parts = asset.model.levels.emplace_back().primitives;
-  for (int i = 0; i < rover.model().ngeom; ++i) {
-    if (!rover.shows(i)) continue;
-    const int material = material_of(asset, rover.colour(i));
-    parts.resize(asset.materials.size());
-    Primitive& part = parts[static_cast<std::size_t>(material)];
-    part.material = material;
-    MeshBuilder builder(part);
-    const Geom geom = rover.geom(i);
-    GeomBuilder(builder, rover.model(), geom).build();
-  }
+  for (const RoverDetail& detail : kDetails) add_level(asset, rover, detail);
   asset.update_bounds();
   if (asset.model.bounds.isEmpty()) fail("{}: the rover has no visible geom", mjcf.string());
   return asset;

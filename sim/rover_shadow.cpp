@@ -20,31 +20,18 @@ bool same(const Pose& a, const Pose& b) {
   return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs();
 }
 
-/// All vertices, none where the sun casts no shadows.
-std::vector<Eigen::Vector3d> casting_corners(const Scene& scene, int size) {
-  std::vector<Eigen::Vector3d> corners;
-  if (size == 0 || scene.rover_model < 0 || scene.light.sun.isZero() ||
-      scene.light.towards_sun.normalized().z() < static_cast<float>(kLowestSun)) {
-    return corners;
-  }
-  for (const LevelOfDetail& level :
-       scene.models[static_cast<std::size_t>(scene.rover_model)].levels) {
-    for (const Primitive& primitive : level.primitives) {
-      for (const Vertex& vertex : primitive.vertices) {
-        corners.push_back(vertex.position.cast<double>());
-      }
-    }
-  }
-  return corners;
+bool casts(const GpuScene& scene, int size) {
+  return size > 0 && scene.rover_model >= 0 && !scene.light.sun.isZero() &&
+         scene.light.towards_sun.normalized().z() > static_cast<float>(kLowestSun);
 }
 
 }  // namespace
 
-RoverShadow::RoverShadow(const Scene& scene, const GpuScene& gpu, int size)
-    : corners_(casting_corners(scene, size)),
-      towards_sun_(gpu.light.towards_sun.cast<double>().normalized()),
+RoverShadow::RoverShadow(const GpuScene& scene, int size)
+    : casts_(casts(scene, size)),
+      towards_sun_(scene.light.towards_sun.cast<double>().normalized()),
       R_sun_world_(sun_from_world(towards_sun_)),
-      size_(corners_.empty() ? 1 : std::min(kMapSize, size)),
+      size_(casts_ ? std::min(kMapSize, size) : 1),
       texture_(make_depth_texture(size_)),
       framebuffer_(make_depth_framebuffer(texture_)),
       program_("shadow of the rover", shadow_vertex_shader(), shadow_fragment_shader(false)) {
@@ -53,10 +40,11 @@ RoverShadow::RoverShadow(const Scene& scene, const GpuScene& gpu, int size)
 
 bool RoverShadow::cast(const GpuScene& scene, const Pose& T_world_rover,
                        const PinholeCamera& camera, const Pose& T_world_cam) {
-  if (corners_.empty() || !may_be_seen(T_world_rover, camera, T_world_cam)) return false;
+  if (!casts_ || !may_be_seen(scene.rover_corners, T_world_rover, camera, T_world_cam))
+    return false;
   if (drawn_ && same(*drawn_, T_world_rover)) return true;
   box_.setEmpty();
-  for (const Eigen::Vector3d& corner : corners_) {
+  for (const Eigen::Vector3d& corner : scene.rover_corners) {
     box_.extend(R_sun_world_ * (T_world_rover * corner));
   }
   draw(scene, T_world_rover);
@@ -65,13 +53,14 @@ bool RoverShadow::cast(const GpuScene& scene, const Pose& T_world_rover,
 }
 
 /// The rover and the ends of its shadow on a ground that may fall off.
-bool RoverShadow::may_be_seen(const Pose& T_world_rover, const PinholeCamera& camera,
+bool RoverShadow::may_be_seen(const std::vector<Eigen::Vector3d>& corners,
+                              const Pose& T_world_rover, const PinholeCamera& camera,
                               const Pose& T_world_cam) const {
   const double ground = T_world_rover.translation.z() - kUnevenGround;
   const Pose T_cam_world = T_world_cam.inverse();
   std::vector<Eigen::Vector3d> hull;
-  hull.reserve(2 * corners_.size());
-  for (const Eigen::Vector3d& corner : corners_) {
+  hull.reserve(2 * corners.size());
+  for (const Eigen::Vector3d& corner : corners) {
     const Eigen::Vector3d p = T_world_rover * corner;
     const double reach = std::clamp((p.z() - ground) / towards_sun_.z(), 0.0, kLongestShadow);
     hull.push_back(T_cam_world * p);

@@ -17,7 +17,7 @@ namespace vinebench {
 class RoverShadow {
  public:
   /// `size` pixels a side; 0 casts no shadow.
-  RoverShadow(const Scene& scene, const GpuScene& gpu, int size);
+  RoverShadow(const GpuScene& scene, int size);
 
   /// Draws the map for a rover there, unless its shadow cannot be in view; says whether it may be.
   /// Leaves another target bound.
@@ -32,11 +32,11 @@ class RoverShadow {
   Eigen::Matrix4d map_from_world() const;
 
  private:
-  bool may_be_seen(const Pose& T_world_rover, const PinholeCamera& camera,
-                   const Pose& T_world_cam) const;
+  bool may_be_seen(const std::vector<Eigen::Vector3d>& corners, const Pose& T_world_rover,
+                   const PinholeCamera& camera, const Pose& T_world_cam) const;
   void draw(const GpuScene& scene, const Pose& T_world_rover) const;
 
-  std::vector<Eigen::Vector3d> corners_;  ///< m, rover's frame; empty where it casts no shadow
+  bool casts_;
   Eigen::Vector3d towards_sun_;
   Eigen::Matrix3d R_sun_world_;
   int size_;

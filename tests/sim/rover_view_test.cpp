@@ -11,6 +11,7 @@
 #include "sim/rover_asset.h"
 #include "sim/truth_images.h"
 #include "slam/base/error.h"
+#include "slam/base/rig.h"
 #include "tests/sim/test_folder.h"
 #include "tests/sim/test_scene.h"
 
@@ -29,19 +30,27 @@ Pose above(double x, double y, double height) {
   return {Eigen::Quaterniond(0, 1, 0, 0), {x, y, height}};
 }
 
-/// Even ground of 20 x 20 m, and the sun in the west, 45 degrees high: what is at a height of z
+/// A square that lies flat, its face up.
+Primitive sheet(int material, double side) {
+  Primitive primitive = panel(material, side, side);
+  for (Vertex& vertex : primitive.vertices) {
+    vertex.position = {vertex.position.x(), vertex.position.z(), 0};
+    vertex.normal = Eigen::Vector3f::UnitZ();
+  }
+  return primitive;
+}
+
+/// Even ground, and the sun in the west, 45 degrees high: what is at a height of z
 /// casts its shadow z further east.
 class RoverViewTest : public testing::Test {
  protected:
   RoverViewTest() {
     const int soil = add_material(scene_, Label::kGround, {0.3f, 0.25f, 0.2f});
     scene_.materials[static_cast<std::size_t>(soil)].terrain = true;
-    Primitive ground = panel(soil, 20, 20);
-    for (Vertex& vertex : ground.vertices) {
-      vertex.position = {vertex.position.x(), vertex.position.z(), 0};
-      vertex.normal = Eigen::Vector3f::UnitZ();
+    const int tile = add_model(scene_, sheet(soil, 0.5));
+    for (int x = -4; x < 20; ++x) {
+      for (int y = -8; y < 12; ++y) add_instance(scene_, tile, {0.5 * x, 0.5 * y, 0});
     }
-    add_instance(scene_, add_model(scene_, ground), {0, 0, 0});
     scene_.light.towards_sun = Eigen::Vector3f(-1, 0, 1).normalized();
     add_rover(scene_, kModel);
   }
@@ -88,9 +97,8 @@ TEST_F(RoverViewTest, IsInNoneOfItsOwnPictures) {
   const Rig rig = load_rig(kModel.parent_path() / "rig.yaml");
   Renderer renderer(scene_, {});
   for (const RigCamera& mounted : rig.cameras) {
-    const Picture picture =
-        renderer.render(mounted.model, kRover * mounted.T_body_cam,
-                        {.labels = true, .T_world_rover = kRover, .T_world_rover_other = {}});
+    const Picture picture = renderer.render(mounted.model, kRover * mounted.T_body_cam,
+                                            {.labels = true, .T_world_rover = kRover});
     EXPECT_EQ(cv::countNonZero(picture.labels == static_cast<int>(Label::kRover)), 0)
         << mounted.name;
   }
@@ -119,11 +127,7 @@ TEST_F(RoverViewTest, ItsShadowIsAsDarkAsAPlants) {
   const Pose view = above(2.8, 1, 1.0);
   const cv::Mat by_rover = draw(view, kRover).rgb;
   const int wood = add_material(scene_, Label::kPost, {0.2f, 0.2f, 0.2f});
-  Primitive sheet = panel(wood, 0.3, 0.3);
-  for (Vertex& vertex : sheet.vertices) {
-    vertex.position = {vertex.position.x(), vertex.position.z(), 0};
-  }
-  add_instance(scene_, add_model(scene_, sheet), {2, 1, 0.49});
+  add_instance(scene_, add_model(scene_, sheet(wood, 0.3)), {2, 1, 0.49});
   renderer_.reset();
   const cv::Vec3b by_sheet = at(draw(view, {}).rgb, view, {2.49, 1, 0});
   // The map of the ground's light holds 8 bits: a grey level or two.
@@ -138,13 +142,8 @@ TEST_F(RoverViewTest, ItsShadowFallsOnThingsToo) {
   const int leaf = add_material(scene_, Label::kLeaf, {0.3f, 0.5f, 0.1f});
   const int carton = add_material(scene_, Label::kBox, {0.5f, 0.3f, 0.2f});
   for (const int material : {leaf, carton}) {
-    Primitive patch = panel(material, 0.03, 0.03);
-    for (Vertex& vertex : patch.vertices) {
-      vertex.position = {vertex.position.x(), vertex.position.z(), 0};
-      vertex.normal = Eigen::Vector3f::UnitZ();
-    }
     const double y = material == leaf ? 1.04 : 0.96;
-    add_instance(scene_, add_model(scene_, patch), {2.29, y, 0.2});
+    add_instance(scene_, add_model(scene_, sheet(material, 0.03)), {2.29, y, 0.2});
   }
   const Pose view = above(2.8, 1, 1.0);
   const cv::Mat with = draw(view, kRover).rgb, without = draw(view, {}).rgb;
@@ -159,11 +158,13 @@ TEST_F(RoverViewTest, ChangesNothingOutOfView) {
   // It looks away; beside the shadow; from close by over both.
   EXPECT_EQ(changed_pixels(look_at({3.5, 1, 0.5}, {6, 1, 0.3})), 0);
   EXPECT_EQ(changed_pixels(above(2, 2.2, 1.0)), 0);
-  EXPECT_EQ(changed_pixels(look_at({2, 1, 0.6}, {6, 1, 0.6})), 0);
+  EXPECT_EQ(changed_pixels(look_at({2, 1, 0.75}, {6, 1, 0.75})), 0);
 }
 
 TEST_F(RoverViewTest, CastsNoShadowWithoutASun) {
-  const Pose view = above(2.8, 1, 1.0);
+  // The rover's own picture ends at x = 2.25, 0.27 m from the middle of what this one shows.
+  camera_ = {200, 300, 500, 500, 99.5, 149.5, {}};
+  const Pose view = above(2.52, 1, 1.0);
   EXPECT_GT(changed_pixels(view), 1000);
   scene_.light.sun.setZero();
   renderer_.reset();
@@ -205,9 +206,9 @@ TEST_F(RoverViewTest, FlowGoesWithTheRover) {
 
 TEST(RoverAssetTest, HasTheModelsMeasures) {
   const Asset rover = rover_asset(kModel);
-  // Wheels: hubs' middles at 0.19 m, 0.03 m to either side; rollers' outer ends stay within. The
-  // bumper's hull is not shown; the wheels reach furthest, 0.15 + 0.10 m.
-  EXPECT_NEAR(rover.model.bounds.max().y(), 0.236f, 0.012f);
+  // The collision hull is not shown; the wheels reach furthest: 0.15 + 0.10 m ahead, and to the
+  // side 0.19 m and the rollers' 0.0623 m of half length at 45 degrees.
+  EXPECT_NEAR(rover.model.bounds.max().y(), 0.236f, 0.005f);
   EXPECT_NEAR(rover.model.bounds.max().x(), 0.25f, 0.005f);
   EXPECT_NEAR(rover.model.bounds.max().z(), 0.505f, 1e-4f);  // the camera bar's top
   EXPECT_NEAR(rover.model.bounds.min().z(), 0, 0.003f);      // rollers on the ground
