@@ -9,8 +9,10 @@
 #include <memory>
 #include <vector>
 
+#include "slam/base/error.h"
 #include "slam/base/rig.h"
 #include "slam/base/slam_system.h"
+#include "slam/base/trajectory.h"
 #include "slam/base/worker_pool.h"
 #include "slam/config.h"
 
