@@ -20,8 +20,9 @@ namespace vinebench {
 //     u64      CRC-64/XZ of all before it
 //
 // Frames are numbered and stamped against the last keyframe, which has index -1000 and stamp -1 s,
-// so that they lie before those of the run that loads them. What follows from the rest is left out (observations, covisibility, grids), as are landmarks that
-// were removed: a map that is saved, loaded and saved again gives the same bytes.
+// so that they lie before those of the run that loads them. What follows from the rest is left out
+// (observations, covisibility, grids), as are landmarks that were removed: a map that is saved,
+// loaded and saved again gives the same bytes.
 
 /// The bytes of a map file.
 std::string format_map(const Map& map, const EstimatorRig& rig);
