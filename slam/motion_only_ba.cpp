@@ -38,10 +38,9 @@ Matches gather(const Map& map, const FrameFeatures& frame, const EstimatorRig& r
   return matches;
 }
 
-Pose adjust(Matches& matches, const Pose& start) {
+Pose adjust(Matches& matches, const Pose& start, ceres::LossFunction& loss) {
   PoseBlock block = to_block(start);
   PoseManifold manifold;
-  ceres::HuberLoss huber(std::sqrt(kChiSquared2));
   ceres::Problem::Options ownership;
   ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -50,7 +49,7 @@ Pose adjust(Matches& matches, const Pose& start) {
   ceres::Problem problem(ownership);
   problem.AddParameterBlock(block.data(), 7, &manifold);
   for (Match& match : matches) {
-    if (match.inlier) problem.AddResidualBlock(&match.error, &huber, block.data());
+    if (match.inlier) problem.AddResidualBlock(&match.error, &loss, block.data());
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
@@ -107,9 +106,11 @@ MotionEstimate estimate_motion(const Map& map, const FrameFeatures& frame, const
     return estimate;
   }
 
-  constexpr int kRounds = 3;
-  for (int round = 0; round < kRounds; ++round) {
-    estimate.T_map_body = adjust(matches, estimate.T_map_body);
+  ceres::HuberLoss far(std::sqrt(kChiSquared2));
+  ceres::CauchyLoss near(kCauchyScale);
+  for (ceres::LossFunction* loss :
+       std::initializer_list<ceres::LossFunction*>{&far, &near, &near}) {
+    estimate.T_map_body = adjust(matches, estimate.T_map_body, *loss);
     estimate.inliers = classify(matches, estimate.T_map_body);
     if (estimate.inliers < 6) break;
   }
@@ -117,7 +118,7 @@ MotionEstimate estimate_motion(const Map& map, const FrameFeatures& frame, const
   const std::vector<char> doubtful = doubtful_views(estimate, min_inlier_share);
   if (std::find(doubtful.begin(), doubtful.end(), 1) != doubtful.end()) {
     for (Match& match : matches) match.inlier &= !doubtful[match.view];
-    estimate.T_map_body = adjust(matches, estimate.T_map_body);
+    estimate.T_map_body = adjust(matches, estimate.T_map_body, near);
     estimate.inliers = classify(matches, estimate.T_map_body);
     for (Match& match : matches) {
       estimate.inliers -= match.inlier && doubtful[match.view];

@@ -36,7 +36,7 @@ bool is_covered(const TrackedFrame& tracked, const Map& map, const KeyframeConfi
 Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
                    const std::vector<RegisteredTag>& tags)
     : config_(config),
-      rig_(rig, config.features, config.refinement),
+      rig_(rig, config.features, config.refinement, config.stereo),
       map_(config.features.scale),
       tracker_(config.tracking, rig_),
       mapper_(config, rig_),
@@ -55,6 +55,7 @@ Estimate Pipeline::process(const std::shared_ptr<FrameFeatures>& frame) {
   Estimate estimate = report(tracked);
   if (tracked.tracked && wants_new_keyframe(tracked)) map_keyframe(tracked, estimate);
   frame->pyramids.clear();
+  frame->right_pyramids.clear();
   if (!tracked.tracked) return estimate;
   loop_closer_.note(*frame, tracker_.T_map_body(), path_length_, map_);
   remember(frame->stamp);

@@ -45,6 +45,8 @@ struct PixelMeasurement {
   std::optional<double> right_x;
   double sigma = 1;        ///< px
   double right_sigma = 1;  ///< px, of the column in the right eye
+  /// Errors beyond the 95 % of this many times the standard deviation are outliers.
+  double tolerance = 1;
   int size() const { return right_x ? 3 : 2; }
 };
 
@@ -95,7 +97,14 @@ inline constexpr double kChiSquared2 = 5.991;
 inline constexpr double kChiSquared3 = 7.815;
 
 inline double chi_squared_limit(const PixelMeasurement& measurement) {
-  return measurement.right_x ? kChiSquared3 : kChiSquared2;
+  const double limit = measurement.right_x ? kChiSquared3 : kChiSquared2;
+  return limit * measurement.tolerance * measurement.tolerance;
 }
+
+/// Loss of a reprojection error near the solution, in standard deviations. The errors of patches
+/// have long tails, since some straddle a stem and the ground behind it, and those tails point one
+/// way: what lies behind moves less. Huber's loss, which the paper uses, lets each of them pull as
+/// hard as a good one; this one lets go of them.
+inline constexpr double kCauchyScale = 1;
 
 }  // namespace vinebench

@@ -22,7 +22,7 @@ std::vector<Candidate> candidates(const Keyframe& keyframe, std::size_t v,
   const StereoView& view = keyframe.frame->views[v];
   const Eigen::Quaterniond R_map_cam = keyframe.T_map_body.rotation * rig.T_body_cams[v].rotation;
   std::vector<Candidate> result;
-  for (std::size_t f = 0; f < view.features.size(); ++f) {
+  for (std::size_t f = 0; f < view.detected(); ++f) {
     if (keyframe.landmarks[v][f] >= 0 || view.stereo[f].depth > 0) continue;
     const PixelMeasurement m = rig.measurement(view, static_cast<int>(f));
     result.push_back(
