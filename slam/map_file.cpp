@@ -51,7 +51,9 @@ void fields(Archive& archive, StereoMatch& m) {
 }
 template <class Archive>
 void fields(Archive& archive, StereoView& view) {
-  archive(view.features.keypoints, view.features.descriptors, view.stereo, view.placed);
+  auto followed = static_cast<std::uint64_t>(view.followed);
+  archive(view.features.keypoints, view.features.descriptors, view.stereo, view.placed, followed);
+  view.followed = static_cast<std::size_t>(followed);
 }
 template <class Archive>
 void fields(Archive& archive, TagSighting& tag) {
@@ -121,7 +123,7 @@ StoredKeyframe stored(const Keyframe& keyframe, const FrameFeatures& last,
 bool is_sound(const StereoView& view, const PinholeCamera& lens, std::size_t levels) {
   const std::size_t n = view.features.keypoints.size();
   if (view.features.descriptors.size() != n || view.stereo.size() != n) return false;
-  if (!view.placed.empty() && view.placed.size() != n) return false;
+  if ((!view.placed.empty() && view.placed.size() != n) || view.followed > n) return false;
   for (const Keypoint& k : view.features.keypoints) {
     const Eigen::Vector2d pixel(k.x, k.y);
     const bool level_known = k.level >= 0 && static_cast<std::size_t>(k.level) < levels;
@@ -166,7 +168,9 @@ void add(StoredKeyframe keyframe, const EstimatorRig& rig, Map& map, const Binar
   for (std::size_t v = 0; v < keyframe.frame.views.size(); ++v) {
     StereoView& view = keyframe.frame.views[v];
     const PinholeCamera& lens = rig.rig.pairs[v].lens;
-    view.grid = FeatureGrid(view.features.keypoints, lens.width, lens.height);
+    const auto begin = view.features.keypoints.begin();
+    const auto end = begin + static_cast<std::ptrdiff_t>(view.detected());
+    view.grid = FeatureGrid({begin, end}, lens.width, lens.height);
   }
   const int id = map.add_keyframe(std::make_shared<FrameFeatures>(std::move(keyframe.frame)),
                                   keyframe.T_map_body, keyframe.landmarks);

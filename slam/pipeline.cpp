@@ -107,16 +107,15 @@ TrackedFrame Pipeline::initialise(const std::shared_ptr<FrameFeatures>& frame) {
 /// Either must be borne out by tracking from there.
 TrackedFrame Pipeline::relocalise(const std::shared_ptr<FrameFeatures>& frame) {
   const ScopedTimer timer(times_, "relocalisation");
-  TrackedFrame tracked;
-  const auto try_at = [&](const std::optional<Pose>& T_map_body) {
-    if (!T_map_body || started_) return;
+  std::optional<Pose> T_map_body = loop_closer_.map_pose(frame->tags, map_);
+  if (!T_map_body) T_map_body = relocaliser_.find(map_, rig_, *frame);
+  if (T_map_body) {
     tracker_.start(*T_map_body, frame->stamp);
-    tracked = tracker_.track(frame, map_);
+    TrackedFrame tracked = tracker_.track(frame, map_);
     started_ = tracked.tracked;
-  };
-  try_at(loop_closer_.map_pose(frame->tags, map_));
-  if (!started_) try_at(relocaliser_.find(map_, rig_, *frame));
-  if (started_) return tracked;
+    return tracked;
+  }
+  TrackedFrame tracked;
   tracked.frame = frame;
   tracked.motion.matches_per_view.assign(frame->views.size(), 0);
   tracked.motion.inliers_per_view.assign(frame->views.size(), 0);
