@@ -4,12 +4,13 @@
 
 #include <array>
 #include <bit>
-#include <concepts>
+#include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "slam/base/error.h"
