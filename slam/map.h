@@ -60,6 +60,9 @@ struct Keyframe {
   Associations landmarks;
   std::vector<std::vector<std::optional<Patch>>> patches;  ///< of each feature of each view
   std::map<int, int> covisible;  ///< keyframe id to the number of landmarks both see
+
+  /// Whether it came with a map that was loaded: frames of earlier runs have negative indices.
+  bool inherited() const { return frame->index < 0; }
 };
 
 /// One feature of one keyframe.

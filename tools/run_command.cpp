@@ -37,6 +37,7 @@ struct RunArguments {
   std::vector<std::string> overrides;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   bool verify_determinism = false;
+  MapFiles maps;
 };
 
 ScenarioConfig scenario_of(const RunArguments& arguments) {
@@ -71,8 +72,11 @@ int report_interruption(const RunOutcome& outcome, const std::filesystem::path& 
 }
 
 /// Runs once more, without files, and compares.
-int verify_determinism(const ScenarioConfig& scenario, int threads, const std::string& first) {
-  const RunOutcome again = run_scenario(scenario, threads, options_of(scenario, " (again)"));
+int verify_determinism(const ScenarioConfig& scenario, const RunArguments& arguments,
+                       const std::string& first) {
+  RunOptions options = options_of(scenario, " (again)");
+  options.maps.load = arguments.maps.load;
+  const RunOutcome again = run_scenario(scenario, arguments.threads, options);
   if (again.interrupted) {
     fmt::print(stderr, "vinebench: stopped in the second run; determinism is not verified\n");
     return kSignalBase + g_signal;
@@ -94,13 +98,13 @@ int run(const RunArguments& arguments) {
   catch_interrupts();
   RunOptions options = options_of(scenario, "");
   options.folder = folder;
+  options.maps = arguments.maps;
   const RunOutcome outcome = run_scenario(scenario, arguments.threads, options);
   if (outcome.interrupted) return report_interruption(outcome, folder);
   print_verdict(scenario, outcome, folder);
   std::fflush(stdout);
-  const int repeated = arguments.verify_determinism
-                           ? verify_determinism(scenario, arguments.threads, outcome.hash)
-                           : 0;
+  const int repeated =
+      arguments.verify_determinism ? verify_determinism(scenario, arguments, outcome.hash) : 0;
   return repeated != 0 ? repeated : all_hold(outcome.checks) ? 0 : kExpectationFailed;
 }
 
@@ -123,6 +127,13 @@ void add_run_command(CLI::App& app, Command& chosen) {
   run->add_option("--threads", arguments->threads, "Threads to share the work; changes no result")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
+  run->add_option("--load-map", arguments->maps.load, "Map of an earlier run to go on with")
+      ->type_name("FILE")
+      ->check(CLI::ExistingFile);
+  run->add_option("--save-map", arguments->maps.save, "File for the map in the end")
+      ->type_name("FILE");
+  run->add_option("--save-cloud", arguments->maps.cloud, "File for its landmarks (PLY)")
+      ->type_name("FILE");
   run->add_flag("--verify-determinism", arguments->verify_determinism,
                 "Run twice and fail unless both runs are the same to the byte");
   run->footer(
