@@ -24,6 +24,7 @@ struct TrackingConfig {
   int min_inliers = 20;           ///< fewer is lost
   double min_inlier_share = 0.4;  ///< of the matches; a camera (or all) below it is not believed
   int local_keyframes = 20;       ///< keyframes whose landmarks are looked for
+  double max_speed = 35;          ///< m/s; a pose found by looks alone lies within its reach
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -37,6 +38,7 @@ struct TrackingConfig {
     archive("min_inliers", min_inliers, Range::between(6, 10000));
     archive("min_inlier_share", min_inlier_share, Range::between(0, 1));
     archive("local_keyframes", local_keyframes, Range::between(1, 1000));
+    archive("max_speed", max_speed, Range::positive());
   }
 };
 

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <numbers>
 
+#include "slam/appearance_matcher.h"
 #include "slam/match_refiner.h"
 #include "slam/patch_follower.h"
+#include "slam/pose_sampling.h"
 #include "slam/projection_matcher.h"
 
 namespace vinebench {
@@ -105,6 +107,24 @@ void Tracker::match_near(const Map& map, const std::vector<int>& landmarks,
   }
 }
 
+void Tracker::match_anywhere(const Map& map, TrackedFrame& tracked) const {
+  const Pose& predicted = tracked.motion.T_map_body;
+  const std::vector<int> landmarks =
+      local_landmarks(map, last_landmarks_, predicted, config_.local_keyframes);
+  Associations associations =
+      match_by_appearance(map, landmarks, *tracked.frame, config_.max_hamming, config_.second_best);
+  const auto sampled = sample_pose(map, *tracked.frame, rig_, PoseSampling{}, 0, associations);
+  if (!sampled) return;
+  const double reach = config_.max_speed * to_seconds(tracked.frame->stamp - stamp_);
+  if ((sampled->translation - predicted.translation).norm() > reach) return;
+  const MotionEstimate motion =
+      estimate_motion(map, *tracked.frame, *sampled, rig_, config_.min_inlier_share, associations);
+  // Rows look alike: a pose that nothing predicted needs twice the evidence.
+  if (motion.inliers < 2 * config_.min_inliers) return;
+  tracked.motion = motion;
+  tracked.associations = std::move(associations);
+}
+
 void Tracker::match_local_map(const Map& map, const std::vector<int>& local,
                               TrackedFrame& tracked) const {
   match_by_projection(map, local, *tracked.frame, tracked.motion.T_map_body, rig_,
@@ -124,6 +144,7 @@ TrackedFrame Tracker::track(std::shared_ptr<FrameFeatures> frame, const Map& map
   match_near(map, landmarks, tracked);
   tracked.motion = estimate_motion(map, *tracked.frame, tracked.motion.T_map_body, rig_,
                                    config_.min_inlier_share, tracked.associations);
+  if (tracked.motion.inliers < config_.min_inliers) match_anywhere(map, tracked);
   if (tracked.motion.inliers >= config_.min_inliers / 2) {
     const std::vector<int> local =
         local_landmarks(map, landmark_ids(tracked.associations), tracked.motion.T_map_body,

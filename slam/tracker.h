@@ -45,6 +45,8 @@ class Tracker {
  private:
   Pose predict(Stamp stamp) const;
   void match_near(const Map& map, const std::vector<int>& landmarks, TrackedFrame& tracked) const;
+  /// Matches by looks alone where the prediction led nowhere: after a start, a jolt or a gap.
+  void match_anywhere(const Map& map, TrackedFrame& tracked) const;
   void match_local_map(const Map& map, const std::vector<int>& local, TrackedFrame& tracked) const;
   void judge(TrackedFrame& tracked);
 
