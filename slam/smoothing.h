@@ -7,8 +7,8 @@
 namespace vinebench {
 
 /// A CV_8UC1 picture under a Gaussian of sigma 2 px cut to 7 x 7 px, its edges mirrored about the
-/// outermost pixels. Integers throughout, so the same on every machine; within a grey level of the
-/// exact one.
+/// outermost pixels. Computed in integers, so the same on every machine; weights are rounded to
+/// 1/128.
 cv::Mat smooth(const cv::Mat& picture);
 
 }  // namespace vinebench

@@ -21,6 +21,7 @@
 #include "slam/base/error.h"
 #include "slam/tag_corners.h"
 #include "slam/tag_pose.h"
+#include "slam/tag_search.h"
 
 namespace vinebench {
 namespace {
@@ -71,6 +72,13 @@ double module_width(const std::array<Eigen::Vector2d, 4>& corners, int modules) 
   return shortest / modules;
 }
 
+/// One tag, found in two parts of the picture that overlap.
+bool are_the_same(const TagSighting& a, const TagSighting& b) {
+  constexpr double kApart = 2;  // px
+  return a.family == b.family && a.id == b.id && (a.corners[0] - b.corners[0]).norm() < kApart &&
+         (a.corners[2] - b.corners[2]).norm() < kApart;
+}
+
 }  // namespace
 
 struct TagDetector::Impl {
@@ -96,19 +104,54 @@ struct TagDetector::Impl {
     return found == sizes.end() ? config.size : found->second;
   }
 
-  TagSighting sighting(const apriltag_detection_t& found, const cv::Mat& grey,
+  bool believes(const apriltag_detection_t& found) const {
+    return static_cast<double>(found.decision_margin) >= config.min_margin &&
+           found.hamming <= config.max_hamming;
+  }
+
+  /// Where to search. Families whose border is white, or has bits around it, everywhere.
+  std::vector<cv::Rect> parts(const cv::Mat& grey) const {
+    const bool guided = std::ranges::all_of(families, [](const FamilyPtr& family) {
+      return !family->reversed_border && family->total_width <= family->width_at_border + 2;
+    });
+    if (!guided) return {cv::Rect({0, 0}, grey.size())};
+    return find_tag_candidates(grey, static_cast<int>(config.decimate));
+  }
+
+  TagSighting sighting(const apriltag_detection_t& found, const cv::Mat& grey, const cv::Rect& part,
                        const PinholeCamera& model, int camera) const {
     TagSighting result;
     result.camera = camera;
     result.family = found.family->name;
     result.id = found.id;
     for (std::size_t i = 0; i < 4; ++i) {
-      result.corners[i] = {found.p[i][0] - kPixelCentre, found.p[i][1] - kPixelCentre};
+      result.corners[i] = {found.p[i][0] - kPixelCentre + part.x,
+                           found.p[i][1] - kPixelCentre + part.y};
     }
     refine_tag_corners(grey, model, module_width(result.corners, found.family->width_at_border),
                        result.corners);
     result.T_cam_tag = estimate_tag_pose(result.corners, model, size_of(result.family, result.id));
     return result;
+  }
+
+  /// Appends the sightings in a part of the picture.
+  void detect_in(const cv::Mat& grey, const cv::Rect& part, const PinholeCamera& model, int camera,
+                 std::vector<TagSighting>& sightings) {
+    // The library only reads the picture; its interface is not const.
+    image_u8_t picture{part.width, part.height, static_cast<int32_t>(grey.step[0]),
+                       const_cast<std::uint8_t*>(grey.ptr<std::uint8_t>(part.y)) + part.x};
+    const DetectionsPtr found(apriltag_detector_detect(detector.get(), &picture),
+                              apriltag_detections_destroy);
+    for (int i = 0; i < zarray_size(found.get()); ++i) {
+      const apriltag_detection_t* detection = nullptr;
+      zarray_get(found.get(), i, static_cast<void*>(&detection));
+      if (!believes(*detection)) continue;
+      TagSighting seen = sighting(*detection, grey, part, model, camera);
+      const bool whole = std::ranges::all_of(seen.corners, [&](const Eigen::Vector2d& corner) {
+        return model.contains(corner, kBorder);
+      });
+      if (whole) sightings.push_back(std::move(seen));
+    }
   }
 };
 
@@ -124,29 +167,16 @@ std::vector<TagSighting> TagDetector::detect(const cv::Mat& grey, const PinholeC
     fail("tag detector: expected a grey picture of 8 bits (CV_8UC1), found {} x {} of type {}",
          grey.cols, grey.rows, cv::typeToString(grey.type()));
   }
-  // The library only reads the picture; its interface is not const.
-  image_u8_t picture{grey.cols, grey.rows, static_cast<int32_t>(grey.step[0]),
-                     const_cast<std::uint8_t*>(grey.ptr<std::uint8_t>())};
-  const DetectionsPtr found(apriltag_detector_detect(impl_->detector.get(), &picture),
-                            apriltag_detections_destroy);
   std::vector<TagSighting> sightings;
-  for (int i = 0; i < zarray_size(found.get()); ++i) {
-    const apriltag_detection_t* detection = nullptr;
-    zarray_get(found.get(), i, static_cast<void*>(&detection));
-    const bool believed =
-        static_cast<double>(detection->decision_margin) >= impl_->config.min_margin &&
-        detection->hamming <= impl_->config.max_hamming;
-    if (!believed) continue;
-    TagSighting sighting = impl_->sighting(*detection, grey, model, camera);
-    const bool whole = std::ranges::all_of(sighting.corners, [&](const Eigen::Vector2d& corner) {
-      return model.contains(corner, kBorder);
-    });
-    if (whole) sightings.push_back(std::move(sighting));
+  for (const cv::Rect& part : impl_->parts(grey)) {
+    impl_->detect_in(grey, part, model, camera, sightings);
   }
   std::sort(sightings.begin(), sightings.end(), [](const TagSighting& a, const TagSighting& b) {
     return std::tuple(a.family, a.id, a.corners[0].x(), a.corners[0].y()) <
            std::tuple(b.family, b.id, b.corners[0].x(), b.corners[0].y());
   });
+  const auto end = std::unique(sightings.begin(), sightings.end(), are_the_same);
+  sightings.erase(end, sightings.end());
   return sightings;
 }
 

@@ -60,6 +60,20 @@ TEST(RowSearchTest, ARepeatedPatternHasAnEqualRival) {
   EXPECT_EQ(found.second, 0);
 }
 
+TEST(RowSearchTest, RivalsThatDoNotMatterAreLeftOut) {
+  const cv::Mat left = plane(37.5).left(0);
+  const cv::Mat right = plane(37.5).right(0);
+  const RowSearch all = search_row(left, kX, kY, right, kX - 100, kX + 1);
+  ASSERT_GT(all.best, 0);
+  const double ratio = static_cast<double>(all.second) / all.best;
+  for (const double rivalry : {0.0, 1.0, 0.99 * ratio, 1.01 * ratio, 3 * ratio}) {
+    const RowSearch some = search_row(left, kX, kY, right, kX - 100, kX + 1, rivalry);
+    EXPECT_EQ(some.column, all.column);
+    EXPECT_EQ(some.best, all.best);
+    EXPECT_EQ(some.second, rivalry < ratio ? INT_MAX : all.second) << rivalry;
+  }
+}
+
 TEST(RowSearchTest, ReadsTheWholeWindow) {
   // Black pictures but for one grey pixel of the left: it counts wherever it is in the window.
   for (const cv::Point at : {cv::Point(-8, -5), cv::Point(7, 5), cv::Point(0, 0)}) {

@@ -109,6 +109,18 @@ TEST(TagDetectorTest, SightingsAreInOrderOfTheirIds) {
   EXPECT_EQ(sightings[1].id, 9);
 }
 
+TEST(TagDetectorTest, TwoOfOneIdNearEachOtherAreBothSeenAndOnce) {
+  // 60 px apart, 40 px wide: their surroundings overlap.
+  const SyntheticTag tag(9, 0.06);
+  cv::Mat picture = tag.render(camera(), before_camera({0, 0, 0}, {-0.045, 0, 0.6}));
+  const cv::Mat other = tag.render(camera(), before_camera({0, 0, 0}, {0.045, 0, 0.6}));
+  other.copyTo(picture, other != 110);  // but the background
+  TagDetector detector({}, {});
+  const auto sightings = detector.detect(picture, camera(), 0);
+  ASSERT_EQ(sightings.size(), 2u);
+  EXPECT_LT(sightings[0].corners[0].x() + 50, sightings[1].corners[0].x());
+}
+
 TEST(TagDetectorTest, AFaintTagIsNotBelieved) {
   const cv::Mat bright = SyntheticTag(1, kSize).render(camera(), before_camera({0.2, 0, 0}));
   cv::Mat faint;
