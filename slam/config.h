@@ -74,7 +74,7 @@ struct KeyframeConfig {
   double reduction = 0.7;  ///< so does falling below this share of the last keyframe's
   double distance = 0.25;  ///< m from the last keyframe
   double angle_deg = 12;   ///< turned since the last keyframe
-  int min_gap = 2;         ///< frames between keyframes
+  int min_gap = 1;         ///< frames between keyframes
 
   template <class Archive>
   void serialize(Archive& archive) {

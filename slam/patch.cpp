@@ -147,12 +147,12 @@ std::optional<PatchWindow> warp_patch(const Patch& patch, const Eigen::Matrix3d&
   }
   window.contrast /= kArea;
   window.normal << xx, xy, xy, yy;
-  if (!can_be_placed(window.normal)) return std::nullopt;
   return window;
 }
 
 std::optional<PatchFit> fit_patch(const PatchWindow& wanted, const cv::Mat& picture, double x,
                                   double y) {
+  if (!can_be_placed(wanted.normal)) return std::nullopt;
   constexpr double kReach = PatchWindow::kRadius + 1;
   const Eigen::Matrix2f step_of = wanted.normal.inverse();
   const Eigen::Vector2f start(static_cast<float>(x), static_cast<float>(y));

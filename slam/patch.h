@@ -35,7 +35,7 @@ struct PatchWindow {
 
 /// The window that a homography (patch pixels, the patch's centre at (0, 0), to picture pixels)
 /// makes of the patch, about where its centre comes to lie. None where the window shows more than
-/// the patch, or has too little texture to be placed.
+/// the patch.
 std::optional<PatchWindow> warp_patch(const Patch& patch, const Eigen::Matrix3d& H_picture_patch);
 
 /// Where a patch was found.
@@ -48,7 +48,8 @@ struct PatchFit {
 
 /// Finds the window near (x, y) of a CV_8UC1 picture: shift and brightness by Gauss-Newton steps
 /// with the window's own gradients (inverse compositional: Baker and Matthews, "Lucas-Kanade 20
-/// years on", 2004). None where it leaves the picture or runs away by more than two pixels.
+/// years on", 2004). None where it has too little texture to be placed, leaves the picture or runs
+/// away by more than two pixels.
 std::optional<PatchFit> fit_patch(const PatchWindow& window, const cv::Mat& picture, double x,
                                   double y);
 

@@ -39,7 +39,11 @@ class KeyframeSelectorTest : public testing::Test {
   }
 
   Map map_{1.2};
-  KeyframeConfig config_;
+  KeyframeConfig config_ = [] {
+    KeyframeConfig config;
+    config.min_gap = 2;
+    return config;
+  }();
 };
 
 TEST_F(KeyframeSelectorTest, AFrameLikeTheLastKeyframeIsNone) {

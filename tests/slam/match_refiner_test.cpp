@@ -121,7 +121,7 @@ TEST_F(MatchRefinerTest, MovesMatchesToWhereTheLandmarkIs) {
     const Keypoint& keypoint = frame->views[0].features.keypoints[f];
     squares += (Eigen::Vector2d(keypoint.x, keypoint.y) - truth[f]).squaredNorm();
   }
-  EXPECT_GT(placed, static_cast<int>(truth.size()) * 3 / 4);
+  EXPECT_GT(placed, static_cast<int>(truth.size()) * 2 / 3);  // others have too little texture
   // Begun 0.8 px off; noise and interpolation leave less than a tenth of a pixel.
   EXPECT_LT(std::sqrt(squares / placed), 0.1);
   // The stereo partner has moved along.
