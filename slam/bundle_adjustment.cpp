@@ -11,18 +11,20 @@ namespace {
 
 constexpr std::size_t kAbsent = static_cast<std::size_t>(-1);
 
+}  // namespace
+
 /// One Ceres problem over a window of the map. Blocks are kept by position in ascending id, so that
 /// the problem is built in the same order every time.
-class Adjustment {
+class AdjustmentJob::Impl {
  public:
-  Adjustment(Map& map, const EstimatorRig& rig, const AdjustmentOptions& options)
-      : map_(map), rig_(rig), options_(options), problem_(ownership()) {}
+  Impl(AdjustmentWindow window, const EstimatorRig& rig, const AdjustmentOptions& options)
+      : window_(std::move(window)), rig_(rig), options_(options), problem_(ownership()) {}
 
-  void build(const AdjustmentWindow& window) {
-    add_keyframes(window);
-    add_landmarks(window);
-    for (const int id : window.moved) add_tags(id);
-    for (const int id : window.fixed) add_tags(id);
+  void build(const Map& map) {
+    add_keyframes(map);
+    add_landmarks(map);
+    for (const int id : window_.moved) add_tags(id, map);
+    for (const int id : window_.fixed) add_tags(id, map);
   }
 
   void solve() {
@@ -39,26 +41,26 @@ class Adjustment {
     ceres::Solve(options, &problem_, &summary);
   }
 
-  void write_back(const AdjustmentWindow& window) {
-    for (const int id : window.moved) {
-      map_.keyframe(id).T_map_body = from_block(pose_of(id));
+  void write_back(Map& map) {
+    for (const int id : window_.moved) {
+      map.keyframe(id).T_map_body = from_block(pose_of(id));
     }
     for (std::size_t i = 0; i < landmark_ids_.size(); ++i) {
-      map_.landmark(landmark_ids_[i]).position = points_[i];
+      map.landmark(landmark_ids_[i]).position = points_[i];
     }
     for (std::size_t t = 0; t < tag_blocks_.size(); ++t) {
-      if (tag_used_[t]) map_.tags()[t].T_map_tag = from_block(tag_blocks_[t].data());
+      if (tag_used_[t]) map.tags()[t].T_map_tag = from_block(tag_blocks_[t].data());
     }
   }
 
-  void remove_outliers() {
+  void remove_outliers(Map& map) {
     for (const Term& term : terms_) {
-      const Keyframe& keyframe = map_.keyframe(term.observation.keyframe);
+      const Keyframe& keyframe = map.keyframe(term.observation.keyframe);
       const double chi_squared =
-          term.error->chi_squared(keyframe.T_map_body, map_.landmark(term.landmark).position);
-      if (chi_squared > term.limit) map_.remove_observation(term.landmark, term.observation);
+          term.error->chi_squared(keyframe.T_map_body, map.landmark(term.landmark).position);
+      if (chi_squared > term.limit) map.remove_observation(term.landmark, term.observation);
     }
-    for (const int id : landmark_ids_) map_.refresh(id, rig_.T_body_cams);
+    for (const int id : landmark_ids_) map.refresh(id, rig_.T_body_cams);
   }
 
  private:
@@ -82,24 +84,24 @@ class Adjustment {
     return poses_[pose_index_[static_cast<std::size_t>(keyframe)]].data();
   }
 
-  void add_keyframes(const AdjustmentWindow& window) {
-    pose_index_.assign(map_.keyframes().size(), kAbsent);
-    poses_.reserve(window.moved.size() + window.fixed.size());
+  void add_keyframes(const Map& map) {
+    pose_index_.assign(map.keyframes().size(), kAbsent);
+    poses_.reserve(window_.moved.size() + window_.fixed.size());
     const auto add = [&](int id, bool fixed) {
       pose_index_[static_cast<std::size_t>(id)] = poses_.size();
-      poses_.push_back(to_block(map_.keyframe(id).T_map_body));
+      poses_.push_back(to_block(map.keyframe(id).T_map_body));
       problem_.AddParameterBlock(poses_.back().data(), 7, &manifold_);
       ordering_->AddElementToGroup(poses_.back().data(), 1);
       if (fixed) problem_.SetParameterBlockConstant(poses_.back().data());
     };
-    for (const int id : window.moved) add(id, false);
-    for (const int id : window.fixed) add(id, true);
+    for (const int id : window_.moved) add(id, false);
+    for (const int id : window_.fixed) add(id, true);
   }
 
-  void add_landmarks(const AdjustmentWindow& window) {
-    std::vector<char> seen(map_.landmarks().size(), 0);
-    for (const int id : window.moved) {
-      for (const std::vector<int>& view : map_.keyframe(id).landmarks) {
+  void add_landmarks(const Map& map) {
+    std::vector<char> seen(map.landmarks().size(), 0);
+    for (const int id : window_.moved) {
+      for (const std::vector<int>& view : map.keyframe(id).landmarks) {
         for (const int landmark : view) {
           if (landmark >= 0) seen[static_cast<std::size_t>(landmark)] = 1;
         }
@@ -109,10 +111,10 @@ class Adjustment {
       if (seen[i]) landmark_ids_.push_back(static_cast<int>(i));
     }
     points_.reserve(landmark_ids_.size());
-    for (const int id : landmark_ids_) add_landmark(map_.landmark(id));
+    for (const int id : landmark_ids_) add_landmark(map.landmark(id), map);
   }
 
-  void add_landmark(const Landmark& landmark) {
+  void add_landmark(const Landmark& landmark, const Map& map) {
     points_.push_back(landmark.position);
     double* point = points_.back().data();
     problem_.AddParameterBlock(point, 3);
@@ -120,7 +122,7 @@ class Adjustment {
     for (const Observation& o : landmark.observations) {
       if (pose_index_[static_cast<std::size_t>(o.keyframe)] == kAbsent) continue;
       const StereoView& view =
-          map_.keyframe(o.keyframe).frame->views[static_cast<std::size_t>(o.view)];
+          map.keyframe(o.keyframe).frame->views[static_cast<std::size_t>(o.view)];
       const PixelMeasurement m = rig_.measurement(view, o.feature);
       errors_.emplace_back(rig_.eyes[static_cast<std::size_t>(o.view)], m);
       problem_.AddResidualBlock(&errors_.back(), &cauchy_, pose_of(o.keyframe), point);
@@ -128,15 +130,15 @@ class Adjustment {
     }
   }
 
-  void add_tags(int keyframe) {
+  void add_tags(int keyframe, const Map& map) {
     if (tag_blocks_.empty()) {
-      for (const MapTag& tag : map_.tags()) tag_blocks_.push_back(to_block(tag.T_map_tag));
+      for (const MapTag& tag : map.tags()) tag_blocks_.push_back(to_block(tag.T_map_tag));
       tag_used_.assign(tag_blocks_.size(), 0);
     }
-    for (const TagSighting& sighting : map_.keyframe(keyframe).frame->tags) {
-      const MapTag* tag = map_.find_tag(sighting.family, sighting.id);
+    for (const TagSighting& sighting : map.keyframe(keyframe).frame->tags) {
+      const MapTag* tag = map.find_tag(sighting.family, sighting.id);
       if (tag == nullptr) continue;
-      const auto t = static_cast<std::size_t>(tag - map_.tags().data());
+      const auto t = static_cast<std::size_t>(tag - map.tags().data());
       double* block = tag_blocks_[t].data();
       if (!tag_used_[t]) {
         problem_.AddParameterBlock(block, 7, &manifold_);
@@ -155,7 +157,7 @@ class Adjustment {
     }
   }
 
-  Map& map_;
+  AdjustmentWindow window_;
   const EstimatorRig& rig_;
   AdjustmentOptions options_;
   PoseManifold manifold_;
@@ -175,7 +177,22 @@ class Adjustment {
   ceres::Problem problem_;  // last: it must go before the blocks it points to
 };
 
-}  // namespace
+AdjustmentJob::AdjustmentJob(const Map& map, AdjustmentWindow window, const EstimatorRig& rig,
+                             const AdjustmentOptions& options)
+    : impl_(std::make_unique<Impl>(std::move(window), rig, options)) {
+  impl_->build(map);
+}
+
+AdjustmentJob::~AdjustmentJob() = default;
+
+void AdjustmentJob::solve() {
+  impl_->solve();
+}
+
+void AdjustmentJob::apply(Map& map) const {
+  impl_->write_back(map);
+  impl_->remove_outliers(map);
+}
 
 std::array<Eigen::Vector3d, 4> tag_corners(double size) {
   const double h = size / 2;
@@ -223,11 +240,9 @@ AdjustmentWindow global_window(const Map& map) {
 void adjust(Map& map, const AdjustmentWindow& window, const EstimatorRig& rig,
             const AdjustmentOptions& options) {
   if (window.moved.empty()) return;
-  Adjustment adjustment(map, rig, options);
-  adjustment.build(window);
-  adjustment.solve();
-  adjustment.write_back(window);
-  adjustment.remove_outliers();
+  AdjustmentJob job(map, window, rig, options);
+  job.solve();
+  job.apply(map);
 }
 
 }  // namespace vinebench

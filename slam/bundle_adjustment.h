@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "slam/config.h"
@@ -29,6 +30,26 @@ AdjustmentWindow local_window(const Map& map, int keyframe, int size);
 
 /// All keyframes; the first is fixed unless a tag of known pose holds the map.
 AdjustmentWindow global_window(const Map& map);
+
+/// A bundle adjustment in three steps, so that the second can run beside tracking: what it needs of
+/// the map is copied when it is made, solved, and written back. Between the first and the last step
+/// the map may gain tags, but keyframes, landmarks and observations must stay as they are.
+class AdjustmentJob {
+ public:
+  AdjustmentJob(const Map& map, AdjustmentWindow window, const EstimatorRig& rig,
+                const AdjustmentOptions& options);
+  ~AdjustmentJob();
+  AdjustmentJob(const AdjustmentJob&) = delete;
+  AdjustmentJob& operator=(const AdjustmentJob&) = delete;
+
+  /// Touches nothing but its own copies.
+  void solve();
+  void apply(Map& map) const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 /// Bundle adjustment, Eq. (4), (5): poses of the window's keyframes and positions of the landmarks
 /// that they see, Huber loss, weights by octave; tags seen by a keyframe take part with their

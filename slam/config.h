@@ -86,9 +86,20 @@ struct KeyframeConfig {
   }
 };
 
+/// When what local mapping found out reaches tracking.
+enum class MappingSchedule {
+  kLockstep,  ///< after a fixed number of frames: the same result on every machine
+  kLive,      ///< as soon as it is there; tracking never waits for it
+};
+inline std::vector<std::string> yaml_names(MappingSchedule) {
+  return {"lockstep", "live"};
+}
+
 struct MappingConfig {
-  int window = 10;             ///< keyframes that a local adjustment moves
-  int iterations = 6;          ///< of a local adjustment
+  MappingSchedule schedule = MappingSchedule::kLockstep;
+  int delay = 2;       ///< frames after which a local adjustment joins in lockstep; 0 is at once
+  int window = 10;     ///< keyframes that a local adjustment moves
+  int iterations = 6;  ///< of a local adjustment
   int global_iterations = 25;  ///< of a global adjustment
   int min_observations = 3;    ///< keyframes that must see a landmark (paper, Sect. III-A)
   int trial_keyframes = 3;     ///< keyframes after which a landmark with fewer is dropped
@@ -96,6 +107,8 @@ struct MappingConfig {
 
   template <class Archive>
   void serialize(Archive& archive) {
+    archive("schedule", schedule);
+    archive("delay", delay, Range::between(0, 100));
     archive("window", window, Range::between(2, 100));
     archive("iterations", iterations, Range::between(1, 100));
     archive("global_iterations", global_iterations, Range::between(1, 500));

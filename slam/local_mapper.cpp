@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slam/bundle_adjustment.h"
 #include "slam/match_refiner.h"
 #include "slam/projection_matcher.h"
 #include "slam/triangulation.h"
@@ -42,14 +41,18 @@ int LocalMapper::insert(const TrackedFrame& tracked, Map& map) const {
   return id;
 }
 
-void LocalMapper::refine(int keyframe, Map& map) const {
+void LocalMapper::extend(int keyframe, Map& map) const {
   cull(keyframe, map);
   triangulate(keyframe, map);
   fuse(keyframe, map);
+}
+
+std::unique_ptr<AdjustmentJob> LocalMapper::local_adjustment(int keyframe, const Map& map) const {
   AdjustmentOptions options;
   options.iterations = config_.mapping.iterations;
   options.tag_corner_sigma = config_.loop.corner_sigma;
-  adjust(map, local_window(map, keyframe, config_.mapping.window), rig_, options);
+  return std::make_unique<AdjustmentJob>(map, local_window(map, keyframe, config_.mapping.window),
+                                         rig_, options);
 }
 
 void LocalMapper::cull(int keyframe, Map& map) const {

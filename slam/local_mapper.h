@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "slam/bundle_adjustment.h"
 #include "slam/config.h"
 #include "slam/estimator_rig.h"
 #include "slam/map.h"
@@ -21,9 +22,12 @@ class LocalMapper {
   /// depth become landmarks. Returns its id.
   int insert(const TrackedFrame& tracked, Map& map) const;
 
-  /// Drops landmarks that too few keyframes saw, fuses doubles, finds new landmarks between the
-  /// keyframe and its covisible ones, and adjusts the neighbourhood (local bundle adjustment).
-  void refine(int keyframe, Map& map) const;
+  /// Drops landmarks that too few keyframes saw, finds new ones between the keyframe and its
+  /// covisible ones, and fuses doubles.
+  void extend(int keyframe, Map& map) const;
+
+  /// The adjustment of the keyframe's neighbourhood, yet to be solved.
+  std::unique_ptr<AdjustmentJob> local_adjustment(int keyframe, const Map& map) const;
 
  private:
   void cull(int keyframe, Map& map) const;

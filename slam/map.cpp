@@ -67,6 +67,10 @@ MapTag* Map::find_tag(const std::string& family, int id) {
   return nullptr;
 }
 
+const MapTag* Map::find_tag(const std::string& family, int id) const {
+  return const_cast<Map*>(this)->find_tag(family, id);
+}
+
 int Map::add_keyframe(std::shared_ptr<const FrameFeatures> frame, const Pose& T_map_body,
                       const Associations& associations) {
   const int id = static_cast<int>(keyframes_.size());

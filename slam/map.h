@@ -108,6 +108,7 @@ class Map {
   std::vector<MapTag>& tags() { return tags_; }
   const std::vector<MapTag>& tags() const { return tags_; }
   MapTag* find_tag(const std::string& family, int id);
+  const MapTag* find_tag(const std::string& family, int id) const;
 
   /// Adds a keyframe; its associations become observations. Returns its id.
   int add_keyframe(std::shared_ptr<const FrameFeatures> frame, const Pose& T_map_body,

@@ -40,6 +40,7 @@ Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
       map_(config.features.scale),
       tracker_(config.tracking, rig_),
       mapper_(config, rig_),
+      scheduler_(config.mapping),
       loop_closer_(config, rig_, tags) {}
 
 void Pipeline::continue_from(Map map) {
@@ -49,6 +50,8 @@ void Pipeline::continue_from(Map map) {
 }
 
 Estimate Pipeline::process(const std::shared_ptr<FrameFeatures>& frame) {
+  scheduler_.tick();
+  if (scheduler_.due()) join_mapping();
   TrackedFrame tracked = started_                   ? track(frame)
                          : map_.keyframes().empty() ? initialise(frame)
                                                     : relocalise(frame);
@@ -64,6 +67,7 @@ Estimate Pipeline::process(const std::shared_ptr<FrameFeatures>& frame) {
 }
 
 SlamSummary Pipeline::finish() {
+  join_mapping();
   if (tags_since_adjustment_) {
     const ScopedTimer timer(times_, "global adjustment");
     loop_closer_.adjust_globally(map_);
@@ -140,6 +144,10 @@ TrackedFrame Pipeline::track(const std::shared_ptr<FrameFeatures>& frame) {
 
 bool Pipeline::wants_new_keyframe(const TrackedFrame& tracked) const {
   if (!started_) return true;
+  // Live, a robot's tracking waits for the mapping before only when it would soon be lost.
+  const bool waits = config_.mapping.schedule == MappingSchedule::kLockstep ||
+                     tracked.motion.inliers < config_.keyframes.min_inliers / 2;
+  if (scheduler_.busy() && !waits) return false;
   if (is_covered(tracked, map_, config_.keyframes)) {
     return loop_closer_.sees_loop(*tracked.frame, path_length_);
   }
@@ -150,7 +158,15 @@ bool Pipeline::wants_new_keyframe(const TrackedFrame& tracked) const {
          wants_keyframe(tracked, map_, config_.keyframes);
 }
 
-void Pipeline::map_keyframe(const TrackedFrame& tracked, Estimate& estimate) {
+/// Takes over what local mapping found; the latest poses move with it.
+void Pipeline::join_mapping(TrackedFrame* tracked) {
+  const Pose T_new_old = scheduler_.join(map_, times_);
+  tracker_.correct(T_new_old * tracker_.T_map_body());
+  if (tracked != nullptr) tracked->motion.T_map_body = T_new_old * tracked->motion.T_map_body;
+}
+
+void Pipeline::map_keyframe(TrackedFrame& tracked, Estimate& estimate) {
+  if (scheduler_.busy()) join_mapping(&tracked);
   const bool loop = started_ && loop_closer_.sees_loop(*tracked.frame, path_length_);
   const int id = mapper_.insert(tracked, map_);
   tags_since_adjustment_ |= closures_ > 0 && !tracked.frame->tags.empty();
@@ -162,7 +178,9 @@ void Pipeline::map_keyframe(const TrackedFrame& tracked, Estimate& estimate) {
   }
   if (started_) {
     const ScopedTimer timer(times_, "local mapping");
-    mapper_.refine(id, map_);
+    mapper_.extend(id, map_);
+    scheduler_.start(mapper_.local_adjustment(id, map_), id);
+    if (scheduler_.due()) join_mapping();
   }
   tracker_.correct(map_.keyframe(id).T_map_body);
   tracker_.expect(landmark_ids(map_.keyframe(id).landmarks));

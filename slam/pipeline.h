@@ -12,6 +12,7 @@
 #include "slam/local_mapper.h"
 #include "slam/loop_closer.h"
 #include "slam/map.h"
+#include "slam/mapping_scheduler.h"
 #include "slam/relocaliser.h"
 #include "slam/tracker.h"
 
@@ -49,7 +50,8 @@ class Pipeline {
   TrackedFrame relocalise(const std::shared_ptr<FrameFeatures>& frame);
   TrackedFrame track(const std::shared_ptr<FrameFeatures>& frame);
   bool wants_new_keyframe(const TrackedFrame& tracked) const;
-  void map_keyframe(const TrackedFrame& tracked, Estimate& estimate);
+  void join_mapping(TrackedFrame* tracked = nullptr);
+  void map_keyframe(TrackedFrame& tracked, Estimate& estimate);
   void remember(Stamp stamp);
   Estimate report(const TrackedFrame& tracked) const;
 
@@ -58,6 +60,7 @@ class Pipeline {
   Map map_;
   Tracker tracker_;
   LocalMapper mapper_;
+  MappingScheduler scheduler_;
   LoopCloser loop_closer_;
   Relocaliser relocaliser_;
   StageTimes times_;
