@@ -176,6 +176,7 @@ Recording read_euroc(const fs::path& named, const RecordingOptions& options) {
   Recording recording;
   recording.format = "EuRoC/ASL";
   recording.rig = read_rig(folder, cameras, options);
+  recording.T_body_left = recording.rig.cameras.front().T_body_cam;
   cameras.resize(recording.rig.cameras.size());
   std::vector<PictureList> lists;
   for (std::size_t i = 0; i < cameras.size(); ++i) {

@@ -83,10 +83,16 @@ std::string describe_imu(const RecordingNotes& notes) {
       gyroscope.bias_random_walk, accelerometer.noise_density, accelerometer.bias_random_walk);
 }
 
-/// Without loss, for the SLAM core sees grey pictures.
-std::string encode_grey(const cv::Mat& image) {
-  cv::Mat grey = image;
-  if (image.channels() == 3) cv::cvtColor(image, grey, cv::COLOR_RGB2GRAY);
+/// What the SLAM core sees of a picture, in memory of its own: a source may use the picture's again
+/// for the next frame.
+cv::Mat grey_copy(const cv::Mat& image) {
+  if (image.channels() == 1) return image.clone();
+  cv::Mat grey;
+  cv::cvtColor(image, grey, cv::COLOR_RGB2GRAY);
+  return grey;
+}
+
+std::string encode_png(const cv::Mat& grey) {
   std::vector<unsigned char> bytes;
   if (!cv::imencode(".png", grey, bytes)) fail("a picture cannot be encoded as PNG");
   return {bytes.begin(), bytes.end()};
@@ -141,7 +147,7 @@ class EurocWriter::Files {
     for (std::size_t i = 0; i < frame.images.size(); ++i) {
       if (frame.images[i].empty()) continue;
       write_file_atomically(mav_ / fmt::format("cam{}/data", i) / name,
-                            encode_grey(frame.images[i]));
+                            encode_png(frame.images[i]));
     }
     for (std::size_t i = 0; i < frame.images.size(); ++i) {
       if (frame.images[i].empty()) continue;
@@ -217,8 +223,13 @@ EurocWriter::EurocWriter(const fs::path& folder, const RecordingNotes& notes)
 EurocWriter::~EurocWriter() = default;
 
 void EurocWriter::on_tick(const Sample& sample, const Estimate&) {
-  state_->worker.submit(
-      [this, frame = sample.frame, truth = sample.truth] { state_->files.write(frame, truth); });
+  Frame frame = sample.frame;
+  for (cv::Mat& image : frame.images) {
+    if (!image.empty()) image = grey_copy(image);
+  }
+  state_->worker.submit([this, frame = std::move(frame), truth = sample.truth] {
+    state_->files.write(frame, truth);
+  });
 }
 
 void EurocWriter::on_finish(const SlamSummary&) {

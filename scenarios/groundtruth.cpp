@@ -34,7 +34,7 @@ bool has_nanoseconds(const TableRow& row) {
 
 /// Lines belong to frames by their number.
 Trajectory kitti_truth(const std::vector<TableRow>& rows, Recording& recording) {
-  const Pose T_cam_body = recording.rig.cameras.front().T_body_cam.inverse();
+  const Pose T_cam_body = recording.T_body_left.inverse();
   // KITTI's world is the first camera's frame; ours has z up.
   const Pose T_world_kitti = Rig::mount(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
   Trajectory truth;

@@ -71,6 +71,11 @@ std::map<std::size_t, Projection> read_calibration(const fs::path& file) {
   return matrices;
 }
 
+/// The body is at the first camera (P0), the one that poses.txt speaks of.
+Pose first_camera_mount() {
+  return Rig::mount(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+}
+
 RigCamera camera_of(const std::string& name, const Projection& P) {
   RigCamera camera;
   camera.name = name;
@@ -78,7 +83,7 @@ RigCamera camera_of(const std::string& name, const Projection& P) {
   // x = K (p + t) with the matrix's last column K t: the eye is at -t of the first camera.
   const Eigen::Vector3d t(P(0, 3) / P(0, 0) - P(0, 2) / P(0, 0) * P(2, 3),
                           P(1, 3) / P(1, 1) - P(1, 2) / P(1, 1) * P(2, 3), P(2, 3));
-  const Pose T_body_first = Rig::mount(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+  const Pose T_body_first = first_camera_mount();
   camera.T_body_cam = {T_body_first.rotation, T_body_first * -t};
   return camera;
 }
@@ -209,6 +214,8 @@ Recording read_kitti(const fs::path& folder, const RecordingOptions& options) {
   recording.format = "KITTI odometry";
   recording.rig =
       options.rig.empty() ? read_rig(folder, *layout) : load_rig_for(options.rig, kEyes);
+  recording.T_body_left =
+      options.rig.empty() ? first_camera_mount() : recording.rig.cameras.front().T_body_cam;
   recording.frames = read_frames(folder, *layout);
   read_times(folder, recording);
   if (options.rig.empty()) set_sizes(recording);

@@ -27,6 +27,7 @@ struct Recording {
   std::string name;
   std::string format;  ///< for people: "EuRoC/ASL", "KITTI odometry"
   Rig rig;
+  Pose T_body_left;                   ///< the camera whose poses a ground truth in KITTI's form has
   std::vector<RecordedFrame> frames;  ///< in ascending order of their stamps
   std::vector<ImuSample> imu;         ///< likewise, in the body frame
   std::vector<WheelSample> wheels;    ///< likewise

@@ -22,7 +22,7 @@ Rig load_rig_for(const std::filesystem::path& file, std::size_t cameras);
 /// formats, recognised by its columns:
 ///   TUM   `t[s] x y z qx qy qz qw`: T_world_body
 ///   EuRoC `t[ns],x,y,z,qw,qx,qy,qz,...`: T_world_body
-///   KITTI 12 numbers a line, one line a frame: pose of the rig's first camera against the first
+///   KITTI 12 numbers a line, one line a frame: pose of the camera T_body_left against the first
 ///         one's axes (x right, y down, z ahead), which become x ahead, y left, z up here
 /// A KITTI file of another length than the recording adds an event to its last frame.
 Trajectory read_groundtruth(const std::filesystem::path& file, Recording& recording);

@@ -25,7 +25,7 @@ class WallRecording {
   explicit WallRecording(const test::TestFolder& folder) : root_(folder / "wall") {
     std::string poses;
     for (int i = 0; i < kFrames; ++i) {
-      const double moved = kStep * i * 100;  // px: 200 px / 2 m
+      const int moved = 2 * i;  // px: 0.02 m * 200 px / 2 m
       test::write_image(root_ / fmt::format("image_0/{:06}.png", i), view(moved));
       test::write_image(root_ / fmt::format("image_1/{:06}.png", i), view(moved + 10));
       poses += fmt::format("1 0 0 {} 0 1 0 0 0 0 1 0\n", kStep * i);
@@ -38,9 +38,10 @@ class WallRecording {
   const std::filesystem::path& root() const { return root_; }
 
  private:
-  static cv::Mat view(double shift) {
-    const SyntheticTexture texture(3);
-    return render_picture(320, 200, [&](double x, double y) { return texture(x + shift, y); });
+  /// Whole pixels of one wide picture, so that each view is exact.
+  static cv::Mat view(int shift) {
+    static const cv::Mat wall = render_picture(320 + 2 * kFrames + 10, 200, SyntheticTexture(3));
+    return wall.colRange(shift, shift + 320);
   }
   std::filesystem::path root_;
 };
