@@ -17,6 +17,7 @@ constexpr double kMargin = 0.6;                                      // m around
 constexpr double kMaxWidth = 1000;                                   // px of the map
 constexpr double kMaxHeight = 700;                                   // px
 constexpr double kLeft = 60, kTop = 60, kRight = 230, kBottom = 60;  // px around the map
+constexpr double kLegendHeight = 330;                                // px
 
 /// Dark blue to yellow: seen by the colour-blind, and in print (after the viridis scale).
 constexpr std::array<const char*, 6> kScale{"#440154", "#414487", "#2a788e",
@@ -64,7 +65,8 @@ class Drawing {
         "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
         "<clipPath id=\"map\"><rect x=\"{2}\" y=\"{3}\" width=\"{4:.1f}\" height=\"{5:.1f}\"/>"
         "</clipPath>\n{6}</svg>\n",
-        width_ + kLeft + kRight, height_ + kTop + kBottom, kLeft, kTop, width_, height_, body_);
+        width_ + kLeft + kRight, std::max(height_ + kTop + kBottom, kLegendHeight), kLeft, kTop,
+        width_, height_, body_);
   }
 
  private:
@@ -111,12 +113,12 @@ void draw_axes(Drawing& drawing) {
   const char* grid = "stroke=\"#dddddd\" stroke-width=\"1\"";
   for (double x = std::ceil(low.x() / step) * step; x <= high.x(); x += step) {
     drawing.line({x, low.y()}, {x, high.y()}, grid);
-    drawing.text(drawing.x(x), kTop + drawing.height() + 18, fmt::format("{:g}", x),
+    drawing.text(drawing.x(x), kTop + drawing.height() + 18, fmt::format("{:g}", x + 0.0),  // no -0
                  "text-anchor=\"middle\"");
   }
   for (double y = std::ceil(low.y() / step) * step; y <= high.y(); y += step) {
     drawing.line({low.x(), y}, {high.x(), y}, grid);
-    drawing.text(kLeft - 8, drawing.y(y) + 4, fmt::format("{:g}", y), "text-anchor=\"end\"");
+    drawing.text(kLeft - 8, drawing.y(y) + 4, fmt::format("{:g}", y + 0.0), "text-anchor=\"end\"");
   }
   drawing.text(kLeft + drawing.width() / 2, kTop + drawing.height() + 42, "x, east (m)",
                "text-anchor=\"middle\"");
