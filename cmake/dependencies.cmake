@@ -2,16 +2,20 @@
 # SPDX-License-Identifier: Apache-2.0
 
 # Every library the project uses, each from a Debian package that tools/setup.sh installs.
-find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc imgcodecs features2d calib3d)
 find_package(yaml-cpp REQUIRED)
 find_package(fmt REQUIRED)
-find_package(nlohmann_json 3 REQUIRED)
-find_package(CLI11 REQUIRED)
 find_package(Ceres 2 REQUIRED)
 find_package(apriltag REQUIRED)
+if(NOT VINEBENCH_SIMULATION)
+  return()
+endif()
+
+find_package(PkgConfig REQUIRED)
+find_package(nlohmann_json 3 REQUIRED)
+find_package(CLI11 REQUIRED)
 find_package(assimp 5 REQUIRED)
 find_package(TinyGLTF REQUIRED)
 include(${CMAKE_CURRENT_LIST_DIR}/mujoco.cmake)

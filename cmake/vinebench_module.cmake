@@ -5,7 +5,8 @@
 # floating-point expressions, no fast-math. x86-64-v2 brings popcnt and SSE4 and leaves Eigen's
 # alignment as Debian's libraries were built with it.
 function(vinebench_flags target)
-  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  target_compile_features(${target} PUBLIC cxx_std_20)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wno-psabi)
   target_compile_options(${target} PRIVATE -ffp-contract=off)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
@@ -28,6 +29,19 @@ function(vinebench_module name)
   vinebench_flags(vinebench_${name})
 endfunction()
 
+# vinebench_shards(PROGRAM): its tests in a few processes, since with sanitizers one takes long to
+# start. VINEBENCH_TEST_FILTER (as for --gtest_filter) chooses among them.
+function(vinebench_shards program)
+  set(shards 4)
+  foreach(shard RANGE 1 ${shards})
+    math(EXPR index "${shard} - 1")
+    add_test(NAME ${program}_${shard} COMMAND ${program} --gtest_brief=1
+             --gtest_filter=${VINEBENCH_TEST_FILTER})
+    set_tests_properties(${program}_${shard} PROPERTIES LABELS unit TIMEOUT 900
+      ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index}")
+  endforeach()
+endfunction()
+
 # vinebench_tests(FOLDER dependencies...): one GoogleTest program of every *_test.cpp in tests/FOLDER.
 function(vinebench_tests folder)
   string(REPLACE "/" "_" name ${folder})
@@ -39,5 +53,9 @@ function(vinebench_tests folder)
   target_link_libraries(${name}_test PRIVATE ${ARGN} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name}_test PRIVATE VINEBENCH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   vinebench_flags(${name}_test)
-  gtest_discover_tests(${name}_test PROPERTIES LABELS unit DISCOVERY_TIMEOUT 60)
+  if(VINEBENCH_SANITIZE AND NOT VINEBENCH_SIMULATION)
+    vinebench_shards(${name}_test)
+  else()
+    gtest_discover_tests(${name}_test PROPERTIES LABELS unit DISCOVERY_TIMEOUT 60)
+  endif()
 endfunction()

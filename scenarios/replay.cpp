@@ -3,6 +3,7 @@
 #include "scenarios/replay.h"
 
 #include "scenarios/run_folder.h"
+#include "scenarios/run_scenario.h"
 #include "slam/base/error.h"
 #include "slam/base/files.h"
 
@@ -52,7 +53,7 @@ RunOutcome run_replay(Recording recording, const SlamConfig& slam, int threads,
   const ScenarioConfig experiment = as_experiment(recording, slam);
   const auto system = make_slam(slam, recording.rig, recording.tags, pool);
   const auto source = play(std::move(recording), pool);
-  return run_lockstep_and_judge(experiment, *source, *system, options);
+  return run_mapping_system(experiment, *source, *system, options);
 }
 
 std::string format_replay(const Json& metrics) {

@@ -13,8 +13,16 @@
 
 namespace vinebench {
 
+/// Maps that a run begins with and leaves. None where empty.
+struct MapFiles {
+  std::filesystem::path load;
+  std::filesystem::path save;
+  std::filesystem::path cloud;  ///< PLY
+};
+
 struct RunOptions {
-  std::filesystem::path folder;      ///< where results go; nothing is written when empty
+  std::filesystem::path folder;  ///< where results go; nothing is written when empty
+  MapFiles maps;
   int pictures = 12;                 ///< frames whose pictures are kept as PNG
   std::ostream* progress = nullptr;  ///< told how far the run is
   bool terminal = false;             ///< `progress` is a terminal

@@ -4,12 +4,22 @@
 
 #include <cstdlib>
 
+#include "slam/base/error.h"
+
 namespace vinebench {
 namespace {
 
 const char* non_empty(const char* variable) {
   const char* value = std::getenv(variable);
   return value != nullptr && *value != '\0' ? value : nullptr;
+}
+
+/// Better before a long run than after it.
+void expect_folder(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+    fail("{}: there is no folder {}", file.string(), folder.string());
+  }
 }
 
 }  // namespace
@@ -25,13 +35,26 @@ std::filesystem::path default_cache() {
   return std::filesystem::temp_directory_path() / "vinebench-cache";
 }
 
+RunOutcome run_mapping_system(const ScenarioConfig& scenario, FrameSource& source,
+                              MappingSystem& slam, const RunOptions& options) {
+  expect_folder(options.maps.save);
+  expect_folder(options.maps.cloud);
+  if (!options.maps.load.empty()) slam.load_map(options.maps.load);
+  const RunOutcome outcome = run_lockstep_and_judge(scenario, source, slam, options);
+  if (!options.maps.save.empty()) slam.save_map(options.maps.save);
+  if (!options.maps.cloud.empty()) slam.save_cloud(options.maps.cloud);
+  return outcome;
+}
+
 RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options) {
+  expect_folder(options.maps.save);  // before the vineyard is grown
+  expect_folder(options.maps.cloud);
   WorkerPool pool(threads);
   const auto source = make_simulation(
       scenario.simulation, static_cast<std::uint64_t>(scenario.seed), default_cache(), pool);
   const auto slam =
       make_slam(scenario.slam, source->rig(), registered_tags(scenario.simulation.world), pool);
-  return run_lockstep_and_judge(scenario, *source, *slam, options);
+  return run_mapping_system(scenario, *source, *slam, options);
 }
 
 }  // namespace vinebench

@@ -88,8 +88,10 @@ Picture CameraSensor::expose_band(std::size_t index, const Shot& shot, const Pos
   cv::Mat light;
   for (int i = 0; i < count; ++i) {
     const Stamp stamp = middle + subframe_offset(i, count, shot.exposure.time);
-    const Pose T_world_cam = T_world_body(stamp) * camera_.T_body_cam;
-    Picture drawn = render(band.view, T_world_cam, i == count / 2 ? everything : colours);
+    const Pose T_world_rover = T_world_body(stamp);
+    Renderer::Request& request = i == count / 2 ? everything : colours;
+    request.T_world_rover = T_world_rover;
+    Picture drawn = render(band.view, T_world_rover * camera_.T_body_cam, request);
     if (count > 1) add_light(drawn.rgb, 1.0f / static_cast<float>(count), light);
     if (i == count / 2) result = std::move(drawn);
   }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/frustum.h"
 
+#include <algorithm>
+
 namespace vinebench {
 
 Eigen::Matrix4d clip_from_cam(const PinholeCamera& camera) {
@@ -35,6 +37,14 @@ bool Frustum::may_see(const Eigen::AlignedBox3f& box, const Eigen::Matrix4d& cam
     if (plane.head<3>().dot(centre) + plane.w() + reach < 0) return false;
   }
   return true;
+}
+
+bool Frustum::may_see(const std::vector<Eigen::Vector3d>& corners) const {
+  return std::ranges::all_of(planes_, [&](const Eigen::Vector4d& plane) {
+    return std::ranges::any_of(corners, [&](const Eigen::Vector3d& corner) {
+      return plane.head<3>().dot(corner) + plane.w() >= 0;
+    });
+  });
 }
 
 bool Frustum::may_see(const Eigen::Vector3d& centre, double radius) const {

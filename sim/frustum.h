@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <vector>
 
 #include "slam/base/camera.h"
 
@@ -28,6 +29,8 @@ class Frustum {
   bool may_see(const Eigen::AlignedBox3f& box, const Eigen::Matrix4d& cam_from_model) const;
   /// The same of a ball in the camera's frame; m.
   bool may_see(const Eigen::Vector3d& centre, double radius) const;
+  /// The same of the convex hull of points in the camera's frame; m.
+  bool may_see(const std::vector<Eigen::Vector3d>& corners) const;
 
  private:
   std::array<Eigen::Vector4d, 6> planes_;  // inside where the dot product is positive

@@ -71,21 +71,6 @@ GpuModel add_model(Geometry& geometry, const Model& model, const std::vector<Mat
   return gpu;
 }
 
-GpuInstance place(const Instance& instance, const GpuModel& model) {
-  GpuInstance gpu;
-  gpu.model = instance.model;
-  gpu.scale = static_cast<double>(instance.scale);
-  gpu.world_from_model = instance.T_world_model.matrix();
-  gpu.world_from_model.topLeftCorner<3, 3>() *= gpu.scale;
-  gpu.model_from_world = instance.T_world_model.inverse().matrix();
-  gpu.model_from_world.topRows<3>() /= gpu.scale;
-  if (model.bounds.isEmpty()) return gpu;
-  const Eigen::Vector3d centre = model.bounds.center().cast<double>();
-  gpu.centre = (gpu.world_from_model * centre.homogeneous()).head<3>();
-  gpu.radius = 0.5 * gpu.scale * model.bounds.sizes().cast<double>().norm();
-  return gpu;
-}
-
 struct WireVertex {
   Eigen::Vector3f from;
   Eigen::Vector3f to;
@@ -178,7 +163,33 @@ bool is_vegetation(const Scene& scene, int texture) {
   return true;
 }
 
+std::vector<Eigen::Vector3d> corners_of(const Model& model) {
+  std::vector<Eigen::Vector3d> corners;
+  if (model.levels.empty()) return corners;
+  for (const Primitive& primitive : model.levels.front().primitives) {
+    for (const Vertex& vertex : primitive.vertices) {
+      corners.push_back(vertex.position.cast<double>());
+    }
+  }
+  return corners;
+}
+
 }  // namespace
+
+GpuInstance place(int model_index, const GpuModel& model, const Pose& T_world_model, double scale) {
+  GpuInstance gpu;
+  gpu.model = model_index;
+  gpu.scale = scale;
+  gpu.world_from_model = T_world_model.matrix();
+  gpu.world_from_model.topLeftCorner<3, 3>() *= gpu.scale;
+  gpu.model_from_world = T_world_model.inverse().matrix();
+  gpu.model_from_world.topRows<3>() /= gpu.scale;
+  if (model.bounds.isEmpty()) return gpu;
+  const Eigen::Vector3d centre = model.bounds.center().cast<double>();
+  gpu.centre = (gpu.world_from_model * centre.homogeneous()).head<3>();
+  gpu.radius = 0.5 * gpu.scale * model.bounds.sizes().cast<double>().norm();
+  return gpu;
+}
 
 int draw_order(const Eigen::Vector3d& towards_camera) {
   const bool along_x = std::abs(towards_camera.x()) > std::abs(towards_camera.y());
@@ -215,7 +226,10 @@ std::vector<std::uint32_t> sorted_indices(const Primitive& primitive) {
 }
 
 GpuScene::GpuScene(const Scene& scene)
-    : materials(scene.materials), light(scene.light), wind(scene.wind) {
+    : materials(scene.materials),
+      rover_model(scene.rover_model),
+      light(scene.light),
+      wind(scene.wind) {
   check_scene(scene);
   for (std::size_t i = 0; i < scene.textures.size(); ++i) {
     const Texture& texture = scene.textures[i];
@@ -228,7 +242,11 @@ GpuScene::GpuScene(const Scene& scene)
     models.push_back(add_model(geometry, model, scene.materials));
   }
   for (const Instance& instance : scene.instances) {
-    instances.push_back(place(instance, models[static_cast<std::size_t>(instance.model)]));
+    instances.push_back(place(instance.model, models[static_cast<std::size_t>(instance.model)],
+                              instance.T_world_model, static_cast<double>(instance.scale)));
+  }
+  if (rover_model >= 0) {
+    rover_corners = corners_of(scene.models[static_cast<std::size_t>(rover_model)]);
   }
   array_ = make_vertex_array();
   vertices_ = make_buffer(GL_ARRAY_BUFFER, geometry.vertices);

@@ -52,6 +52,9 @@ struct GpuInstance {
   double radius = 0;       ///< m
 };
 
+/// `scale` is the instance's.
+GpuInstance place(int model_index, const GpuModel& model, const Pose& T_world_model, double scale);
+
 /// The wires of a few metres of vineyard, which are in view together.
 struct WireChunk {
   Eigen::Vector3d centre;  ///< m, world frame
@@ -89,6 +92,8 @@ struct GpuScene {
   std::vector<Material> materials;
   std::vector<GpuModel> models;
   std::vector<GpuInstance> instances;
+  int rover_model = -1;
+  std::vector<Eigen::Vector3d> rover_corners;  ///< m, the rover's frame: its finest vertices
   std::vector<GpuWires> wires;
   Light light;
   Wind wind;

@@ -53,9 +53,14 @@ std::string name_of(Thing thing) {
 InstanceName instance_name(const Scene& scene, std::int32_t number) {
   if (number == 0) return {};
   const std::int64_t index = (static_cast<std::int64_t>(number) >> 8) - 1;
-  if (index < 0 || index >= static_cast<std::int64_t>(scene.instances.size())) {
-    fail("instance number {}: the scene has {} instances, expected 0 or 256 to {}", number,
-         scene.instances.size(), 256 * scene.instances.size() + 255);
+  const auto count = static_cast<std::int64_t>(scene.instances.size());
+  if (index == count && scene.rover_model >= 0) {
+    const Model& rover = scene.models.at(static_cast<std::size_t>(scene.rover_model));
+    return {Thing::kRover, -1, -1, number & 255, rover.name};
+  }
+  if (index < 0 || index >= count) {
+    fail("instance number {}: the scene has {} instances, expected 0 or 256 to {}", number, count,
+         256 * count + 255);
   }
   const Instance& instance = scene.instances[static_cast<std::size_t>(index)];
   const Model& model = scene.models.at(static_cast<std::size_t>(instance.model));

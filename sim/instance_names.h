@@ -28,7 +28,7 @@ std::string name_of(Thing thing);
 /// What a number of Picture::instances stands for.
 struct InstanceName {
   Thing thing = Thing::kNone;
-  int index = -1;     ///< into Scene::instances; -1 for kNone
+  int index = -1;     ///< into Scene::instances; -1 for kNone and kRover
   int id = -1;        ///< Instance::id: a vine's place in its world, a tag's place in the list
   int part = 0;       ///< from 1 on a bunch of a vine, counted within it
   std::string model;  ///< Model::name, such as a box's own

@@ -20,6 +20,7 @@ Painter::Painter(const Scene& scene, int shadow_map_size)
     : scene_(scene),
       shadow_map_(scene_, shadow_map_size),
       light_map_(scene_, shadow_map_, programs_, view_, shadow_map_size),
+      rover_shadow_(scene_, shadow_map_size),
       coarse_shadows_(make_coarse_depth_sampler()),
       sky_program_("sky", sky_vertex_shader(), sky_fragment_shader()),
       sky_(make_texture({sky_picture(scene.light, scene.seed)}, false)),
@@ -46,20 +47,23 @@ void Painter::clear(bool truth) const {
 
 void Painter::draw_meshes(const DrawList& list, bool terrain, bool truth) {
   int material_in_use = -1;
+  bool shaded_in_use = false;
   for (const DrawBatch& batch : list.batches) {
     const GpuModel& model = scene_.models[static_cast<std::size_t>(batch.model)];
     for (const GpuPrimitive& primitive :
          model.levels[static_cast<std::size_t>(batch.level)].primitives) {
       const Material& material = scene_.materials[static_cast<std::size_t>(primitive.material)];
       if (material.terrain != terrain) continue;
-      if (primitive.material != material_in_use) {
-        programs_.get(shader_of(material, truth))
-            .use_for(material, shadow_map_.texel(), ground_light_);
+      if (primitive.material != material_in_use || batch.shaded != shaded_in_use) {
+        MeshShader shader = shader_of(material, truth);
+        shader.rover = batch.shaded;
+        programs_.get(shader).use_for(material, shadow_map_.texel(), ground_light_);
         if (material.texture >= 0) {
           gl.BindTexture(GL_TEXTURE_2D,
                          scene_.textures[static_cast<std::size_t>(material.texture)].get());
         }
         material_in_use = primitive.material;
+        shaded_in_use = batch.shaded;
       }
       scene_.draw(primitive, batch.order, batch.first, batch.count);
     }
@@ -112,15 +116,40 @@ void Painter::draw_wires(const PinholeCamera& camera, const Pose& T_world_cam, b
   draw_wire_pieces(wire_truth_program_, wires);
 }
 
-void Painter::draw(const PinholeCamera& camera, const Pose& T_world_cam, double lod_scale,
+RoverInView Painter::cast_shadow(const PinholeCamera& camera, const Pose& T_world_cam,
+                                 const std::optional<Pose>& T_world_rover) {
+  RoverInView rover{T_world_rover, nullptr};
+  if (T_world_rover && rover_shadow_.cast(scene_, *T_world_rover, camera, T_world_cam)) {
+    rover.shadow = &rover_shadow_;
+  }
+  return rover;
+}
+
+void Painter::bind_maps() const {
+  bind_texture(kGroundLightUnit, light_map_.texture());
+  bind_texture(kShadowUnit, shadow_map_.texture());
+  bind_texture(kCoarseShadowUnit, shadow_map_.texture());
+  gl.BindSampler(kCoarseShadowUnit, coarse_shadows_.get());
+  bind_texture(kRoverShadowUnit, rover_shadow_.texture());
+  gl.ActiveTexture(GL_TEXTURE0 + kPictureUnit);
+}
+
+void Painter::draw(const GlTarget& target, const PinholeCamera& camera, const Pose& T_world_cam,
+                   const std::optional<Pose>& T_world_rover, double lod_scale,
                    const ViewSettings& settings, bool truth) {
+  const RoverInView rover = cast_shadow(camera, T_world_cam, T_world_rover);
+  target.bind();
   ViewBlock view = make_view_block(camera, T_world_cam, scene_.light, scene_.wind, settings);
   view.shadow_from_cam = (shadow_map_.map_from_world() * T_world_cam.matrix()).cast<float>();
+  if (rover.shadow != nullptr) {
+    view.rover_shadow_from_cam =
+        (rover_shadow_.map_from_world() * T_world_cam.matrix()).cast<float>();
+  }
   view.light_map = light_map_.map_from_world();
   view.lens.z() *= static_cast<float>(kSkyBrightest);
   view_.set(view);
   ground_light_ = LightMap::kBrightest * static_cast<double>(encoded(settings.exposure));
-  const DrawList list = make_draw_list(scene_, camera, T_world_cam, lod_scale);
+  const DrawList list = make_draw_list(scene_, camera, T_world_cam, lod_scale, rover);
   scene_.set_instances(list.rows);
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(GL_LEQUAL);
@@ -128,11 +157,7 @@ void Painter::draw(const PinholeCamera& camera, const Pose& T_world_cam, double 
   gl.FrontFace(GL_CW);
   gl.Disable(GL_BLEND);
   clear(truth);
-  bind_texture(kGroundLightUnit, light_map_.texture());
-  bind_texture(kShadowUnit, shadow_map_.texture());
-  bind_texture(kCoarseShadowUnit, shadow_map_.texture());
-  gl.BindSampler(kCoarseShadowUnit, coarse_shadows_.get());
-  gl.ActiveTexture(GL_TEXTURE0 + kPictureUnit);
+  bind_maps();
   draw_meshes(list, false, truth);
   draw_meshes(list, true, truth);
   gl.DrawBuffers(1, kTargets.data());

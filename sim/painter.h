@@ -6,19 +6,21 @@
 #include "sim/gpu_scene.h"
 #include "sim/light_map.h"
 #include "sim/mesh_programs.h"
+#include "sim/rover_shadow.h"
 #include "sim/shadow_map.h"
 #include "sim/view_block.h"
 #include "sim/visible_wires.h"
 
 namespace vinebench {
 
-/// Draws a scene into the bound target: what stands in it from near to far, then ground, sky and
+/// Draws a scene: what stands in it from near to far, then ground, sky and
 /// wires. Alpha becomes the label of what a pixel shows. Lives and dies in a current context.
 class Painter {
  public:
   Painter(const Scene& scene, int shadow_map_size);
-  /// `truth`: the target takes the truth too.
-  void draw(const PinholeCamera& camera, const Pose& T_world_cam, double lod_scale,
+  /// Binds the target and draws into it. `truth`: it takes the truth too.
+  void draw(const GlTarget& target, const PinholeCamera& camera, const Pose& T_world_cam,
+            const std::optional<Pose>& T_world_rover, double lod_scale,
             const ViewSettings& settings, bool truth);
 
  private:
@@ -27,6 +29,9 @@ class Painter {
   void draw_sky(const ViewBlock& view) const;
   void draw_wires(const PinholeCamera& camera, const Pose& T_world_cam, bool truth) const;
   void draw_wire_pieces(const GlProgram& program, const std::vector<VisibleWires>& wires) const;
+  RoverInView cast_shadow(const PinholeCamera& camera, const Pose& T_world_cam,
+                          const std::optional<Pose>& T_world_rover);
+  void bind_maps() const;
   MeshShader shader_of(const Material& material, bool truth) const;
 
   GpuScene scene_;
@@ -34,6 +39,7 @@ class Painter {
   MeshPrograms programs_;
   ShadowMap shadow_map_;
   LightMap light_map_;
+  RoverShadow rover_shadow_;
   GlSampler coarse_shadows_;  ///< for vertices
   GlProgram sky_program_;
   GlTexture sky_;

@@ -45,6 +45,23 @@ void linearise(cv::Mat& depth) {
   }
 }
 
+/// The rover's pixels go where it goes, with their points on it.
+void move_rover(const PinholeCamera& camera, const Pose& T_world_cam,
+                const Renderer::Request& request, const cv::Mat& depth, Picture& picture) {
+  const Pose other_from_this = *request.T_world_rover_other * request.T_world_rover->inverse();
+  for (int y = 0; y < depth.rows; ++y) {
+    const auto* labels = picture.labels.ptr<std::uint8_t>(y);
+    auto* motion = picture.motion.ptr<cv::Vec3f>(y);
+    for (int x = 0; x < depth.cols; ++x) {
+      if (labels[x] != static_cast<std::uint8_t>(Label::kRover)) continue;
+      const double z = static_cast<double>(depth.at<float>(y, x));
+      const Eigen::Vector3d p = T_world_cam * (z * camera.unproject({x, y}));
+      const Eigen::Vector3f moved = (other_from_this * p - p).cast<float>();
+      motion[x] = {moved.x(), moved.y(), moved.z()};
+    }
+  }
+}
+
 /// Bytes of instance number (low, middle, high) and part to Picture::instances.
 cv::Mat instance_numbers(const cv::Mat& bytes) {
   cv::Mat numbers(bytes.size(), CV_32SC1);
@@ -80,10 +97,14 @@ class Renderer::Impl {
     check_camera(camera);
     const bool truth = request.depth || request.instances || request.normals || request.motion;
     const CurrentContext current(*context_);
-    target(camera.width, camera.height, truth).bind();
-    painter_->draw(camera, T_world_cam, config_.lod_scale,
+    painter_->draw(target(camera.width, camera.height, truth), camera, T_world_cam,
+                   request.T_world_rover, config_.lod_scale,
                    {request.exposure, request.time, request.other_time}, truth);
     Picture picture = read(camera, request);
+    if (request.motion && request.T_world_rover && request.T_world_rover_other) {
+      const cv::Mat depth = request.depth ? picture.depth : read_depth(camera);
+      move_rover(camera, T_world_cam, request, depth, picture);
+    }
     check_gl("drawing a picture");
     const Eigen::Vector3d sun = light_.towards_sun.cast<double>();
     add_glare(picture.rgb, picture.labels, camera, T_world_cam.rotation.inverse() * sun, light_,
@@ -107,10 +128,7 @@ class Renderer::Impl {
     cv::Mat parts[] = {picture.rgb, picture.labels};
     constexpr int kFromTo[] = {0, 0, 1, 1, 2, 2, 3, 3};
     cv::mixChannels(&pixels_, 1, parts, 2, kFromTo, 4);
-    if (request.depth) {
-      read_pixels(0, size, GL_DEPTH_COMPONENT, GL_FLOAT, CV_32FC1, picture.depth);
-      linearise(picture.depth);
-    }
+    if (request.depth) picture.depth = read_depth(camera);
     if (request.instances) {
       read_pixels(1, size, GL_RGBA, GL_UNSIGNED_BYTE, CV_8UC4, pixels_);
       picture.instances = instance_numbers(pixels_);
@@ -118,6 +136,13 @@ class Renderer::Impl {
     if (request.normals) read_pixels(2, size, GL_RGB, GL_FLOAT, CV_32FC3, picture.normals);
     if (request.motion) read_pixels(3, size, GL_RGB, GL_FLOAT, CV_32FC3, picture.motion);
     return picture;
+  }
+
+  static cv::Mat read_depth(const PinholeCamera& camera) {
+    cv::Mat depth;
+    read_pixels(0, {camera.width, camera.height}, GL_DEPTH_COMPONENT, GL_FLOAT, CV_32FC1, depth);
+    linearise(depth);
+    return depth;
   }
 
   static void read_pixels(int attachment, const cv::Size& size, GLenum format, GLenum type,

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,12 +20,14 @@ struct Picture {
   cv::Mat rgb;     ///< CV_8UC3, RGB, top row first
   cv::Mat labels;  ///< CV_8UC1 of Label
   cv::Mat depth;   ///< CV_32FC1, z along the optical axis in m, 0 for sky
-  /// CV_32SC1: 256 * (index into Scene::instances + 1) + Vertex::part; 0 for sky and wires.
+  /// CV_32SC1: 256 * (index into Scene::instances + 1) + Vertex::part; 0 for sky and wires. The
+  /// rover counts as one more instance after the last.
   cv::Mat instances;
   /// CV_32FC3, unit, camera frame, towards the camera: of the triangles drawn, so that it fits
   /// depth; of a wire, its way to the camera. 0 for sky.
   cv::Mat normals;
-  /// CV_32FC3, m, world frame: where the wind takes this point from `time` to `other_time`.
+  /// CV_32FC3, m, world frame: where this point goes from `time` to `other_time`, by the wind or
+  /// with the rover.
   cv::Mat motion;
 };
 
@@ -67,6 +70,10 @@ class Renderer {
     double exposure = 1;    ///< all light is multiplied by this before it is encoded
     double time = 0;        ///< s, for what the wind moves
     double other_time = 0;  ///< s, for motion
+    /// Where Scene::rover_model stands; it is not there, and casts no shadow, where absent.
+    std::optional<Pose> T_world_rover = std::nullopt;
+    /// The same at other_time, for motion; it stays where absent.
+    std::optional<Pose> T_world_rover_other = std::nullopt;
   };
   Picture render(const PinholeCamera& camera, const Pose& T_world_cam, const Request& request);
 

@@ -118,6 +118,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Model> models;
   std::vector<Instance> instances;
+  int rover_model = -1;  ///< index into models of what Renderer::Request places; -1 for none
   std::vector<Wire> wires;
   Light light;
   Wind wind;

@@ -100,6 +100,9 @@ void check_scene(const Scene& scene) {
   for (const Material& material : scene.materials) check(material, scene);
   check_models(scene);
   for (std::size_t i = 0; i < scene.instances.size(); ++i) check(scene.instances[i], i, scene);
+  if (scene.rover_model != -1) {
+    check_index(scene.rover_model, scene.models.size(), "model", "the rover");
+  }
   for (std::size_t i = 0; i < scene.wires.size(); ++i) {
     const Wire& wire = scene.wires[i];
     const std::string where = fmt::format("wire {}", i);

@@ -20,7 +20,7 @@ class ShadowMap {
   double texel() const { return texel_; }  ///< m
 
  private:
-  void draw(const GpuScene& scene, const Eigen::Matrix4d& light_from_world);
+  void draw(const GpuScene& scene, const Eigen::Matrix4d& light);
 
   GlTexture texture_;
   Eigen::Matrix4d map_from_world_ = Eigen::Matrix4d::Identity();

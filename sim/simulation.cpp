@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "sim/driven_rover.h"
+#include "sim/rover_asset.h"
 #include "sim/truth.h"
 
 namespace vinebench {
@@ -36,7 +37,8 @@ class Simulation : public FrameSource {
       cameras_.emplace_back(config.sensors.camera, rig_.cameras[i], static_cast<int>(i), seed);
     }
     window_ = from_seconds(config.sensors.camera.half_window()) + timing_.longest_delay();
-    const Scene scene = build_scene(config.world, seed, cache);
+    Scene scene = build_scene(config.world, seed, cache);
+    add_rover(scene, config.rover.model);
     for (int i = 0; i < pool.threads(); ++i) renderers_.emplace_back(scene, config.renderer);
     const double route_seconds = to_seconds(rover_.route().duration());
     const double seconds = std::min(config.duration.value_or(route_seconds), route_seconds);

@@ -14,7 +14,7 @@ namespace {
 constexpr GLuint kViewBinding = 0;
 constexpr double kSwayAtOne = 0.006;  // m that a leaf at 1 m above ground sways in 1 m/s of wind
 
-static_assert(sizeof(ViewBlock) == 4 * 64 + 10 * 16, "std140 has no padding between these");
+static_assert(sizeof(ViewBlock) == 5 * 64 + 10 * 16, "std140 has no padding between these");
 
 Eigen::Vector4f extended(const Eigen::Vector3f& v, float w = 0) {
   return {v.x(), v.y(), v.z(), w};

@@ -17,6 +17,7 @@ struct ViewBlock {
   Eigen::Matrix4f cam_from_world = Eigen::Matrix4f::Identity();
   Eigen::Matrix4f world_from_cam = Eigen::Matrix4f::Identity();
   Eigen::Matrix4f shadow_from_cam = Eigen::Matrix4f::Identity();
+  Eigen::Matrix4f rover_shadow_from_cam = Eigen::Matrix4f::Identity();
   Eigen::Vector4f towards_sun = Eigen::Vector4f::Zero();  ///< camera frame
   Eigen::Vector4f up = Eigen::Vector4f::Zero();           ///< camera frame
   Eigen::Vector4f sun = Eigen::Vector4f::Zero();

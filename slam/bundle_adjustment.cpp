@@ -123,7 +123,7 @@ class Adjustment {
           map_.keyframe(o.keyframe).frame->views[static_cast<std::size_t>(o.view)];
       const PixelMeasurement m = rig_.measurement(view, o.feature);
       errors_.emplace_back(rig_.eyes[static_cast<std::size_t>(o.view)], m);
-      problem_.AddResidualBlock(&errors_.back(), &huber_, pose_of(o.keyframe), point);
+      problem_.AddResidualBlock(&errors_.back(), &cauchy_, pose_of(o.keyframe), point);
       terms_.push_back({landmark.id, o, &errors_.back(), chi_squared_limit(m)});
     }
   }
@@ -159,7 +159,8 @@ class Adjustment {
   const EstimatorRig& rig_;
   AdjustmentOptions options_;
   PoseManifold manifold_;
-  ceres::HuberLoss huber_{std::sqrt(kChiSquared2)};
+  ceres::CauchyLoss cauchy_{kCauchyScale};
+  ceres::HuberLoss huber_{std::sqrt(kChiSquared2)};  ///< of tags
   std::vector<PoseBlock> poses_;
   std::vector<std::size_t> pose_index_;  ///< by keyframe id
   std::vector<int> landmark_ids_;

@@ -7,8 +7,8 @@
 namespace vinebench {
 
 EstimatorRig::EstimatorRig(const StereoRig& stereo_rig, const OrbConfig& features,
-                           const RefinementConfig& refine)
-    : rig(stereo_rig), refinement(refine) {
+                           const RefinementConfig& refine, const StereoConfig& stereo_config)
+    : rig(stereo_rig), refinement(refine), stereo(stereo_config) {
   for (const StereoEye& pair : rig.pairs) {
     eyes.push_back({pair.lens, pair.T_cam_body, pair.baseline});
     T_body_cams.push_back(pair.T_body_cam);
@@ -32,6 +32,7 @@ PixelMeasurement EstimatorRig::measurement(const StereoView& view, int feature) 
   if (view.is_placed(f)) {
     m.right_sigma *= std::hypot(refinement.sigma, refinement.disparity_sigma);
     m.sigma *= refinement.sigma;
+    m.tolerance = refinement.tolerance;
   }
   if (view.stereo[f].depth > 0) m.right_x = view.stereo[f].x_right;
   return m;

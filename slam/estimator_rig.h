@@ -14,7 +14,7 @@ namespace vinebench {
 /// What every stage of the estimator needs to know of cameras and noise, derived once.
 struct EstimatorRig {
   EstimatorRig(const StereoRig& rig, const OrbConfig& features,
-               const RefinementConfig& refinement = {});
+               const RefinementConfig& refinement = {}, const StereoConfig& stereo = {});
 
   StereoRig rig;
   std::vector<EyeModel> eyes;      ///< left eye of each pair
@@ -23,6 +23,7 @@ struct EstimatorRig {
   /// Pixels of level 0 to a pixel of each pyramid level: the standard deviation of a corner there.
   std::vector<double> level_scales;
   RefinementConfig refinement;
+  StereoConfig stereo;
 
   /// The measurement that a feature is: its pixel, its stereo match where it has one, its noise.
   PixelMeasurement measurement(const StereoView& view, int feature) const;

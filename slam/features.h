@@ -28,6 +28,15 @@ inline int hamming_distance(const Descriptor& a, const Descriptor& b) {
   return distance;
 }
 
+/// Pixels of level 0 to those of a level whose pixel is `pixel` of them large, and back: the
+/// corners of the pictures coincide, not the centres of their first pixels.
+inline double to_level(double v, double pixel) {
+  return (v + 0.5) / pixel - 0.5;
+}
+inline double from_level(double v, double pixel) {
+  return (v + 0.5) * pixel - 0.5;
+}
+
 /// What was extracted from one picture; keypoint i has descriptor i.
 struct Features {
   std::vector<Keypoint> keypoints;

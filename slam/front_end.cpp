@@ -101,6 +101,7 @@ void FrontEnd::match(FrameFeatures& features, StageTimes& times) {
     }
     view.features = std::move(left.features);
     features.pyramids[p] = std::move(left.pyramid);
+    features.right_pyramids[p] = std::move(right_pyramids_[p]);
     view.grid = FeatureGrid(view.features.keypoints, pair.lens.width, pair.lens.height);
     spent[p] = milliseconds_since(start);
   });
@@ -115,6 +116,7 @@ std::shared_ptr<FrameFeatures> FrontEnd::process(const Frame& frame, StageTimes&
   features->stamp = frame.stamp;
   features->views.resize(rig_.pairs.size());
   features->pyramids.resize(rig_.pairs.size());
+  features->right_pyramids.resize(rig_.pairs.size());
   extract(frame, times);
   match(*features, times);
   for (const std::vector<TagSighting>& seen : sightings_) {

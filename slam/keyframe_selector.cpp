@@ -12,7 +12,7 @@ namespace {
 int count_new(const TrackedFrame& tracked) {
   int count = 0;
   for (std::size_t v = 0; v < tracked.associations.size(); ++v) {
-    for (std::size_t f = 0; f < tracked.associations[v].size(); ++f) {
+    for (std::size_t f = 0; f < tracked.frame->views[v].detected(); ++f) {
       count += tracked.associations[v][f] < 0 && tracked.frame->views[v].stereo[f].depth > 0;
     }
   }

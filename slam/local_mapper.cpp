@@ -28,7 +28,7 @@ int LocalMapper::insert(const TrackedFrame& tracked, Map& map) const {
     const StereoView& view = tracked.frame->views[v];
     for (std::size_t f = 0; f < view.features.size(); ++f) {
       int landmark = map.keyframe(id).landmarks[v][f];
-      if (landmark < 0 && view.stereo[f].depth > 0) {
+      if (landmark < 0 && f < view.detected() && view.stereo[f].depth > 0) {
         const Eigen::Vector3d p_map = rig_.stereo_point(
             view, static_cast<int>(v), static_cast<int>(f), tracked.motion.T_map_body);
         landmark = map.add_landmark(p_map, {id, static_cast<int>(v), static_cast<int>(f)});

@@ -8,9 +8,10 @@
 namespace vinebench {
 namespace {
 
-/// The earliest keyframe that saw the tag, and how it saw it.
+/// The earliest keyframe of this run that saw the tag, and how it saw it.
 const TagSighting* first_sighting(const Map& map, const TagSighting& tag, int& keyframe_id) {
   for (const Keyframe& keyframe : map.keyframes()) {
+    if (keyframe.inherited()) continue;
     for (const TagSighting& sighting : keyframe.frame->tags) {
       if (sighting.family == tag.family && sighting.id == tag.id) {
         keyframe_id = keyframe.id;
@@ -78,6 +79,15 @@ void LoopCloser::remember_visit(const TagSighting& sighting, Stamp stamp, double
 Pose LoopCloser::T_body_tag(const TagSighting& sighting) const {
   return rig_.rig.cameras[static_cast<std::size_t>(sighting.camera)].T_body_cam *
          sighting.T_cam_tag;
+}
+
+void LoopCloser::take_over(const Map& map) {
+  for (const MapTag& tag : map.tags()) {
+    for (const RegisteredTag& known : registered_) {
+      const bool same = known.family == tag.family && known.id == tag.id;
+      if (same && tag.fixed) T_map_world_ = tag.T_map_tag * known.T_world_tag.inverse();
+    }
+  }
 }
 
 std::optional<Pose> LoopCloser::world_pose(const std::vector<TagSighting>& sightings) const {

@@ -20,6 +20,9 @@ class LoopCloser {
   LoopCloser(const SlamConfig& config, const EstimatorRig& rig, std::vector<RegisteredTag> tags)
       : config_(config), rig_(rig), registered_(std::move(tags)) {}
 
+  /// Takes from a map that was loaded how it lies in the world.
+  void take_over(const Map& map);
+
   /// The body's pose in the world by the first registered tag among the sightings, if any.
   std::optional<Pose> world_pose(const std::vector<TagSighting>& sightings) const;
 

@@ -28,6 +28,10 @@ struct StereoView {
   /// where none does.
   std::vector<char> placed;
 
+  /// How many features at the end were not detected but followed by their landmark's patch.
+  std::size_t followed = 0;
+
+  std::size_t detected() const { return features.size() - followed; }
   bool is_placed(std::size_t feature) const { return !placed.empty() && placed[feature] != 0; }
 };
 
@@ -38,8 +42,9 @@ struct FrameFeatures {
   Stamp stamp = 0;
   std::vector<StereoView> views;  ///< of each pair of the StereoRig
   std::vector<TagSighting> tags;
-  /// Left pyramid of each pair, while the frame is being tracked; dropped afterwards.
+  /// Left and right pyramid of each pair, while the frame is being tracked; dropped afterwards.
   std::vector<std::vector<cv::Mat>> pyramids;
+  std::vector<std::vector<cv::Mat>> right_pyramids;
 };
 
 /// Landmark of each feature of each view, -1 for none.
@@ -55,6 +60,9 @@ struct Keyframe {
   Associations landmarks;
   std::vector<std::vector<std::optional<Patch>>> patches;  ///< of each feature of each view
   std::map<int, int> covisible;  ///< keyframe id to the number of landmarks both see
+
+  /// Whether it came with a map that was loaded: frames of earlier runs have negative indices.
+  bool inherited() const { return frame->index < 0; }
 };
 
 /// One feature of one keyframe.

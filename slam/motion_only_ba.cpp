@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/motion_only_ba.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <deque>
+
+#include "slam/robust_loss.h"
 
 namespace vinebench {
 namespace {
@@ -12,18 +14,17 @@ namespace {
 struct Match {
   Match(std::size_t v, std::size_t f, const EyeModel& eye, const PixelMeasurement& m,
         const Eigen::Vector3d& p)
-      : view(v), feature(f), p_map(p), limit(chi_squared_limit(m)), error(eye, m, p) {}
+      : view(v), feature(f), p_map(p), limit(chi_squared_limit(m)), error(eye, m) {}
 
   std::size_t view;
   std::size_t feature;
   Eigen::Vector3d p_map;
   double limit;
-  ReprojectionError error;
+  Reprojection error;
   bool inlier = true;
 };
 
-/// A deque: cost functions stay where they are.
-using Matches = std::deque<Match>;
+using Matches = std::vector<Match>;
 
 Matches gather(const Map& map, const FrameFeatures& frame, const EstimatorRig& rig,
                const Associations& associations) {
@@ -38,29 +39,60 @@ Matches gather(const Map& map, const FrameFeatures& frame, const EstimatorRig& r
   return matches;
 }
 
-Pose adjust(Matches& matches, const Pose& start) {
-  PoseBlock block = to_block(start);
-  PoseManifold manifold;
-  ceres::HuberLoss huber(std::sqrt(kChiSquared2));
-  ceres::Problem::Options ownership;
-  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ownership.disable_all_safety_checks = true;
-  ceres::Problem problem(ownership);
-  problem.AddParameterBlock(block.data(), 7, &manifold);
-  for (Match& match : matches) {
-    if (match.inlier) problem.AddResidualBlock(&match.error, &huber, block.data());
+/// Normal equations of the robust least squares about a pose.
+struct NormalEquations {
+  Matrix6d H = Matrix6d::Zero();
+  Vector6d g = Vector6d::Zero();
+};
+
+NormalEquations linearise(const Matches& matches, const Pose& pose, const RobustLoss& loss) {
+  NormalEquations sum;
+  for (const Match& match : matches) {
+    if (!match.inlier) continue;
+    const Reprojection::Linearised at = match.error.linearise(pose, match.p_map);
+    const double weight = loss.weight(at.residual.squaredNorm());
+    sum.H += weight * at.by_pose.transpose() * at.by_pose;
+    sum.g += weight * at.by_pose.transpose() * at.residual;
   }
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = 10;
-  options.function_tolerance = 1e-5;
-  options.num_threads = 1;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
-  return from_block(block.data());
+  return sum;
+}
+
+double cost(const Matches& matches, const Pose& pose, const RobustLoss& loss) {
+  double sum = 0;
+  for (const Match& match : matches) {
+    if (match.inlier)
+      sum += loss.cost(match.error.linearise(pose, match.p_map).residual.squaredNorm());
+  }
+  return sum;
+}
+
+/// Levenberg-Marquardt on six numbers: small enough that a general solver's bookkeeping would cost
+/// ten times the work itself.
+Pose adjust(const Matches& matches, Pose pose, const RobustLoss& loss, Matrix6d& information) {
+  constexpr int kMaxIterations = 12;
+  constexpr double kEnough = 1e-6;  // relative decrease
+  double damping = 1e-5;
+  double now = cost(matches, pose, loss);
+  for (int i = 0; i < kMaxIterations; ++i) {
+    const NormalEquations normal = linearise(matches, pose, loss);
+    information = normal.H;
+    Matrix6d damped = normal.H;
+    damped.diagonal() *= 1 + damping;
+    damped.diagonal().array() += 1e-9;
+    const Pose tried = step_pose(pose, damped.ldlt().solve(-normal.g));
+    const double then = cost(matches, tried, loss);
+    if (then <= now) {
+      pose = tried;
+      const bool enough = now - then <= kEnough * now;
+      now = then;
+      damping = std::max(1e-9, damping / 10);
+      if (enough) break;
+    } else {
+      damping = std::max(1e-4, damping * 10);
+      if (damping > 1e6) break;
+    }
+  }
+  return pose;
 }
 
 int classify(Matches& matches, const Pose& T_map_body) {
@@ -107,9 +139,10 @@ MotionEstimate estimate_motion(const Map& map, const FrameFeatures& frame, const
     return estimate;
   }
 
-  constexpr int kRounds = 3;
-  for (int round = 0; round < kRounds; ++round) {
-    estimate.T_map_body = adjust(matches, estimate.T_map_body);
+  const RobustLoss far = RobustLoss::huber(std::sqrt(kChiSquared2));
+  const RobustLoss near = RobustLoss::cauchy(kCauchyScale);
+  for (const RobustLoss& loss : {far, near, near}) {
+    estimate.T_map_body = adjust(matches, estimate.T_map_body, loss, estimate.information);
     estimate.inliers = classify(matches, estimate.T_map_body);
     if (estimate.inliers < 6) break;
   }
@@ -117,7 +150,7 @@ MotionEstimate estimate_motion(const Map& map, const FrameFeatures& frame, const
   const std::vector<char> doubtful = doubtful_views(estimate, min_inlier_share);
   if (std::find(doubtful.begin(), doubtful.end(), 1) != doubtful.end()) {
     for (Match& match : matches) match.inlier &= !doubtful[match.view];
-    estimate.T_map_body = adjust(matches, estimate.T_map_body);
+    estimate.T_map_body = adjust(matches, estimate.T_map_body, near, estimate.information);
     estimate.inliers = classify(matches, estimate.T_map_body);
     for (Match& match : matches) {
       estimate.inliers -= match.inlier && doubtful[match.view];

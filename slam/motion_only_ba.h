@@ -11,6 +11,9 @@ namespace vinebench {
 
 struct MotionEstimate {
   Pose T_map_body;
+  /// Inverse covariance of the pose against the landmarks, in the step of PoseManifold (body frame:
+  /// m, then rad), from the robust weights of the last round. Zero where there was none.
+  Matrix6d information = Matrix6d::Zero();
   int inliers = 0;
   std::vector<int> matches_per_view;
   std::vector<int> inliers_per_view;

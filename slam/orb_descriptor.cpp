@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <vector>
 
@@ -14,24 +15,41 @@ namespace vinebench {
 namespace {
 
 constexpr int kDiscRadius = 15;
+constexpr int kDiscColumns = 32;  ///< a round number for the processor, one more than the disc has
 constexpr int kBits = 256;
 constexpr int kTurns = 128;  ///< directions for which the pattern is tabulated, 2.8 deg apart
 constexpr double kPatternSigma = 6.2;  ///< px; a fifth of the patch's side, BRIEF's best
 
-/// Half-width of the disc in the row `dy` from its centre.
-std::array<int, kDiscRadius + 1> disc_rows() {
-  std::array<int, kDiscRadius + 1> half{};
-  for (int dy = 0; dy <= kDiscRadius; ++dy) {
-    half[static_cast<std::size_t>(dy)] =
+/// One row of the disc: weights of 32 pixels from 15 left of the centre on, 0 outside of the disc.
+struct DiscRow {
+  std::array<std::int16_t, kDiscColumns> one;     ///< 1 inside
+  std::array<std::int16_t, kDiscColumns> across;  ///< x from the centre, inside
+};
+
+std::array<DiscRow, 2 * kDiscRadius + 1> disc_rows() {
+  std::array<DiscRow, 2 * kDiscRadius + 1> rows{};
+  for (int dy = -kDiscRadius; dy <= kDiscRadius; ++dy) {
+    const int reach =
         static_cast<int>(std::sqrt((kDiscRadius + 0.5) * (kDiscRadius + 0.5) - dy * dy));
+    DiscRow& row = rows[static_cast<std::size_t>(dy + kDiscRadius)];
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const auto i = static_cast<std::size_t>(dx + kDiscRadius);
+      row.one[i] = 1;
+      row.across[i] = static_cast<std::int16_t>(dx);
+    }
   }
-  return half;
+  return rows;
 }
 
-/// A comparison of two places about the keypoint, px.
-struct Pair {
-  std::int8_t ax, ay, bx, by;
+constexpr int kPatchRadius = kOrbReach;
+constexpr int kPatchSide = 2 * kPatchRadius + 1;
+constexpr int kPatchPitch = 48;  ///< bytes from a row of the copied surroundings to the next
+
+/// A comparison of two places in the copied surroundings of a keypoint.
+struct Comparison {
+  std::uint16_t a, b;
 };
+/// The same about the keypoint, px.
 struct RealPair {
   double ax, ay, bx, by;
 };
@@ -65,36 +83,39 @@ class TurnedPatterns {
       const double angle = 2 * std::numbers::pi * turn / kTurns;
       const double c = std::cos(angle);
       const double s = std::sin(angle);
-      const auto round8 = [](double v) { return static_cast<std::int8_t>(std::lround(v)); };
+      const auto place = [&](double x, double y) {
+        const auto column = kPatchRadius + std::lround(c * x - s * y);
+        const auto row = kPatchRadius + std::lround(s * x + c * y);
+        return static_cast<std::uint16_t>(row * kPatchPitch + column);
+      };
       std::transform(pattern.begin(), pattern.end(),
                      turned_[static_cast<std::size_t>(turn)].begin(), [&](const RealPair& p) {
-                       return Pair{round8(c * p.ax - s * p.ay), round8(s * p.ax + c * p.ay),
-                                   round8(c * p.bx - s * p.by), round8(s * p.bx + c * p.by)};
+                       return Comparison{place(p.ax, p.ay), place(p.bx, p.by)};
                      });
     }
   }
-  const std::array<Pair, kBits>& nearest(float angle) const {
+  const std::array<Comparison, kBits>& nearest(float angle) const {
     const auto turn = std::lround(angle * (kTurns / (2 * std::numbers::pi)));
     return turned_[static_cast<std::size_t>((turn % kTurns + kTurns) % kTurns)];
   }
 
  private:
-  std::array<std::array<Pair, kBits>, kTurns> turned_;
+  std::array<std::array<Comparison, kBits>, kTurns> turned_;
 };
 
 }  // namespace
 
 float centroid_angle(const cv::Mat& picture, int x, int y) {
-  static const std::array<int, kDiscRadius + 1> half = disc_rows();
+  static const auto rows = disc_rows();
   int moment_x = 0;
   int moment_y = 0;
   for (int dy = -kDiscRadius; dy <= kDiscRadius; ++dy) {
-    const std::uint8_t* row = picture.ptr<std::uint8_t>(y + dy) + x;
-    const int reach = half[static_cast<std::size_t>(std::abs(dy))];
+    const std::uint8_t* grey = picture.ptr<std::uint8_t>(y + dy) + x - kDiscRadius;
+    const DiscRow& row = rows[static_cast<std::size_t>(dy + kDiscRadius)];
     int sum = 0;
-    for (int dx = -reach; dx <= reach; ++dx) {
-      sum += row[dx];
-      moment_x += dx * row[dx];
+    for (std::size_t i = 0; i < kDiscColumns; ++i) {
+      sum += row.one[i] * grey[i];
+      moment_x += row.across[i] * grey[i];
     }
     moment_y += dy * sum;
   }
@@ -103,18 +124,19 @@ float centroid_angle(const cv::Mat& picture, int x, int y) {
 
 Descriptor rotated_brief(const cv::Mat& smoothed, int x, int y, float angle) {
   static const TurnedPatterns patterns;
-  const std::uint8_t* centre = smoothed.ptr<std::uint8_t>(y) + x;
-  const auto step = static_cast<std::ptrdiff_t>(smoothed.step[0]);
-  const std::array<Pair, kBits>& pattern = patterns.nearest(angle);
-  Descriptor descriptor{};
-  for (std::size_t word = 0; word < descriptor.size(); ++word) {
-    std::uint64_t bits = 0;
-    for (std::size_t bit = 0; bit < 64; ++bit) {
-      const Pair& p = pattern[word * 64 + bit];
-      const bool darker = centre[p.ay * step + p.ax] < centre[p.by * step + p.bx];
-      bits |= static_cast<std::uint64_t>(darker) << bit;
+  // Copied together, every place has one offset whatever the picture's width.
+  std::array<std::uint8_t, kPatchSide * kPatchPitch> patch;
+  for (int row = 0; row < kPatchSide; ++row) {
+    std::memcpy(&patch[static_cast<std::size_t>(row * kPatchPitch)],
+                smoothed.ptr<std::uint8_t>(y - kPatchRadius + row) + x - kPatchRadius, kPatchSide);
+  }
+  const Comparison* next = patterns.nearest(angle).data();
+  Descriptor descriptor;
+  for (std::uint64_t& word : descriptor) {
+    word = 0;
+    for (int bit = 0; bit < 64; ++bit, ++next) {
+      word += word + static_cast<std::uint64_t>(patch[next->a] < patch[next->b]);
     }
-    descriptor[word] = bits;
   }
   return descriptor;
 }

@@ -8,11 +8,12 @@
 
 namespace vinebench {
 
-/// How far from a keypoint its direction and its descriptor look, px of its level.
+/// How far from a keypoint its direction and its descriptor look, px of its level: so much of the
+/// picture must lie around it.
 constexpr int kOrbReach = 17;
 
 /// Direction of the intensity centroid of a disc 31 px across (Rosin 1999; Rublee et al. 2011),
-/// rad from the x axis towards the y axis (down). The disc must lie in the picture.
+/// rad from the x axis towards the y axis (down).
 float centroid_angle(const cv::Mat& picture, int x, int y);
 
 /// 256 comparisons of two pixels each in a smoothed picture, their places turned by `angle`

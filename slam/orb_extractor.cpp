@@ -8,6 +8,7 @@
 #include "slam/base/error.h"
 #include "slam/fast_cells.h"
 #include "slam/orb_descriptor.h"
+#include "slam/smoothing.h"
 #include "slam/square_covering.h"
 
 namespace vinebench {
@@ -45,9 +46,7 @@ std::vector<cv::Mat> build_pyramid(const cv::Mat& grey, int levels, double scale
 void describe(const cv::Mat& picture, int level, double scale, const std::vector<Corner>& corners,
               Features& features) {
   if (corners.empty()) return;
-  cv::Mat smoothed;
-  cv::GaussianBlur(picture, smoothed, cv::Size(7, 7), 2, 2,
-                   cv::BORDER_REFLECT_101 | cv::BORDER_ISOLATED);
+  const cv::Mat smoothed = smooth(picture);
   for (const Corner& corner : corners) {
     Keypoint keypoint;
     keypoint.x = static_cast<float>((corner.x + 0.5) * scale - 0.5);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/patch.h"
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -11,8 +10,9 @@
 namespace vinebench {
 namespace {
 
-constexpr int kInner = PatchWarp::kRadius;  // gradients need one pixel around
-constexpr int kPixels = PatchWarp::kSide * PatchWarp::kSide;
+constexpr int kSide = PatchWindow::kSide;
+constexpr int kArea = PatchWindow::kArea;
+constexpr int kBordered = kSide + 2;  // gradients need one pixel around
 constexpr int kMaxSteps = 8;
 constexpr float kConverged = 0.01F;  // px
 constexpr float kMaxRun = 2.0F;      // px
@@ -20,14 +20,16 @@ constexpr float kMaxRun = 2.0F;      // px
 /// leaves 2 sqrt(2) / sqrt(8 * 81) = 0.1 px.
 constexpr float kMinTexture = 8;
 
+using Window = std::array<float, kArea>;
+
 /// Bilinear interpolation; the caller keeps the point inside.
-float sample(const cv::Mat& picture, float x, float y) {
+float sample(const std::uint8_t* grey, std::size_t step, float x, float y) {
   const int column = static_cast<int>(x);
   const int row = static_cast<int>(y);
   const float fx = x - static_cast<float>(column);
   const float fy = y - static_cast<float>(row);
-  const std::uint8_t* a = picture.ptr<std::uint8_t>(row) + column;
-  const std::uint8_t* b = picture.ptr<std::uint8_t>(row + 1) + column;
+  const std::uint8_t* a = grey + static_cast<std::size_t>(row) * step + column;
+  const std::uint8_t* b = a + step;
   const float above = static_cast<float>(a[0]) + fx * static_cast<float>(a[1] - a[0]);
   const float below = static_cast<float>(b[0]) + fx * static_cast<float>(b[1] - b[0]);
   return above + fy * (below - above);
@@ -37,88 +39,72 @@ bool inside(const cv::Mat& picture, double x, double y, double reach) {
   return x >= reach && y >= reach && x + reach < picture.cols - 1 && y + reach < picture.rows - 1;
 }
 
-/// The patch's inner pixels, mean removed, with their gradients.
-struct Template {
-  std::array<float, kPixels> grey;
-  std::array<Eigen::Vector2f, kPixels> gradient;
-  Eigen::Matrix2f normal = Eigen::Matrix2f::Zero();
-  float contrast = 0;
-
-  explicit Template(const Patch& patch) {
-    const auto at = [&](int dx, int dy) {
-      return static_cast<float>(patch.grey[static_cast<std::size_t>(
-          (dy + Patch::kRadius) * Patch::kSide + dx + Patch::kRadius)]);
-    };
-    float mean = 0;
-    Eigen::Vector2f mean_gradient = Eigen::Vector2f::Zero();
-    std::size_t i = 0;
-    for (int dy = -kInner; dy <= kInner; ++dy) {
-      for (int dx = -kInner; dx <= kInner; ++dx, ++i) {
-        grey[i] = at(dx, dy);
-        gradient[i] = 0.5F * Eigen::Vector2f(at(dx + 1, dy) - at(dx - 1, dy),
-                                             at(dx, dy + 1) - at(dx, dy - 1));
-        mean += grey[i];
-        mean_gradient += gradient[i];
-      }
-    }
-    mean /= kPixels;
-    mean_gradient /= kPixels;
-    for (i = 0; i < kPixels; ++i) {
-      grey[i] -= mean;
-      contrast += std::abs(grey[i]) / kPixels;
-      gradient[i] -= mean_gradient;
-      normal += gradient[i] * gradient[i].transpose();
-    }
-  }
-
-  /// The smaller eigenvalue of the normal matrix tells how well the weaker direction is held.
-  bool can_be_placed() const {
-    const float half_trace = 0.5F * normal.trace();
-    const float root = std::sqrt(std::max(0.0F, half_trace * half_trace - normal.determinant()));
-    return half_trace - root > kMinTexture * kPixels;
-  }
-};
-
-/// The picture's pixels under the warped patch, mean removed.
-void read_window(const cv::Mat& picture, const PatchWarp& warp, const Eigen::Vector2f& centre,
-                 std::array<float, kPixels>& window) {
+float remove_mean(Window& window) {
   float mean = 0;
-  for (std::size_t i = 0; i < kPixels; ++i) {
-    const Eigen::Vector2f at = centre + warp.offset[i];
-    window[i] = sample(picture, at.x(), at.y());
-    mean += window[i];
-  }
-  mean /= kPixels;
-  for (float& grey : window) grey -= mean;
+  for (const float value : window) mean += value;
+  mean /= kArea;
+  for (float& value : window) value -= mean;
+  return mean;
 }
 
-/// How far the warped patch reaches from its centre, px.
-double reach_of(const PatchWarp& warp) {
-  float reach = 0;
-  for (const Eigen::Vector2f& offset : warp.offset) {
-    reach = std::max(reach, offset.lpNorm<Eigen::Infinity>());
+/// The patch as the picture shows it, with a border of one pixel. False where it does not reach.
+bool resample(const Patch& patch, const Eigen::Matrix3d& H_picture_patch,
+              std::array<float, kBordered * kBordered>& bordered) {
+  const Eigen::Vector2d centre = H_picture_patch.col(2).hnormalized();
+  Eigen::Matrix3d shift = Eigen::Matrix3d::Identity();
+  shift.topRightCorner<2, 1>() = centre;
+  const Eigen::Matrix3f back = (H_picture_patch.inverse() * shift).cast<float>();
+  constexpr auto kReach = static_cast<float>(Patch::kRadius);
+  std::size_t i = 0;
+  for (int dy = -kBordered / 2; dy <= kBordered / 2; ++dy) {
+    for (int dx = -kBordered / 2; dx <= kBordered / 2; ++dx, ++i) {
+      const auto x = static_cast<float>(dx);
+      const auto y = static_cast<float>(dy);
+      const float w = 1 / (back(2, 0) * x + back(2, 1) * y + back(2, 2));
+      const float px = (back(0, 0) * x + back(0, 1) * y + back(0, 2)) * w + kReach;
+      const float py = (back(1, 0) * x + back(1, 1) * y + back(1, 2)) * w + kReach;
+      if (!(px >= 0 && py >= 0 && px < 2 * kReach && py < 2 * kReach)) return false;
+      bordered[i] = sample(patch.grey.data(), Patch::kSide, px, py);
+    }
   }
-  return static_cast<double>(reach) + 1;
+  return true;
+}
+
+/// How well the weaker direction is held: the smaller eigenvalue of the normal matrix.
+bool can_be_placed(const Eigen::Matrix2f& normal) {
+  const float half_trace = 0.5F * normal.trace();
+  const float root = std::sqrt(std::max(0.0F, half_trace * half_trace - normal.determinant()));
+  return half_trace - root > kMinTexture * kArea;
+}
+
+/// The picture's pixels about a point, mean removed. All of them lie at one fraction of a pixel.
+void read_window(const cv::Mat& picture, const Eigen::Vector2f& centre, Window& window) {
+  const float left = centre.x() - PatchWindow::kRadius;
+  const float top = centre.y() - PatchWindow::kRadius;
+  const int column = static_cast<int>(left);
+  const int row = static_cast<int>(top);
+  const float fx = left - static_cast<float>(column);
+  const float fy = top - static_cast<float>(row);
+  std::array<float, kSide> above;
+  std::array<float, kSide> below;
+  const auto blend = [&](int r, std::array<float, kSide>& line) {
+    const std::uint8_t* grey = picture.ptr<std::uint8_t>(r) + column;
+    for (std::size_t i = 0; i < kSide; ++i) {
+      const auto a = static_cast<float>(grey[i]);
+      line[i] = a + fx * (static_cast<float>(grey[i + 1]) - a);
+    }
+  };
+  blend(row, above);
+  for (int y = 0; y < kSide; ++y) {
+    blend(row + y + 1, below);
+    float* line = window.data() + y * kSide;
+    for (std::size_t i = 0; i < kSide; ++i) line[i] = above[i] + fy * (below[i] - above[i]);
+    above = below;
+  }
+  remove_mean(window);
 }
 
 }  // namespace
-
-PatchWarp make_warp(const Eigen::Matrix3d& H) {
-  PatchWarp warp;
-  const auto map = [&](double x, double y) -> Eigen::Vector2d {
-    return (H * Eigen::Vector3d(x, y, 1)).hnormalized();
-  };
-  const Eigen::Vector2d centre = map(0, 0);
-  std::size_t i = 0;
-  for (int dy = -kInner; dy <= kInner; ++dy) {
-    for (int dx = -kInner; dx <= kInner; ++dx, ++i) {
-      warp.offset[i] = (map(dx, dy) - centre).cast<float>();
-    }
-  }
-  warp.jacobian.col(0) = (0.5 * (map(1, 0) - map(-1, 0))).cast<float>();
-  warp.jacobian.col(1) = (0.5 * (map(0, 1) - map(0, -1))).cast<float>();
-  return warp;
-}
 
 std::optional<Patch> cut_patch(const cv::Mat& picture, double x, double y) {
   if (!inside(picture, x, y, Patch::kRadius)) return std::nullopt;
@@ -127,37 +113,72 @@ std::optional<Patch> cut_patch(const cv::Mat& picture, double x, double y) {
   for (int dy = -Patch::kRadius; dy <= Patch::kRadius; ++dy) {
     for (int dx = -Patch::kRadius; dx <= Patch::kRadius; ++dx, ++i) {
       patch.grey[i] = static_cast<std::uint8_t>(
-          std::lround(sample(picture, static_cast<float>(x + dx), static_cast<float>(y + dy))));
+          std::lround(sample(picture.ptr<std::uint8_t>(), picture.step[0],
+                             static_cast<float>(x + dx), static_cast<float>(y + dy))));
     }
   }
   return patch;
 }
 
-std::optional<PatchFit> fit_patch(const Patch& patch, const PatchWarp& warp, const cv::Mat& picture,
-                                  double x, double y) {
-  const Template t(patch);
-  if (!t.can_be_placed()) return std::nullopt;
-  const Eigen::Matrix2f step_of = warp.jacobian * t.normal.inverse();
-  const double reach = reach_of(warp);
+std::optional<PatchWindow> warp_patch(const Patch& patch, const Eigen::Matrix3d& H_picture_patch) {
+  std::array<float, kBordered * kBordered> bordered;
+  if (!resample(patch, H_picture_patch, bordered)) return std::nullopt;
+  PatchWindow window;
+  std::size_t i = 0;
+  for (std::size_t y = 1; y <= kSide; ++y) {
+    const float* row = bordered.data() + y * kBordered;
+    for (std::size_t x = 1; x <= kSide; ++x, ++i) {
+      window.grey[i] = row[x];
+      window.gradient_x[i] = 0.5F * (row[x + 1] - row[x - 1]);
+      window.gradient_y[i] = 0.5F * (row[x + kBordered] - row[x - kBordered]);
+    }
+  }
+  remove_mean(window.grey);
+  remove_mean(window.gradient_x);
+  remove_mean(window.gradient_y);
+  float xx = 0;
+  float xy = 0;
+  float yy = 0;
+  for (i = 0; i < kArea; ++i) {
+    window.contrast += std::abs(window.grey[i]);
+    xx += window.gradient_x[i] * window.gradient_x[i];
+    xy += window.gradient_x[i] * window.gradient_y[i];
+    yy += window.gradient_y[i] * window.gradient_y[i];
+  }
+  window.contrast /= kArea;
+  window.normal << xx, xy, xy, yy;
+  if (!can_be_placed(window.normal)) return std::nullopt;
+  return window;
+}
+
+std::optional<PatchFit> fit_patch(const PatchWindow& wanted, const cv::Mat& picture, double x,
+                                  double y) {
+  constexpr double kReach = PatchWindow::kRadius + 1;
+  const Eigen::Matrix2f step_of = wanted.normal.inverse();
   const Eigen::Vector2f start(static_cast<float>(x), static_cast<float>(y));
   Eigen::Vector2f centre = start;
-  std::array<float, kPixels> window;
+  Window window;
   for (int step = 0; step < kMaxSteps; ++step) {
-    if (!inside(picture, centre.x(), centre.y(), reach)) return std::nullopt;
-    read_window(picture, warp, centre, window);
-    Eigen::Vector2f right_side = Eigen::Vector2f::Zero();
-    for (std::size_t i = 0; i < kPixels; ++i) right_side += t.gradient[i] * (window[i] - t.grey[i]);
-    const Eigen::Vector2f delta = step_of * right_side;
+    if (!inside(picture, centre.x(), centre.y(), kReach)) return std::nullopt;
+    read_window(picture, centre, window);
+    float along_x = 0;
+    float along_y = 0;
+    for (std::size_t i = 0; i < kArea; ++i) {
+      const float difference = window[i] - wanted.grey[i];
+      along_x += wanted.gradient_x[i] * difference;
+      along_y += wanted.gradient_y[i] * difference;
+    }
+    const Eigen::Vector2f delta = step_of * Eigen::Vector2f(along_x, along_y);
     centre -= delta;
     if (!((centre - start).norm() < kMaxRun)) return std::nullopt;
     if (delta.norm() < kConverged) break;
   }
-  if (!inside(picture, centre.x(), centre.y(), reach)) return std::nullopt;
-  read_window(picture, warp, centre, window);
+  if (!inside(picture, centre.x(), centre.y(), kReach)) return std::nullopt;
+  read_window(picture, centre, window);
   float difference = 0;
-  for (std::size_t i = 0; i < kPixels; ++i) difference += std::abs(window[i] - t.grey[i]) / kPixels;
+  for (std::size_t i = 0; i < kArea; ++i) difference += std::abs(window[i] - wanted.grey[i]);
   return PatchFit{static_cast<double>(centre.x()), static_cast<double>(centre.y()),
-                  static_cast<double>(difference), static_cast<double>(t.contrast)};
+                  static_cast<double>(difference / kArea), static_cast<double>(wanted.contrast)};
 }
 
 }  // namespace vinebench

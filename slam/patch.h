@@ -12,7 +12,8 @@ namespace vinebench {
 
 /// Grey levels around a feature, on its own pyramid level: what the landmark looks like.
 struct Patch {
-  static constexpr int kRadius = 5;
+  /// More than the window that is compared, so that it can be seen from nearer, farther and aslant.
+  static constexpr int kRadius = 8;
   static constexpr int kSide = 2 * kRadius + 1;
   std::array<std::uint8_t, kSide * kSide> grey{};
 };
@@ -20,31 +21,35 @@ struct Patch {
 /// Cuts the patch about (x, y) px out of a CV_8UC1 picture; none where it leaves the picture.
 std::optional<Patch> cut_patch(const cv::Mat& picture, double x, double y);
 
+/// What another picture is compared with: a 9 x 9 px window of it as the patch says that it looks.
+struct PatchWindow {
+  static constexpr int kRadius = 4;
+  static constexpr int kSide = 2 * kRadius + 1;
+  static constexpr int kArea = kSide * kSide;
+  std::array<float, kArea> grey;        ///< mean removed
+  std::array<float, kArea> gradient_x;  ///< grey levels a px, mean removed
+  std::array<float, kArea> gradient_y;
+  Eigen::Matrix2f normal;  ///< sum of products of the gradients
+  float contrast = 0;      ///< grey levels, mean absolute deviation
+};
+
+/// The window that a homography (patch pixels, the patch's centre at (0, 0), to picture pixels)
+/// makes of the patch, about where its centre comes to lie. None where the window shows more than
+/// the patch, or has too little texture to be placed.
+std::optional<PatchWindow> warp_patch(const Patch& patch, const Eigen::Matrix3d& H_picture_patch);
+
 /// Where a patch was found.
 struct PatchFit {
   double x = 0;  ///< px
   double y = 0;
   double difference = 0;  ///< grey levels, mean absolute difference there, brightness aside
-  double contrast = 0;    ///< grey levels, mean absolute deviation of the patch
+  double contrast = 0;    ///< grey levels, mean absolute deviation of the window
 };
 
-/// How a patch's surroundings appear in another picture: where its inner pixels come to lie against
-/// its centre (px there, row by row), and the mean Jacobian of that map.
-struct PatchWarp {
-  static constexpr int kRadius = Patch::kRadius - 1;
-  static constexpr int kSide = 2 * kRadius + 1;
-  std::array<Eigen::Vector2f, kSide * kSide> offset;
-  Eigen::Matrix2f jacobian;
-};
-
-/// The warp of a homography (patch pixels, its centre at (0, 0), to picture pixels).
-PatchWarp make_warp(const Eigen::Matrix3d& H_picture_patch);
-
-/// Finds the patch near (x, y) of another CV_8UC1 picture, warped as told: shift and brightness by
-/// Gauss-Newton steps with the patch's own gradients (inverse compositional: Baker and Matthews,
-/// "Lucas-Kanade 20 years on", 2004). None where it has too little texture to be placed, leaves the
-/// picture or runs away by more than two pixels.
-std::optional<PatchFit> fit_patch(const Patch& patch, const PatchWarp& warp, const cv::Mat& picture,
-                                  double x, double y);
+/// Finds the window near (x, y) of a CV_8UC1 picture: shift and brightness by Gauss-Newton steps
+/// with the window's own gradients (inverse compositional: Baker and Matthews, "Lucas-Kanade 20
+/// years on", 2004). None where it leaves the picture or runs away by more than two pixels.
+std::optional<PatchFit> fit_patch(const PatchWindow& window, const cv::Mat& picture, double x,
+                                  double y);
 
 }  // namespace vinebench

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/pipeline.h"
 
+#include <numbers>
+
+#include "slam/base/error.h"
 #include "slam/keyframe_selector.h"
 
 namespace vinebench {
@@ -14,22 +17,45 @@ constexpr int kMinFirstPoints = 100;
 /// places.
 constexpr double kTagKeyframeDistance = 0.05;  // m
 
+/// Whether a loaded map knows the place as well as a new keyframe would.
+bool is_covered(const TrackedFrame& tracked, const Map& map, const KeyframeConfig& config) {
+  if (tracked.motion.inliers < config.min_inliers) return false;
+  for (const Keyframe& keyframe : map.keyframes()) {
+    if (!keyframe.inherited()) return false;  // they come first
+    const Pose step = keyframe.T_map_body.inverse() * tracked.motion.T_map_body;
+    if (step.translation.norm() <= config.distance &&
+        angle_of(step.rotation) <= config.angle_deg * std::numbers::pi / 180) {
+      return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
                    const std::vector<RegisteredTag>& tags)
     : config_(config),
-      rig_(rig, config.features, config.refinement),
+      rig_(rig, config.features, config.refinement, config.stereo),
       map_(config.features.scale),
       tracker_(config.tracking, rig_),
       mapper_(config, rig_),
       loop_closer_(config, rig_, tags) {}
 
+void Pipeline::continue_from(Map map) {
+  if (!map_.keyframes().empty()) fail("a map can be loaded before the first frame only");
+  map_ = std::move(map);
+  loop_closer_.take_over(map_);
+}
+
 Estimate Pipeline::process(const std::shared_ptr<FrameFeatures>& frame) {
-  TrackedFrame tracked = started_ ? track(frame) : initialise(frame);
+  TrackedFrame tracked = started_                   ? track(frame)
+                         : map_.keyframes().empty() ? initialise(frame)
+                                                    : relocalise(frame);
   Estimate estimate = report(tracked);
   if (tracked.tracked && wants_new_keyframe(tracked)) map_keyframe(tracked, estimate);
   frame->pyramids.clear();
+  frame->right_pyramids.clear();
   if (!tracked.tracked) return estimate;
   loop_closer_.note(*frame, tracker_.T_map_body(), path_length_, map_);
   remember(frame->stamp);
@@ -49,6 +75,7 @@ SlamSummary Pipeline::finish() {
         {record.stamp, map_.keyframe(record.keyframe).T_map_body * record.T_keyframe_body});
   }
   for (const Keyframe& keyframe : map_.keyframes()) {
+    if (keyframe.inherited()) continue;
     summary.keyframes.push_back({keyframe.frame->stamp, keyframe.T_map_body});
   }
   summary.landmarks = map_.count_landmarks(config_.mapping.min_observations);
@@ -76,6 +103,25 @@ TrackedFrame Pipeline::initialise(const std::shared_ptr<FrameFeatures>& frame) {
   return tracked;
 }
 
+/// Where in a loaded map the body is: by a tag that the map knows, else by the looks of the place.
+/// Either must be borne out by tracking from there.
+TrackedFrame Pipeline::relocalise(const std::shared_ptr<FrameFeatures>& frame) {
+  const ScopedTimer timer(times_, "relocalisation");
+  std::optional<Pose> T_map_body = loop_closer_.map_pose(frame->tags, map_);
+  if (!T_map_body) T_map_body = relocaliser_.find(map_, rig_, *frame);
+  if (T_map_body) {
+    tracker_.start(*T_map_body, frame->stamp);
+    TrackedFrame tracked = tracker_.track(frame, map_);
+    started_ = tracked.tracked;
+    return tracked;
+  }
+  TrackedFrame tracked;
+  tracked.frame = frame;
+  tracked.motion.matches_per_view.assign(frame->views.size(), 0);
+  tracked.motion.inliers_per_view.assign(frame->views.size(), 0);
+  return tracked;
+}
+
 TrackedFrame Pipeline::track(const std::shared_ptr<FrameFeatures>& frame) {
   const ScopedTimer timer(times_, "tracking");
   const Pose before = tracker_.T_map_body();
@@ -94,6 +140,9 @@ TrackedFrame Pipeline::track(const std::shared_ptr<FrameFeatures>& frame) {
 
 bool Pipeline::wants_new_keyframe(const TrackedFrame& tracked) const {
   if (!started_) return true;
+  if (is_covered(tracked, map_, config_.keyframes)) {
+    return loop_closer_.sees_loop(*tracked.frame, path_length_);
+  }
   const Keyframe& last = map_.keyframes().back();
   const double moved = (last.T_map_body.translation - tracked.motion.T_map_body.translation).norm();
   const bool tag_from_elsewhere = !tracked.frame->tags.empty() && moved > kTagKeyframeDistance;

@@ -12,6 +12,7 @@
 #include "slam/local_mapper.h"
 #include "slam/loop_closer.h"
 #include "slam/map.h"
+#include "slam/relocaliser.h"
 #include "slam/tracker.h"
 
 namespace vinebench {
@@ -24,10 +25,15 @@ class Pipeline {
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
+  /// Goes on with a map of an earlier run, once a frame has found its place in it. Call before the
+  /// first frame.
+  void continue_from(Map map);
+
   Estimate process(const std::shared_ptr<FrameFeatures>& frame);
   SlamSummary finish();
 
   const Map& map() const { return map_; }
+  const EstimatorRig& rig() const { return rig_; }
   StageTimes& times() { return times_; }
   const StageTimes& times() const { return times_; }
 
@@ -40,6 +46,7 @@ class Pipeline {
   };
 
   TrackedFrame initialise(const std::shared_ptr<FrameFeatures>& frame);
+  TrackedFrame relocalise(const std::shared_ptr<FrameFeatures>& frame);
   TrackedFrame track(const std::shared_ptr<FrameFeatures>& frame);
   bool wants_new_keyframe(const TrackedFrame& tracked) const;
   void map_keyframe(const TrackedFrame& tracked, Estimate& estimate);
@@ -52,6 +59,7 @@ class Pipeline {
   Tracker tracker_;
   LocalMapper mapper_;
   LoopCloser loop_closer_;
+  Relocaliser relocaliser_;
   StageTimes times_;
   std::vector<FrameRecord> records_;
   double path_length_ = 0;  ///< m

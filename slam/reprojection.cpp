@@ -59,12 +59,13 @@ Pose from_block(const double* b) {
   return {Eigen::Quaterniond(b[3], b[0], b[1], b[2]).normalized(), {b[4], b[5], b[6]}};
 }
 
+Pose step_pose(const Pose& pose, const Vector6d& step) {
+  return {(pose.rotation * exp_so3(step.tail<3>())).normalized(),
+          pose.translation + pose.rotation * step.head<3>()};
+}
+
 bool PoseManifold::Plus(const double* x, const double* delta, double* x_plus_delta) const {
-  const Pose pose = from_block(x);
-  const Eigen::Map<const Eigen::Vector3d> rho(delta);
-  const Eigen::Map<const Eigen::Vector3d> theta(delta + 3);
-  const Pose stepped{(pose.rotation * exp_so3(theta)).normalized(),
-                     pose.translation + pose.rotation * rho};
+  const Pose stepped = step_pose(from_block(x), Eigen::Map<const Vector6d>(delta));
   std::ranges::copy(to_block(stepped), x_plus_delta);
   return true;
 }
@@ -91,19 +92,12 @@ bool PoseManifold::MinusJacobian(const double*, double* jacobian) const {
 }
 
 ReprojectionError::ReprojectionError(const EyeModel& eye, const PixelMeasurement& measurement)
-    : eye_(&eye), measurement_(measurement) {
+    : reprojection_(eye, measurement) {
   set_num_residuals(measurement.size());
   *mutable_parameter_block_sizes() = {7, 3};
 }
 
-ReprojectionError::ReprojectionError(const EyeModel& eye, const PixelMeasurement& measurement,
-                                     const Eigen::Vector3d& p_map)
-    : eye_(&eye), measurement_(measurement), fixed_point_(p_map) {
-  set_num_residuals(measurement.size());
-  *mutable_parameter_block_sizes() = {7};
-}
-
-Eigen::Vector3d ReprojectionError::residual_at(const Eigen::Vector3d& p_cam) const {
+Eigen::Vector3d Reprojection::residual_at(const Eigen::Vector3d& p_cam) const {
   const Eigen::Vector2d pixel = eye_->lens.project(p_cam);
   const double right_x = pixel.x() - eye_->lens.fx * eye_->baseline / p_cam.z();
   return {
@@ -112,37 +106,42 @@ Eigen::Vector3d ReprojectionError::residual_at(const Eigen::Vector3d& p_cam) con
       measurement_.right_x ? (right_x - *measurement_.right_x) / measurement_.right_sigma : 0.0};
 }
 
-bool ReprojectionError::Evaluate(double const* const* parameters, double* residuals,
-                                 double** jacobians) const {
-  const Pose T_map_body = from_block(parameters[0]);
-  const Eigen::Vector3d p_map =
-      fixed_point_ ? *fixed_point_
-                   : Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(parameters[1]));
-  const Matrix3d R_body_map = T_map_body.rotation.toRotationMatrix().transpose();
-  const Eigen::Vector3d p_body = R_body_map * (p_map - T_map_body.translation);
+Reprojection::Linearised Reprojection::linearise(const Pose& T_map_body,
+                                                 const Eigen::Vector3d& p_map) const {
+  const Eigen::Vector3d p_body = T_map_body.rotation.conjugate() * (p_map - T_map_body.translation);
   const Matrix3d R_cam_body = eye_->T_cam_body.rotation.toRotationMatrix();
   Eigen::Vector3d p_cam = R_cam_body * p_body + eye_->T_cam_body.translation;
   // A point that a step threw behind the eye keeps a large, finite error that pulls it back.
   p_cam.z() = std::max(p_cam.z(), kMinDepth);
-  const Eigen::Vector3d r = residual_at(p_cam);
-  std::copy_n(r.data(), num_residuals(), residuals);
-  if (jacobians == nullptr) return true;
-
   const Eigen::Vector3d weights(1 / measurement_.sigma, 1 / measurement_.sigma,
-                                1 / measurement_.right_sigma);
-  const Matrix3d J_body = weights.asDiagonal() * projection_jacobian(*eye_, p_cam) * R_cam_body;
+                                measurement_.right_x ? 1 / measurement_.right_sigma : 0);
+  Linearised result;
+  result.residual = residual_at(p_cam);
+  result.by_point_in_body = weights.asDiagonal() * projection_jacobian(*eye_, p_cam) * R_cam_body;
+  result.by_pose = result.by_point_in_body * body_point_jacobian(p_body);
+  return result;
+}
+
+bool ReprojectionError::Evaluate(double const* const* parameters, double* residuals,
+                                 double** jacobians) const {
+  const Pose T_map_body = from_block(parameters[0]);
+  const Eigen::Map<const Eigen::Vector3d> p_map(parameters[1]);
+  const Reprojection::Linearised at = reprojection_.linearise(T_map_body, p_map);
+  std::copy_n(at.residual.data(), num_residuals(), residuals);
+  if (jacobians == nullptr) return true;
   if (jacobians[0] != nullptr) {
     RowMajor37 J = RowMajor37::Zero();
-    J.leftCols<6>() = J_body * body_point_jacobian(p_body);
+    J.leftCols<6>() = at.by_pose;
     copy_rows(J, num_residuals(), jacobians[0]);
   }
-  if (!fixed_point_ && jacobians[1] != nullptr) {
-    copy_rows(Matrix3d(J_body * R_body_map), num_residuals(), jacobians[1]);
+  if (jacobians[1] != nullptr) {
+    const Matrix3d R_body_map = T_map_body.rotation.toRotationMatrix().transpose();
+    copy_rows(Matrix3d(at.by_point_in_body * R_body_map), num_residuals(), jacobians[1]);
   }
   return true;
 }
 
-double ReprojectionError::chi_squared(const Pose& T_map_body, const Eigen::Vector3d& p_map) const {
+double Reprojection::chi_squared(const Pose& T_map_body, const Eigen::Vector3d& p_map) const {
   const Eigen::Vector3d p_cam = eye_->T_cam_body * (T_map_body.inverse() * p_map);
   if (p_cam.z() < kMinDepth) return std::numeric_limits<double>::infinity();
   return residual_at(p_cam).squaredNorm();

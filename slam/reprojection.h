@@ -18,9 +18,12 @@ using PoseBlock = std::array<double, 7>;
 PoseBlock to_block(const Pose& pose);
 Pose from_block(const double* block);
 
-/// Steps a PoseBlock in the body's own frame: p <- p + R rho, R <- R exp(theta), with the step
-/// (rho, theta). Cost functions give their Jacobian for that step in the first six columns of the
-/// block and zero in the seventh, which the plus-Jacobian of this manifold takes over as they are.
+/// The pose after a step (rho, theta) in the body's own frame: p + R rho, R exp(theta).
+Pose step_pose(const Pose& pose, const Vector6d& step);
+
+/// Steps a PoseBlock as step_pose does. Cost functions give their Jacobian for that step in the
+/// first six columns of the block and zero in the seventh, which the plus-Jacobian of this manifold
+/// takes over as they are.
 class PoseManifold : public ceres::Manifold {
  public:
   int AmbientSize() const override { return 7; }
@@ -45,34 +48,55 @@ struct PixelMeasurement {
   std::optional<double> right_x;
   double sigma = 1;        ///< px
   double right_sigma = 1;  ///< px, of the column in the right eye
+  /// Errors beyond the 95 % of this many times the standard deviation are outliers.
+  double tolerance = 1;
   int size() const { return right_x ? 3 : 2; }
 };
 
 /// Reprojection error of one map point in one eye, Eq. (2), (3) and (5): residuals in standard
-/// deviations (two for the pixel, a third for the column in the right eye).
-///
-/// Parameters: the body's pose (7) and, unless the point is held fixed, the point (3). The same
-/// error serves motion-only, local and global bundle adjustment.
-class ReprojectionError : public ceres::CostFunction {
+/// deviations, two for the pixel, a third for the column in the right eye. The same error serves
+/// tracking, motion-only, local and global bundle adjustment.
+class Reprojection {
  public:
-  /// The point is a parameter.
-  ReprojectionError(const EyeModel& eye, const PixelMeasurement& measurement);
-  /// The point is held at `p_map`.
-  ReprojectionError(const EyeModel& eye, const PixelMeasurement& measurement,
-                    const Eigen::Vector3d& p_map);
+  /// Keeps a pointer to the eye.
+  Reprojection(const EyeModel& eye, const PixelMeasurement& measurement)
+      : eye_(&eye), measurement_(measurement) {}
 
-  bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override;
+  /// Residuals (zero where there is no third) and their derivatives by the step of step_pose, for
+  /// a point in the map.
+  struct Linearised {
+    Eigen::Vector3d residual;
+    Eigen::Matrix<double, 3, 6> by_pose;
+    Eigen::Matrix3d by_point_in_body;  ///< by the point in the body frame
+  };
+  Linearised linearise(const Pose& T_map_body, const Eigen::Vector3d& p_map) const;
 
   /// Squared norm of the residuals for that pose and point; infinite behind the eye.
   double chi_squared(const Pose& T_map_body, const Eigen::Vector3d& p_map) const;
+
+  int size() const { return measurement_.size(); }
 
  private:
   Eigen::Vector3d residual_at(const Eigen::Vector3d& p_cam) const;
 
   const EyeModel* eye_;
   PixelMeasurement measurement_;
-  std::optional<Eigen::Vector3d> fixed_point_;
+};
+
+/// The same as a cost function of Ceres: parameters are the body's pose (7) and the point (3).
+class ReprojectionError : public ceres::CostFunction {
+ public:
+  ReprojectionError(const EyeModel& eye, const PixelMeasurement& measurement);
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+  double chi_squared(const Pose& T_map_body, const Eigen::Vector3d& p_map) const {
+    return reprojection_.chi_squared(T_map_body, p_map);
+  }
+
+ private:
+  Reprojection reprojection_;
 };
 
 /// Reprojection error of a tag's corner: parameters are the body's pose (7) and the tag's (7).
@@ -95,7 +119,14 @@ inline constexpr double kChiSquared2 = 5.991;
 inline constexpr double kChiSquared3 = 7.815;
 
 inline double chi_squared_limit(const PixelMeasurement& measurement) {
-  return measurement.right_x ? kChiSquared3 : kChiSquared2;
+  const double limit = measurement.right_x ? kChiSquared3 : kChiSquared2;
+  return limit * measurement.tolerance * measurement.tolerance;
 }
+
+/// Loss of a reprojection error near the solution, in standard deviations. The errors of patches
+/// have long tails, since some straddle a stem and the ground behind it, and those tails point one
+/// way: what lies behind moves less. Huber's loss, which the paper uses, lets each of them pull as
+/// hard as a good one; this one lets go of them.
+inline constexpr double kCauchyScale = 1;
 
 }  // namespace vinebench

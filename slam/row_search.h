@@ -14,7 +14,9 @@ struct RowSearch {
 };
 
 /// Looks for the 16 x 11 px window about (x, y) of `from` on the same row of `in`, with its centre
-/// in the columns [first, last]. Both CV_8UC1 of one size.
-RowSearch search_row(const cv::Mat& from, int x, int y, const cv::Mat& in, int first, int last);
+/// in the columns [first, last]. Both CV_8UC1 of one size. A rival matters where its sum is at most
+/// `rivalry` times the best: `second` is exact there, and INT_MAX stands for any other.
+RowSearch search_row(const cv::Mat& from, int x, int y, const cv::Mat& in, int first, int last,
+                     double rivalry = 1e9);
 
 }  // namespace vinebench

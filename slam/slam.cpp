@@ -3,17 +3,21 @@
 #include "slam/slam.h"
 
 #include "slam/front_end.h"
+#include "slam/map_file.h"
 #include "slam/pipeline.h"
+#include "slam/point_cloud.h"
 
 namespace vinebench {
 namespace {
 
 /// Pictures to features to poses, in lockstep.
-class MulticameraSlam : public SlamSystem {
+class MulticameraSlam : public MappingSystem {
  public:
   MulticameraSlam(const SlamConfig& config, const StereoRig& rig,
                   const std::vector<RegisteredTag>& tags, WorkerPool& pool)
-      : front_end_(config, rig, tags, pool), pipeline_(config, rig, tags) {}
+      : front_end_(config, rig, tags, pool),
+        pipeline_(config, rig, tags),
+        min_observations_(config.mapping.min_observations) {}
 
   Estimate process(const Frame& frame) override {
     return pipeline_.process(front_end_.process(frame, pipeline_.times()));
@@ -21,15 +25,26 @@ class MulticameraSlam : public SlamSystem {
   SlamSummary finish() override { return pipeline_.finish(); }
   const StageTimes& times() const override { return pipeline_.times(); }
 
+  void load_map(const std::filesystem::path& file) override {
+    pipeline_.continue_from(vinebench::load_map(file, pipeline_.rig()));
+  }
+  void save_map(const std::filesystem::path& file) const override {
+    vinebench::save_map(pipeline_.map(), pipeline_.rig(), file);
+  }
+  void save_cloud(const std::filesystem::path& file) const override {
+    save_point_cloud(pipeline_.map(), min_observations_, file);
+  }
+
  private:
   FrontEnd front_end_;
   Pipeline pipeline_;
+  int min_observations_;
 };
 
 }  // namespace
 
-std::unique_ptr<SlamSystem> make_slam(const SlamConfig& config, const Rig& rig,
-                                      std::vector<RegisteredTag> tags, WorkerPool& pool) {
+std::unique_ptr<MappingSystem> make_slam(const SlamConfig& config, const Rig& rig,
+                                         std::vector<RegisteredTag> tags, WorkerPool& pool) {
   validate(config);
   return std::make_unique<MulticameraSlam>(config, make_stereo_rig(rig, config.cameras), tags,
                                            pool);

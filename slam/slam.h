@@ -6,20 +6,38 @@
 /// mapping, tag detection and loop closing over a rig of any number of stereo pairs. It is given
 /// frames, the rig and the poses of registered tags, and nothing else.
 
+#include <filesystem>
 #include <memory>
 #include <vector>
 
+#include "slam/base/error.h"
 #include "slam/base/rig.h"
 #include "slam/base/slam_system.h"
+#include "slam/base/trajectory.h"
 #include "slam/base/worker_pool.h"
 #include "slam/config.h"
 
 namespace vinebench {
 
+/// A SLAM system whose map outlives it.
+class MappingSystem : public SlamSystem {
+ public:
+  /// Goes on with a map that save_map wrote, once a frame has found its place in it, by a tag or by
+  /// its looks; until then the status is kInitializing. Call before the first frame. Throws Error
+  /// when the file is no map, damaged, or of another rig.
+  virtual void load_map(const std::filesystem::path& file) = 0;
+
+  /// Writes the map as it is now. Throws Error with the system's reason.
+  virtual void save_map(const std::filesystem::path& file) const = 0;
+
+  /// Writes the landmarks as a point cloud in PLY format. Throws Error with the system's reason.
+  virtual void save_cloud(const std::filesystem::path& file) const = 0;
+};
+
 /// The lockstep SLAM system: everything that a frame starts is finished before its estimate is
 /// returned, and the result does not depend on the pool's number of threads. Throws Error for a rig
 /// that it cannot use (no stereo pair, two eyes that look different ways, an unknown camera name).
-std::unique_ptr<SlamSystem> make_slam(const SlamConfig& config, const Rig& rig,
-                                      std::vector<RegisteredTag> tags, WorkerPool& pool);
+std::unique_ptr<MappingSystem> make_slam(const SlamConfig& config, const Rig& rig,
+                                         std::vector<RegisteredTag> tags, WorkerPool& pool);
 
 }  // namespace vinebench

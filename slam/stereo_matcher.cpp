@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "slam/base/error.h"
-#include "slam/patch_alignment.h"
 #include "slam/row_search.h"
 
 namespace vinebench {
@@ -23,12 +22,12 @@ struct LevelPair {
 
 /// Whole disparity of the window about (x, y), or -1 where it is not unique or not mutual.
 int search_disparity(const LevelPair& level, int x, int y, double uniqueness) {
-  const RowSearch there =
-      search_row(level.left, x, y, level.right, x - level.max_disparity, x + kReturnTolerance);
+  const RowSearch there = search_row(level.left, x, y, level.right, x - level.max_disparity,
+                                     x + kReturnTolerance, uniqueness);
   if (there.column < 0 || there.best * uniqueness > there.second) return -1;
   const RowSearch back =
       search_row(level.right, there.column, y, level.left, there.column - kReturnTolerance,
-                 there.column + level.max_disparity);
+                 there.column + level.max_disparity, 0);
   const bool mutual = back.column >= 0 && std::abs(back.column - x) <= kReturnTolerance;
   return mutual ? std::max(0, x - there.column) : -1;
 }
@@ -60,9 +59,7 @@ std::vector<StereoMatch> match_stereo(const Extraction& left,
         search_disparity({left.pyramid[l], right_pyramid[l], farthest}, x, y, config.uniqueness);
     if (whole < 0) continue;
     const auto aligned = align_patch(left.pyramid[l], right_pyramid[l], x, y, whole);
-    if (!aligned) continue;
-    const double limit = config.noise + config.max_residual * aligned->contrast;
-    if (aligned->difference > limit) continue;
+    if (!aligned || !config.accepts(*aligned)) continue;
     const double disparity = aligned->shift * scale;
     if (disparity <= 0) continue;
     const double depth = focal_baseline / disparity;

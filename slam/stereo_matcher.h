@@ -8,6 +8,7 @@
 #include "slam/base/camera.h"
 #include "slam/base/yaml.h"
 #include "slam/orb_extractor.h"
+#include "slam/patch_alignment.h"
 
 namespace vinebench {
 
@@ -20,6 +21,11 @@ struct StereoConfig {
   /// towards the nearer one.
   double max_residual = 0.2;
   double noise = 1.5;  ///< grey levels, difference that the sensor's noise alone explains
+
+  /// Whether aligned windows show the same thing.
+  bool accepts(const PatchAlignment& aligned) const {
+    return aligned.difference <= noise + max_residual * aligned.contrast;
+  }
   template <class Archive>
   void serialize(Archive& archive) {
     archive("max_depth_baselines", max_depth_baselines, Range::positive());

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "slam/match_refiner.h"
+#include "slam/patch_follower.h"
 #include "slam/projection_matcher.h"
 
 namespace vinebench {
@@ -104,9 +105,8 @@ void Tracker::match_near(const Map& map, const std::vector<int>& landmarks,
   }
 }
 
-void Tracker::match_local_map(const Map& map, TrackedFrame& tracked) const {
-  const std::vector<int> local = local_landmarks(
-      map, landmark_ids(tracked.associations), tracked.motion.T_map_body, config_.local_keyframes);
+void Tracker::match_local_map(const Map& map, const std::vector<int>& local,
+                              TrackedFrame& tracked) const {
   match_by_projection(map, local, *tracked.frame, tracked.motion.T_map_body, rig_,
                       {config_.local_radius, config_.max_hamming, config_.second_best},
                       tracked.associations);
@@ -125,10 +125,17 @@ TrackedFrame Tracker::track(std::shared_ptr<FrameFeatures> frame, const Map& map
   tracked.motion = estimate_motion(map, *tracked.frame, tracked.motion.T_map_body, rig_,
                                    config_.min_inlier_share, tracked.associations);
   if (tracked.motion.inliers >= config_.min_inliers / 2) {
-    match_local_map(map, tracked);
+    const std::vector<int> local =
+        local_landmarks(map, landmark_ids(tracked.associations), tracked.motion.T_map_body,
+                        config_.local_keyframes);
+    match_local_map(map, local, tracked);
     tracked.motion = estimate_motion(map, *tracked.frame, tracked.motion.T_map_body, rig_,
                                      config_.min_inlier_share, tracked.associations);
     refine_matches(map, tracked.motion.T_map_body, rig_, *tracked.frame, tracked.associations);
+    tracked.motion = estimate_motion(map, *tracked.frame, tracked.motion.T_map_body, rig_,
+                                     config_.min_inlier_share, tracked.associations);
+    follow_patches(map, local, tracked.motion.T_map_body, rig_, *tracked.frame,
+                   tracked.associations);
     tracked.motion = estimate_motion(map, *tracked.frame, tracked.motion.T_map_body, rig_,
                                      config_.min_inlier_share, tracked.associations);
   }

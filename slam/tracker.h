@@ -45,7 +45,7 @@ class Tracker {
  private:
   Pose predict(Stamp stamp) const;
   void match_near(const Map& map, const std::vector<int>& landmarks, TrackedFrame& tracked) const;
-  void match_local_map(const Map& map, TrackedFrame& tracked) const;
+  void match_local_map(const Map& map, const std::vector<int>& local, TrackedFrame& tracked) const;
   void judge(TrackedFrame& tracked);
 
   TrackingConfig config_;

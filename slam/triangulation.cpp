@@ -22,7 +22,7 @@ std::vector<Candidate> candidates(const Keyframe& keyframe, std::size_t v,
   const StereoView& view = keyframe.frame->views[v];
   const Eigen::Quaterniond R_map_cam = keyframe.T_map_body.rotation * rig.T_body_cams[v].rotation;
   std::vector<Candidate> result;
-  for (std::size_t f = 0; f < view.features.size(); ++f) {
+  for (std::size_t f = 0; f < view.detected(); ++f) {
     if (keyframe.landmarks[v][f] >= 0 || view.stereo[f].depth > 0) continue;
     const PixelMeasurement m = rig.measurement(view, static_cast<int>(f));
     result.push_back(
@@ -71,8 +71,8 @@ std::vector<EpipolarMatch> match_epipolar(const Keyframe& a, const Keyframe& b, 
       if (distance >= best) continue;
       const auto p_map = intersect_rays(p_a, candidate.direction, p_b, other.direction);
       if (!p_map) continue;
-      const ReprojectionError in_a(rig.eyes[v], candidate.measurement);
-      const ReprojectionError in_b(rig.eyes[v], other.measurement);
+      const Reprojection in_a(rig.eyes[v], candidate.measurement);
+      const Reprojection in_b(rig.eyes[v], other.measurement);
       if (in_a.chi_squared(a.T_map_body, *p_map) > kChiSquared2 ||
           in_b.chi_squared(b.T_map_body, *p_map) > kChiSquared2) {
         continue;

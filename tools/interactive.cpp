@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
 
@@ -49,6 +50,14 @@ std::vector<Override> parse_overrides(const std::vector<std::string>& texts) {
   std::vector<Override> overrides;
   for (const std::string& text : texts) overrides.push_back(parse_override(text));
   return overrides;
+}
+
+void add_map_options(CLI::App& command, MapFiles& maps) {
+  command.add_option("--load-map", maps.load, "Map of an earlier run to go on with")
+      ->type_name("FILE")
+      ->check(CLI::ExistingFile);
+  command.add_option("--save-map", maps.save, "File for the map in the end")->type_name("FILE");
+  command.add_option("--save-cloud", maps.cloud, "File for its landmarks (PLY)")->type_name("FILE");
 }
 
 }  // namespace vinebench

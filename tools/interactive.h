@@ -8,6 +8,10 @@
 
 #include "scenarios/run.h"
 
+namespace CLI {
+class App;
+}
+
 namespace vinebench {
 
 // What commands that run a SLAM system while a person watches have in common.
@@ -23,6 +27,9 @@ int interruption_code();
 
 /// Says what there is, and returns the exit code.
 int report_interruption(const RunOutcome& outcome, const std::filesystem::path& folder);
+
+/// --load-map, --save-map, --save-cloud.
+void add_map_options(CLI::App& command, MapFiles& maps);
 
 /// Each of the texts as KEY=VALUE. Throws Error.
 std::vector<Override> parse_overrides(const std::vector<std::string>& texts);

@@ -10,6 +10,8 @@
 #include "scenarios/snapshot.h"
 #include "scenarios/truth_colours.h"
 #include "sim/renderer.h"
+#include "sim/rover.h"
+#include "sim/rover_asset.h"
 #include "sim/truth_images.h"
 #include "slam/base/error.h"
 #include "slam/base/rig.h"
@@ -30,6 +32,10 @@ struct RenderArguments {
   std::string normals;
   std::string flow;
   std::string flow_to;
+  std::string flow_visible;
+  std::string rover;
+  std::string rover_to;
+  std::string rover_file = "models/csl-rover/rover.yaml";
   std::string disparity;
   double baseline = 0.12;
   std::vector<std::string> overrides;
@@ -50,12 +56,18 @@ RigCamera camera_of(const RenderArguments& arguments) {
 }
 
 Renderer::Request request_of(const RenderArguments& arguments) {
-  const bool warps = !arguments.flow.empty() || !arguments.disparity.empty();
+  const bool flows = !arguments.flow.empty() || !arguments.flow_visible.empty();
+  const bool warps = flows || !arguments.disparity.empty();
   Renderer::Request request;
   request.labels = !arguments.labels.empty();
   request.depth = !arguments.depth.empty() || warps;
   request.instances = !arguments.instances.empty();
   request.normals = !arguments.normals.empty() || warps;
+  if (!arguments.rover.empty()) request.T_world_rover = parse_view(arguments.rover);
+  if (!arguments.rover_to.empty()) {
+    request.T_world_rover_other = parse_view(arguments.rover_to);
+    request.motion = flows;
+  }
   return request;
 }
 
@@ -74,18 +86,41 @@ void write_pictures(const RenderArguments& arguments, const Picture& picture) {
 void write_warps(const RenderArguments& arguments, Renderer& renderer, const TruthView& view,
                  const RigCamera& camera) {
   const Renderer::Request request = request_of(arguments);
-  const auto view_from = [&](const Pose& T_world_cam) {
-    return TruthView{camera.model, T_world_cam,
-                     renderer.render(camera.model, T_world_cam, request)};
+  const auto view_from = [&](const Pose& T_world_cam, const Renderer::Request& asked) {
+    return TruthView{camera.model, T_world_cam, renderer.render(camera.model, T_world_cam, asked)};
   };
-  if (!arguments.flow.empty()) {
+  if (!arguments.flow_to.empty()) {
+    Renderer::Request later = request;
+    if (later.T_world_rover_other) later.T_world_rover = later.T_world_rover_other;
     const Pose there = parse_view(arguments.flow_to) * camera.T_body_cam;
-    write_flow(arguments.flow, optical_flow(view, view_from(there)).flow);
+    const FlowTruth truth = optical_flow(view, view_from(there, later));
+    if (!arguments.flow.empty()) write_flow(arguments.flow, truth.flow);
+    if (!arguments.flow_visible.empty()) write_picture(arguments.flow_visible, truth.visible);
   }
   if (!arguments.disparity.empty()) {
     const Pose T_left_right{Eigen::Quaterniond::Identity(), {arguments.baseline, 0, 0}};
-    const TruthView right = view_from(view.T_world_cam * T_left_right);
+    const TruthView right = view_from(view.T_world_cam * T_left_right, request);
     write_picture(arguments.disparity, kitti_disparity(disparity(view, right).disparity));
+  }
+}
+
+/// The world, and the rover in it where one is asked for.
+Scene scene_of(const RenderArguments& arguments, const WorldConfig& world) {
+  Scene scene = build_scene(world, static_cast<std::uint64_t>(arguments.seed), default_cache());
+  if (arguments.rover.empty()) return scene;
+  const auto rover = YamlDocument::load(arguments.rover_file).read<RoverConfig>();
+  add_rover(scene, rover.model);
+  return scene;
+}
+
+void check(const RenderArguments& arguments) {
+  if (arguments.pose.empty()) fail("render: expected --pose X,Y,Z,YAW or --turntable");
+  const bool flows = !arguments.flow.empty() || !arguments.flow_visible.empty();
+  if (flows == arguments.flow_to.empty()) {
+    fail("render: expected --flow FILE or --flow-visible FILE and --flow-to X,Y,Z,YAW together");
+  }
+  if (arguments.rover.empty() && !arguments.rover_to.empty()) {
+    fail("render: expected --rover X,Y,Z,YAW with --rover-to");
   }
 }
 
@@ -93,18 +128,15 @@ int render(const RenderArguments& arguments) {
   std::vector<Override> overrides;
   for (const std::string& text : arguments.overrides) overrides.push_back(parse_override(text));
   const WorldConfig world = load_world(arguments.world, overrides);
-  const auto seed = static_cast<std::uint64_t>(arguments.seed);
   const RigCamera camera = camera_of(arguments);
   if (arguments.turntable) {
+    const auto seed = static_cast<std::uint64_t>(arguments.seed);
     write_picture(arguments.out, turntable(world, seed, camera.model));
     return 0;
   }
-  if (arguments.pose.empty()) fail("render: expected --pose X,Y,Z,YAW or --turntable");
-  if (arguments.flow.empty() != arguments.flow_to.empty()) {
-    fail("render: expected --flow FILE and --flow-to X,Y,Z,YAW together");
-  }
+  check(arguments);
   const Pose T_world_cam = parse_view(arguments.pose) * camera.T_body_cam;
-  Renderer renderer(build_scene(world, seed, default_cache()), {});
+  Renderer renderer(scene_of(arguments, world), {});
   const TruthView view{camera.model, T_world_cam,
                        renderer.render(camera.model, T_world_cam, request_of(arguments))};
   write_pictures(arguments, view.picture);
@@ -123,10 +155,20 @@ void add_truth_options(CLI::App& command, RenderArguments& arguments) {
                      "Also write the optical flow to the view of --flow-to: .flo, or .png in "
                      "colours");
   command.add_option("--flow-to", arguments.flow_to, "X,Y,Z,YAW[,PITCH], as --pose");
+  command.add_option("--flow-visible", arguments.flow_visible,
+                     "Also write where that view still shows what a pixel shows, in white");
   command.add_option("--disparity", arguments.disparity,
                      "Also write the disparity to a right eye, 16-bit PNG in 1/256 px");
   command.add_option("--baseline", arguments.baseline, "m from the camera to that right eye")
       ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+}
+
+void add_rover_options(CLI::App& command, RenderArguments& arguments) {
+  command.add_option("--rover", arguments.rover,
+                     "X,Y,Z,YAW[,PITCH] in m and degrees: also show a rover that stands there");
+  command.add_option("--rover-to", arguments.rover_to, "Where it stands in the view of --flow-to");
+  command.add_option("--rover-file", arguments.rover_file, "Which rover (YAML)")
       ->capture_default_str();
 }
 
@@ -145,6 +187,7 @@ void add_render_command(CLI::App& app, Command& chosen) {
                       "name of its camera");
   command->add_option("--rig", arguments->rig, "Rig file (YAML) whose camera to use");
   add_truth_options(*command, *arguments);
+  add_rover_options(*command, *arguments);
   command->add_flag("--turntable", arguments->turntable, "Eight views from all round on one sheet");
   command->add_option("--seed", arguments->seed, "Seed of plants, ground and sky")
       ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))

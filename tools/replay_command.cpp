@@ -20,6 +20,7 @@ struct ReplayArguments {
   std::string groundtruth;
   std::string out;
   std::vector<std::string> overrides;
+  MapFiles maps;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
 
@@ -36,6 +37,7 @@ int replay(const ReplayArguments& arguments) {
   catch_interrupts();
   RunOptions options = interactive_options(name);
   options.folder = folder;
+  options.maps = arguments.maps;
   const RunOutcome outcome = run_replay(std::move(recording), slam, arguments.threads, options);
   if (outcome.interrupted) return report_interruption(outcome, folder);
   fmt::print("\n{} ({}): {} frames in {:.0f} s, hash {}\n{}results: {}\n", name, format,
@@ -68,6 +70,7 @@ void add_replay_command(CLI::App& app, Command& chosen) {
       ->add_option("--threads", arguments->threads, "Threads to share the work; changes no result")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
+  add_map_options(*command, arguments->maps);
   command->callback([&chosen, arguments] { chosen = [arguments] { return replay(*arguments); }; });
 }
 

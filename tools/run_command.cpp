@@ -24,6 +24,7 @@ struct RunArguments {
   std::vector<std::string> overrides;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   bool verify_determinism = false;
+  MapFiles maps;
 };
 
 ScenarioConfig scenario_of(const RunArguments& arguments) {
@@ -41,9 +42,11 @@ void print_verdict(const ScenarioConfig& scenario, const RunOutcome& outcome,
 }
 
 /// Runs once more, without files, and compares.
-int verify_determinism(const ScenarioConfig& scenario, int threads, const std::string& first) {
-  const RunOutcome again =
-      run_scenario(scenario, threads, interactive_options(scenario.name + " (again)"));
+int verify_determinism(const ScenarioConfig& scenario, const RunArguments& arguments,
+                       const std::string& first) {
+  RunOptions options = interactive_options(scenario.name + " (again)");
+  options.maps.load = arguments.maps.load;
+  const RunOutcome again = run_scenario(scenario, arguments.threads, options);
   if (again.interrupted) {
     fmt::print(stderr, "vinebench: stopped in the second run; determinism is not verified\n");
     return interruption_code();
@@ -69,13 +72,13 @@ int run(const RunArguments& arguments) {
   if (!arguments.record.empty()) {
     options.sinks.push_back(&recording.emplace(arguments.record, notes_of(scenario)));
   }
+  options.maps = arguments.maps;
   const RunOutcome outcome = run_scenario(scenario, arguments.threads, options);
   if (outcome.interrupted) return report_interruption(outcome, folder);
   print_verdict(scenario, outcome, folder);
   std::fflush(stdout);
-  const int repeated = arguments.verify_determinism
-                           ? verify_determinism(scenario, arguments.threads, outcome.hash)
-                           : 0;
+  const int repeated =
+      arguments.verify_determinism ? verify_determinism(scenario, arguments, outcome.hash) : 0;
   return repeated != 0 ? repeated : all_hold(outcome.checks) ? 0 : kExpectationFailed;
 }
 
@@ -100,6 +103,7 @@ void add_run_command(CLI::App& app, Command& chosen) {
   run->add_option("--threads", arguments->threads, "Threads to share the work; changes no result")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
+  add_map_options(*run, arguments->maps);
   run->add_flag("--verify-determinism", arguments->verify_determinism,
                 "Run twice and fail unless both runs are the same to the byte");
   run->footer(

@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Everything that must hold before a change is merged: sets up, builds (with warnings as errors where
-# CI is set), checks the format, runs all tests. Further arguments go to ctest, e.g. -L unit.
+# CI is set), checks the format, runs all tests, and where CI is set those of the SLAM library again
+# with sanitizers. Further arguments go to ctest, e.g. -L unit.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -15,3 +16,4 @@ echo "checking the format"
 git ls-files -z --cached --others --exclude-standard '*.h' '*.cpp' |
   xargs -0 clang-format --dry-run -Werror
 ctest --test-dir build --output-on-failure --no-tests=error "$@"
+if [[ -n ${CI:-} ]]; then tools/sanitize.sh; fi

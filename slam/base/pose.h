@@ -8,6 +8,7 @@
 namespace vinebench {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// A rigid transform. Named T_a_b, it takes coordinates in b to coordinates in a:
 /// p_a = T_a_b * p_b, and T_a_c = T_a_b * T_b_c.

@@ -26,6 +26,15 @@ Pose Rig::mount(const Eigen::Vector3d& position, const Eigen::Vector3d& rpy) {
   return {(from_roll_pitch_yaw(rpy) * Eigen::Quaterniond(R_view_cam)).normalized(), position};
 }
 
+Rig Rig::stereo(const PinholeCamera& lens, double baseline) {
+  Rig rig;
+  rig.name = "stereo";
+  rig.cameras = {{"left", lens, mount({0, 0, 0}, {0, 0, 0})},
+                 {"right", lens, mount({0, -baseline, 0}, {0, 0, 0})}};
+  rig.stereo_pairs = {{"stereo", 0, 1}};
+  return rig;
+}
+
 Rig RigConfig::make() const {
   Rig rig;
   rig.name = name;

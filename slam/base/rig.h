@@ -40,6 +40,10 @@ struct Rig {
   /// Distance between the two eyes of a pair, m.
   double baseline(const StereoPair& pair) const;
 
+  /// One rectified pair whose left eye is the body's origin and looks along its x axis; the right
+  /// eye is `baseline` (m) to the right of it. Its cameras are "left" and "right".
+  static Rig stereo(const PinholeCamera& lens, double baseline);
+
   /// Pose of a camera that sits at `position` (m) and looks along the x axis of a body-like frame
   /// (x ahead, y left, z up) turned by roll, pitch, yaw (rad) against the body.
   static Pose mount(const Eigen::Vector3d& position, const Eigen::Vector3d& rpy);

@@ -11,6 +11,7 @@
 #include "sim/light.h"
 #include "sim/sensors.h"
 #include "slam/base/error.h"
+#include "tests/sim/chessboard.h"
 #include "tests/sim/test_scene.h"
 
 namespace vinebench {
@@ -92,6 +93,25 @@ TEST_F(EdgeTest, EverythingOffIsTheRenderedPicture) {
   EXPECT_EQ(different_values(taken.rgb, clean.rgb), 0);
   EXPECT_EQ(different_values(taken.labels, clean.labels), 0);
   EXPECT_EQ(different_values(taken.depth, clean.depth), 0);
+}
+
+TEST_F(EdgeTest, TheRoverIsWhereTheCameraIsInEachSubframeAndBand) {
+  CameraSensorConfig config = off();
+  config.blur_subframes = 3;
+  config.readout_time = 0.02;
+  config.readout_bands = 4;
+  CameraSensor sensor(config, camera(), 0, 1);
+  int drawn = 0;
+  sensor.capture(
+      {}, [&](Stamp stamp) { return pose_at(kSpeed, stamp); },
+      [&](const PinholeCamera& view, const Pose& pose, const Renderer::Request& request) {
+        ++drawn;
+        EXPECT_TRUE(request.T_world_rover.has_value());
+        // The body's axes are the camera's.
+        EXPECT_EQ(request.T_world_rover.value_or(Pose{}).translation, pose.translation);
+        return renderer_.render(view, pose, request);
+      });
+  EXPECT_EQ(drawn, 3 * 4);
 }
 
 TEST_F(EdgeTest, BlurIsAsLongAsExposureTimesImageSpeed) {
@@ -303,30 +323,9 @@ TEST_F(WallTest, NoiseOfAMosaicIsCorrelatedBetweenPixels) {
   EXPECT_LT(with[0], 0.9 * without[0]);  // red is interpolated in three pixels of four
 }
 
-/// A chessboard of 10 x 7 squares of 50 mm in the plane y = 0.
+/// Chessboard through a lens.
 class LensTest : public testing::Test {
  protected:
-  static constexpr int kColumns = 10;
-  static constexpr int kRows = 7;
-  static constexpr double kSquare = 0.05;  // m
-
-  LensTest() : renderer_(make_scene(), {}) {}
-
-  static Scene make_scene() {
-    cv::Mat rgba(kRows * 64, kColumns * 64, CV_8UC4);
-    for (int y = 0; y < rgba.rows; ++y) {
-      for (int x = 0; x < rgba.cols; ++x) {
-        const int code = (x / 64 + y / 64) % 2 == 0 ? 230 : 20;
-        rgba.at<cv::Vec4b>(y, x) = {uchar(code), uchar(code), uchar(code), 255};
-      }
-    }
-    Scene scene;
-    const int material = add_material(scene, Label::kTag, Eigen::Vector3f::Ones(), rgba);
-    add_instance(scene, add_model(scene, panel(material, kColumns * kSquare, kRows * kSquare)),
-                 {0, 0, 0});
-    light_evenly(scene);
-    return scene;
-  }
   Picture capture(const PinholeCamera& model, const Pose& T_world_cam,
                   const CameraSensorConfig& config = off()) {
     CameraSensor sensor(config, {"camera", model, {}}, 0, 1);
@@ -344,34 +343,8 @@ class LensTest : public testing::Test {
     camera.distortion = {k1, k2, p1, p2};
     return camera;
   }
-  /// The largest distance of an inner corner, as found, from where the camera projects it, px.
-  static double worst_corner(const cv::Mat& rgb, const PinholeCamera& camera,
-                             const Pose& T_world_cam) {
-    std::vector<cv::Point2f> expected;
-    for (int row = 1; row < kRows; ++row) {
-      for (int column = 1; column < kColumns; ++column) {
-        const Eigen::Vector3d corner((column - 0.5 * kColumns) * kSquare, 0,
-                                     (0.5 * kRows - row) * kSquare);
-        const Eigen::Vector2d pixel = camera.project(T_world_cam.inverse() * corner);
-        EXPECT_TRUE(camera.contains(pixel, 8));
-        expected.emplace_back(pixel.x(), pixel.y());
-      }
-    }
-    std::vector<cv::Point2f> found = expected;
-    for (cv::Point2f& corner : found) corner += cv::Point2f(0.7f, -0.6f);  // off the truth
-    cv::Mat grey;
-    cv::cvtColor(rgb, grey, cv::COLOR_RGB2GRAY);
-    cv::GaussianBlur(grey, grey, {5, 5}, 1.0);
-    cv::cornerSubPix(grey, found, {4, 4}, {-1, -1},
-                     {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 100, 1e-4});
-    double worst = 0;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      worst = std::max(worst, cv::norm(found[i] - expected[i]));
-    }
-    return worst;
-  }
 
-  Renderer renderer_;
+  Renderer renderer_{Chessboard::scene(), {}};
 };
 
 /// With squares of 150 px, more than two to a texel: edges so soft that the search does not feel
@@ -382,7 +355,8 @@ TEST_F(LensTest, PointsAreWhereTheCameraProjectsThem) {
        {std::array<double, 4>{-0.05, 0, 0, 0}, {-0.12, 0.02, 0.001, -0.002}, {0.03, 0, 0, 0}}) {
     PinholeCamera camera = large_camera();
     camera.distortion = distortion;
-    EXPECT_LT(worst_corner(capture(camera, near).rgb, camera, near), 0.1) << distortion[0];
+    EXPECT_LT(Chessboard::worst_corner(capture(camera, near).rgb, camera, near), 0.1)
+        << distortion[0];
   }
 }
 

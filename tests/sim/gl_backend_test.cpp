@@ -8,6 +8,7 @@
 
 #include "sim/gl_context.h"
 #include "sim/renderer.h"
+#include "sim/rover_asset.h"
 #include "sim/world.h"
 #include "slam/base/error.h"
 #include "slam/base/rig.h"
@@ -37,11 +38,18 @@ class GlBackendTest : public testing::Test {
     Renderer::Request request;
     request.depth = true;
     request.instances = true;
+    request.T_world_rover = Pose{from_roll_pitch_yaw({0, 0, 0.4}), {0.6, 0.1, 0}};
     return renderer.render(test::small_camera(), Rig::mount({-0.3, 0, 0.5}, {0, 0, 0}), request);
   }
 
+  Scene world_with_rover() const {
+    Scene scene = build_scene(small_world(), 1, cache_ / "plants");
+    add_rover(scene, std::filesystem::path(VINEBENCH_SOURCE_DIR) / "models/csl-rover/rover.xml");
+    return scene;
+  }
+
   test::TestFolder cache_;
-  Scene scene_ = build_scene(small_world(), 1, cache_ / "plants");
+  Scene scene_ = world_with_rover();
 };
 
 TEST_F(GlBackendTest, OsmesaAndEglGiveTheSamePicture) {

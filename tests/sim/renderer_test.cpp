@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "slam/base/error.h"
+#include "tests/sim/chessboard.h"
 #include "tests/sim/test_scene.h"
 
 namespace vinebench {
@@ -27,61 +28,14 @@ cv::Mat grey_of(const Picture& picture) {
   return grey;
 }
 
-/// A chessboard of `columns` x `rows` squares, each of `side` pixels.
-cv::Mat chessboard(int columns, int rows, int side) {
-  cv::Mat rgba(rows * side, columns * side, CV_8UC4);
-  for (int y = 0; y < rgba.rows; ++y) {
-    for (int x = 0; x < rgba.cols; ++x) {
-      const bool white = (x / side + y / side) % 2 == 0;
-      rgba.at<cv::Vec4b>(y, x) = white ? cv::Vec4b(230, 230, 230, 255) : cv::Vec4b(20, 20, 20, 255);
-    }
-  }
-  return rgba;
-}
-
 class ChessboardTest : public testing::Test {
  protected:
-  static constexpr int kColumns = 10;
-  static constexpr int kRows = 7;
-  static constexpr double kSquare = 0.05;  // m
-
-  ChessboardTest() {
-    const int material =
-        add_material(scene_, Label::kTag, Eigen::Vector3f::Ones(), chessboard(kColumns, kRows, 64));
-    add_instance(scene_, add_model(scene_, panel(material, kColumns * kSquare, kRows * kSquare)),
-                 {0, 0, 0});
-    light_evenly(scene_);
+  static double worst_corner(Renderer& renderer, const PinholeCamera& camera,
+                             const Pose& T_world_cam) {
+    return Chessboard::worst_corner(renderer.render(camera, T_world_cam, {}).rgb, camera,
+                                    T_world_cam);
   }
-
-  /// The largest distance of an inner corner, as found, from where the camera projects it, px.
-  double worst_corner(Renderer& renderer, const PinholeCamera& camera, const Pose& T_world_cam) {
-    const Picture picture = renderer.render(camera, T_world_cam, {});
-    std::vector<cv::Point2f> expected;
-    for (int row = 1; row < kRows; ++row) {
-      for (int column = 1; column < kColumns; ++column) {
-        const Eigen::Vector3d corner((column - 0.5 * kColumns) * kSquare, 0,
-                                     (0.5 * kRows - row) * kSquare);
-        const Eigen::Vector2d pixel = camera.project(T_world_cam.inverse() * corner);
-        EXPECT_TRUE(camera.contains(pixel, 8));
-        expected.emplace_back(pixel.x(), pixel.y());
-      }
-    }
-    // Started off the truth, so that a corner that is not there cannot be "found" where it began.
-    std::vector<cv::Point2f> found = expected;
-    for (cv::Point2f& corner : found) corner += cv::Point2f(0.7f, -0.6f);
-    // A symmetric blur moves no corner; without it the search feels the pixel grid by 0.1 px.
-    cv::Mat grey = grey_of(picture);
-    cv::GaussianBlur(grey, grey, {5, 5}, 1.0);
-    cv::cornerSubPix(grey, found, {4, 4}, {-1, -1},
-                     {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 100, 1e-4});
-    double worst = 0;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      worst = std::max(worst, cv::norm(found[i] - expected[i]));
-    }
-    return worst;
-  }
-
-  Scene scene_;
+  Scene scene_ = Chessboard::scene();
 };
 
 // Done means 0.1 px: a tenth of what a feature's corner is measured to.

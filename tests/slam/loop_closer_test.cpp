@@ -52,6 +52,22 @@ class LoopCloserTest : public testing::Test {
   const Pose body_{exp_so3({0, 0, 0.4}), {2, 1, 0}};
 };
 
+TEST_F(LoopCloserTest, ALoadedMapLiesInTheWorldAsItsRegisteredTagSays) {
+  const Pose T_map_world{exp_so3({0, 0, 0.3}), {1, 2, 0}};
+  const RegisteredTag first{"tag36h11", 1, 0.161, Pose{{1, 0, 0, 0}, {3, 0, 0.5}}};
+  const RegisteredTag second{"tag36h11", 2, 0.161, Pose{{1, 0, 0, 0}, {5, 1, 0.5}}};
+  map_.tags().push_back({"tag36h11", 1, 0.161, T_map_world * first.T_world_tag, true});
+  LoopCloser loop = closer({first, second});
+  loop.take_over(map_);
+  // Seen by a body that believes itself a decimetre off, the tag stands where the world has it.
+  const Pose T_map_tag = T_map_world * second.T_world_tag;
+  Pose believed = T_map_tag * T_body_tag_.inverse();
+  believed.translation.x() += 0.1;
+  loop.note(*frame(0, {sighting(2, T_body_tag_)}), believed, 0, map_);
+  ASSERT_EQ(map_.tags().size(), 2u);
+  EXPECT_LT(distance(map_.tags()[1].T_map_tag, T_map_tag), 1e-12);
+}
+
 TEST_F(LoopCloserTest, AnUnregisteredTagIsMappedAtFirstSight) {
   LoopCloser loop = closer();
   loop.note(*frame(0, {sighting(3, T_body_tag_)}), body_, 0, map_);

@@ -49,9 +49,10 @@ double fit_error(const Eigen::Matrix3d& H, bool plain, int& found) {
       const Eigen::Vector2d truth = (H * Eigen::Vector3d(x, y, 1)).hnormalized();
       Eigen::Matrix3d at = Eigen::Matrix3d::Identity();
       at.topRightCorner<2, 1>() = Eigen::Vector2d(x, y);
-      const PatchWarp warp =
-          make_warp(plain ? Eigen::Matrix3d::Identity() : Eigen::Matrix3d(H * at));
-      const auto fit = fit_patch(*patch, warp, now, truth.x() + 0.7, truth.y() - 0.7);
+      const auto window =
+          warp_patch(*patch, plain ? Eigen::Matrix3d::Identity() : Eigen::Matrix3d(H * at));
+      if (!window) continue;
+      const auto fit = fit_patch(*window, now, truth.x() + 0.7, truth.y() - 0.7);
       if (!fit) continue;
       ++found;
       sum += (Eigen::Vector2d(fit->x, fit->y) - truth).squaredNorm();
@@ -84,30 +85,41 @@ TEST(PatchTest, FollowsAWarpThatAPlainShiftCannot) {
   EXPECT_GT(fit_error(H, true, found), 2 * warped);
 }
 
+/// The patch about (x, y) as it is.
+std::optional<PatchWindow> plain_window(const cv::Mat& picture, double x, double y) {
+  return warp_patch(*cut_patch(picture, x, y), Eigen::Matrix3d::Identity());
+}
+
 TEST(PatchTest, RefusesWhatCannotBePlaced) {
   const cv::Mat picture = texture_picture();
   EXPECT_FALSE(cut_patch(picture, 3, 60));
   EXPECT_FALSE(cut_patch(picture, 80, 118));
-  const PatchWarp plain = make_warp(Eigen::Matrix3d::Identity());
-  EXPECT_FALSE(fit_patch(*cut_patch(picture, 80, 60), plain, picture, 2, 60));
+  EXPECT_FALSE(fit_patch(*plain_window(picture, 80, 60), picture, 2, 60));
 
   // A flat surface, and an edge along which a patch slides.
   const cv::Mat flat(kHeight, kWidth, CV_8UC1, cv::Scalar(90));
-  EXPECT_FALSE(fit_patch(*cut_patch(flat, 80, 60), plain, flat, 80, 60));
+  EXPECT_FALSE(plain_window(flat, 80, 60));
   cv::Mat edge = flat.clone();
   edge.colRange(80, kWidth).setTo(160);
-  EXPECT_FALSE(fit_patch(*cut_patch(edge, 80, 60), plain, edge, 80, 60));
+  EXPECT_FALSE(plain_window(edge, 80, 60));
+}
+
+TEST(PatchTest, ShowsNoMoreThanWasCut) {
+  const auto patch = cut_patch(texture_picture(), 80, 60);
+  // The window and its border reach 5 px, the patch 8: seen from 8 / 5 as far away it still fills
+  // the window, from twice as far it does not.
+  EXPECT_TRUE(warp_patch(*patch, scaling(1 / 1.5)));
+  EXPECT_FALSE(warp_patch(*patch, scaling(1 / 2.0)));
 }
 
 TEST(PatchTest, TellsAnotherSurfaceByItsDifference) {
   const cv::Mat picture = texture_picture();
   const cv::Mat other = render_picture(kWidth, kHeight, SyntheticTexture(4), kNoise, 2);
-  const PatchWarp plain = make_warp(Eigen::Matrix3d::Identity());
-  const auto patch = cut_patch(picture, 80, 60);
-  const auto itself = fit_patch(*patch, plain, picture, 80.5, 60.5);
+  const auto window = plain_window(picture, 80, 60);
+  const auto itself = fit_patch(*window, picture, 80.5, 60.5);
   ASSERT_TRUE(itself);
   EXPECT_LT(itself->difference, 0.1 * itself->contrast);
-  if (const auto wrong = fit_patch(*patch, plain, other, 80, 60)) {
+  if (const auto wrong = fit_patch(*window, other, 80, 60)) {
     EXPECT_GT(wrong->difference, 0.35 * wrong->contrast);
   }
 }
@@ -115,8 +127,7 @@ TEST(PatchTest, TellsAnotherSurfaceByItsDifference) {
 TEST(PatchTest, BrightnessDoesNotMatter) {
   const cv::Mat picture = texture_picture();
   const cv::Mat brighter = picture + 25;
-  const auto patch = cut_patch(picture, 80, 60);
-  const auto fit = fit_patch(*patch, make_warp(Eigen::Matrix3d::Identity()), brighter, 81, 60);
+  const auto fit = fit_patch(*plain_window(picture, 80, 60), brighter, 81, 60);
   ASSERT_TRUE(fit);
   EXPECT_NEAR(fit->x, 80, 0.05);  // px; a few pixels saturate
   EXPECT_NEAR(fit->y, 60, 0.05);

@@ -125,6 +125,15 @@ expect 2 "recording into a full folder" "is not empty; expected a new or an empt
   run "$root/scenarios/quick-loop.yaml" --out "$work/out" --record "$work/kitti"
 expect 2 "bench of no data set" "is no recording" -- bench slam "$work/empty"
 
+echo junk >"$work/junk.map"
+quick_loop=$root/scenarios/quick-loop.yaml
+expect 2 "load of no map" "junk.map: not a map of Vinebench" -- \
+  run "$quick_loop" --out "$work/out" --load-map "$work/junk.map"
+expect 2 "load of a missing map" "none.map" -- \
+  run "$quick_loop" --out "$work/out" --load-map "$work/none.map"
+expect 2 "save where no folder is" "there is no folder" -- \
+  run "$quick_loop" --out "$work/out" --save-map "$work/none/row.map"
+
 # A world without a block, and one place: some seconds.
 world "ground_size: 20"
 expect 0 "bench" "bad: 1 rows, 4 plants" "frame of 5 cameras" "memory" -- \

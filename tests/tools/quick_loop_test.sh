@@ -7,7 +7,9 @@
 #   verdict  its expectations hold, and a second run is the same to the byte
 #   threads  one thread gives what two give (needs verdict)
 #   resolved its own scenario.resolved.yaml repeats it (needs verdict)
-#   replayed  a replay of its recording gives the same estimate (0.8 s of it)
+#   map      a run in the map that verdict left finds its place there, by tag and by looks (needs
+#            verdict)
+#   replayed a replay of a recording of it gives the same estimate (0.8 s)
 #   front    with the front cameras alone it is lost or ten times worse (needs verdict)
 set -euo pipefail
 step=$1 vinebench=$2 root=$3 work=$4
@@ -23,7 +25,9 @@ same_hash() {
 
 case $step in
   verdict)
-    "$vinebench" run "$scenario" --out "$work/verdict" --threads 2 --verify-determinism
+    mkdir -p "$work"
+    "$vinebench" run "$scenario" --out "$work/verdict" --threads 2 --verify-determinism \
+      --save-map "$work/verdict.map" --save-cloud "$work/verdict.ply"
     ;;
   threads)
     "$vinebench" run "$scenario" --out "$work/threads" --threads 1
@@ -32,6 +36,24 @@ case $step in
   resolved)
     "$vinebench" run "$work/verdict/scenario.resolved.yaml" --out "$work/resolved"
     same_hash resolved
+    ;;
+  map)
+    # In a known place nothing is mapped anew, so that there is no loop to close.
+    in_the_map=(--load-map "$work/verdict.map" --set expectations.loop_closures_correct_min=0
+      --set expectations.loop_closures_missed_max=9)
+    "$vinebench" run "$scenario" --out "$work/by_tag" "${in_the_map[@]}"
+    # Without the tag camera: the second frame is the first that can have a pose.
+    "$vinebench" run "$scenario" --out "$work/by_looks" "${in_the_map[@]}" \
+      --set 'slam.cameras=[front, back]' --set expectations.coverage_min=0.97
+    for run in verdict by_tag by_looks; do
+      echo "$run: $(metric $run keyframes) keyframes, $(metric $run landmarks) landmarks," \
+        "ATE $(metric $run ate_rmse_m) m"
+    done
+    for run in by_tag by_looks; do
+      awk -v new="$(metric $run keyframes)" -v first="$(metric verdict keyframes)" \
+        -v now="$(metric $run landmarks)" -v before="$(metric verdict landmarks)" \
+        'BEGIN { exit !(new <= 0.25 * first && now <= 1.15 * before) }'
+    done
     ;;
   front)
     code=0

@@ -72,6 +72,18 @@ TEST(RigTest, TheSideCameraLooksRight) {
   EXPECT_LT((T_front_side.translation - Eigen::Vector3d(0.21, 0, -0.09)).norm(), kRounding);
 }
 
+TEST(RigTest, AStereoRigLooksAheadFromItsLeftEye) {
+  const Rig rig = Rig::stereo({640, 400, 400, 400, 319.5, 199.5}, 0.12);
+  ASSERT_EQ(rig.stereo_pairs.size(), 1u);
+  EXPECT_NEAR(rig.baseline(rig.stereo_pairs[0]), 0.12, kRounding);
+  // A point 2 m ahead of the left eye is 0.12 m to the left of the right eye's axis.
+  const Eigen::Vector3d p_body(2, 0, 0);
+  const Pose T_right_body = rig.cameras[1].T_body_cam.inverse();
+  EXPECT_LT((rig.cameras[0].T_body_cam.inverse() * p_body - Eigen::Vector3d(0, 0, 2)).norm(),
+            kRounding);
+  EXPECT_LT((T_right_body * p_body - Eigen::Vector3d(-0.12, 0, 2)).norm(), kRounding);
+}
+
 TEST(RigTest, AMountLooksAlongXOfTheBody) {
   const Pose T_body_cam = Rig::mount({1, 2, 3}, {0, 0, 0});
   EXPECT_LT((T_body_cam * Eigen::Vector3d::UnitZ() - Eigen::Vector3d(2, 2, 3)).norm(), kRounding);

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+namespace vinebench {
+
+/// A CV_8UC1 picture under a Gaussian of sigma 2 px cut to 7 x 7 px, its edges mirrored about the
+/// outermost pixels. Integers throughout, so the same on every machine; within a grey level of the
+/// exact one.
+cv::Mat smooth(const cv::Mat& picture);
+
+}  // namespace vinebench

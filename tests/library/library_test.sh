@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: Vinebench authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Installs the library, builds examples/feed_images against it as a project of its own, feeds it
+# pictures and checks the way it finds; docs/library.md must show that very example.
+# Usage: library_test.sh ROOT BUILD CMAKE PLANE_PICTURES
+set -euo pipefail
+root=$1 build=$2 cmake=$3 plane_pictures=$4
+work=$build/library
+prefix=$work/prefix
+rm -rf "$prefix" "$work/pictures"
+
+sed -n '/^```cpp$/,/^```$/p' "$root/docs/library.md" | sed '1d;$d' |
+  diff - <(sed 1,2d "$root/examples/feed_images/feed_images.cpp") ||
+  { echo "docs/library.md shows another example than examples/feed_images/feed_images.cpp" >&2; exit 1; }
+
+"$cmake" --install "$build" --prefix "$prefix" >"$work-install.log"
+"$cmake" -S "$root/examples/feed_images" -B "$work/example" -DCMAKE_PREFIX_PATH="$prefix" \
+  -DCMAKE_BUILD_TYPE=Release
+"$cmake" --build "$work/example"
+# Nothing of the source tree may be needed.
+if grep -rnF "$root" "$prefix/lib/cmake" --include=vinebench*.cmake | grep -vF "$prefix"; then
+  echo "the package names the source tree" >&2
+  exit 1
+fi
+
+"$plane_pictures" "$work/pictures"
+"$work/example/feed_images" "$work/pictures" | tee "$work/poses.txt"
+# 19 steps of 12 mm to the right, which is -y: -0.228 m. A tenth of a pixel is 0.6 mm.
+awk 'END { exit !(NR == 20 && $3 < -0.2265 && $3 > -0.2295 && $2^2 + $4^2 < 4e-6) }' "$work/poses.txt"
+[[ $(grep -vc '^#' "$work/pictures/trajectory.tum") -eq 20 ]]
+# Without pictures, and without an argument.
+mkdir -p "$work/empty"
+[[ -z $("$work/example/feed_images" "$work/empty") ]]
+if "$work/example/feed_images" 2>/dev/null; then exit 1; fi

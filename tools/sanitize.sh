@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: Vinebench authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Builds the SLAM library and its tests with sanitizers, each in a build of its own, and runs them,
+# from single functions to pictures driven past and mapped. Usage: sanitize.sh [PRESET]..., by
+# default `address` (with undefined behaviour) and `thread`.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+presets=("$@")
+[[ $# -gt 0 ]] || presets=(address thread)
+for preset in "${presets[@]}"; do
+  echo "sanitizer: $preset"
+  cmake --preset "$preset"
+  cmake --build --preset "$preset"
+  ctest --preset "$preset"
+done
