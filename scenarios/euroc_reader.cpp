@@ -14,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kFrameList = "frames.csv";
 constexpr double kDefaultRate = 20;  // Hz, of EuRoC's cameras
 
 /// The folder with cam0 in it; a user may name it or the one above.
@@ -33,14 +34,14 @@ std::vector<fs::path> camera_folders(const fs::path& sensors) {
   }
 }
 
-PictureList read_pictures(const fs::path& folder) {
+PictureList read_pictures(const fs::path& folder, bool may_be_empty) {
   PictureList list;
   list.camera = folder.filename().string();
   for (const TableRow& row : read_table(folder / "data.csv")) {
     row.expect_columns(2, "timestamp [ns], filename");
     list.entries.push_back({row.nanoseconds(0), folder / "data" / row.fields[1]});
   }
-  if (list.entries.empty()) {
+  if (list.entries.empty() && !may_be_empty) {
     fail("{}: expected a line for each picture, found none", (folder / "data.csv").string());
   }
   put_in_order(list);
@@ -49,7 +50,7 @@ PictureList read_pictures(const fs::path& folder) {
 
 /// Our recordings list the frames, since any camera may have missed one; else cam0 tells them.
 std::vector<Stamp> read_instants(const fs::path& folder, const PictureList& first_camera) {
-  const fs::path file = folder / "frames.csv";
+  const fs::path file = folder / kFrameList;
   std::error_code ignored;
   if (!fs::exists(file, ignored)) return instants_of(first_camera);
   std::vector<Stamp> instants;
@@ -59,6 +60,7 @@ std::vector<Stamp> read_instants(const fs::path& folder, const PictureList& firs
       row.fault("expected a later stamp than the line before");
     }
   }
+  if (instants.empty()) fail("{}: expected a line for each frame, found none", file.string());
   return instants;
 }
 
@@ -178,9 +180,11 @@ Recording read_euroc(const fs::path& named, const RecordingOptions& options) {
   recording.rig = read_rig(folder, cameras, options);
   recording.T_body_left = recording.rig.cameras.front().T_body_cam;
   cameras.resize(recording.rig.cameras.size());
+  std::error_code ignored;
+  const bool frames_are_listed = fs::exists(folder / kFrameList, ignored);
   std::vector<PictureList> lists;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    lists.push_back(read_pictures(cameras[i]));
+    lists.push_back(read_pictures(cameras[i], frames_are_listed));
     lists.back().camera = recording.rig.cameras[i].name;
   }
   const std::vector<Stamp> instants = read_instants(folder, lists.front());
@@ -192,7 +196,6 @@ Recording read_euroc(const fs::path& named, const RecordingOptions& options) {
   read_imu(sensors / "imu0", recording);
   read_wheels(sensors / "wheels0", recording);
   if (options.groundtruth.empty()) recording.truth = read_truth(sensors);
-  std::error_code ignored;
   if (fs::exists(folder / "tags.yaml", ignored)) recording.tags = read_tags(folder / "tags.yaml");
   if (fs::exists(folder / "slam.yaml", ignored)) recording.settings = folder / "slam.yaml";
   return recording;

@@ -176,6 +176,17 @@ TEST_F(EurocWriterTest, AnInterruptedRecordingCanBeRead) {
   EXPECT_EQ(open_recording(root_).frames.size(), 4u);
 }
 
+TEST_F(EurocWriterTest, ACameraThatNeverDeliveredIsBlind) {
+  write();
+  test::write_text(root_ / "mav0/cam2/data.csv", "#timestamp [ns],filename\n");
+  const std::vector<Sample> samples = test::play_all(root_);
+  ASSERT_EQ(samples.size(), static_cast<std::size_t>(kFrames));
+  EXPECT_EQ(test::count_events(samples).at("picture_missing"), kFrames + 1);
+  test::write_text(root_ / "frames.csv", "#timestamp [ns]\n");
+  EXPECT_THAT(error_of([&] { open_recording(root_); }),
+              HasSubstr("frames.csv: expected a line for each frame"));
+}
+
 TEST_F(EurocWriterTest, AFolderThatHasSomethingIsAnError) {
   test::write_text(root_ / "precious.txt", "data");
   EXPECT_THAT(error_of([&] { EurocWriter(root_, notes()); }), HasSubstr("is not empty"));
