@@ -24,6 +24,7 @@ class EventLog {
     for (std::size_t i = 0; i < record.ticks.size(); ++i) {
       tick_ = &record.ticks[i];
       at_ = i;
+      add_source_events();
       add_losses();
       for (std::size_t camera = 0; camera < record.rig.cameras.size(); ++camera) {
         add_occlusion(camera, box_share);
@@ -40,6 +41,12 @@ class EventLog {
     Json line{{"t", exact_seconds(tick_->stamp)}, {"frame", tick_->index}, {"event", event}};
     line.update(more);
     text_ += line.dump() + "\n";
+  }
+
+  void add_source_events() {
+    for (const SourceEvent& event : tick_->events) {
+      add(event.event.c_str(), {{"sensor", event.sensor}, {"detail", event.detail}});
+    }
   }
 
   void add_losses() {
@@ -106,16 +113,22 @@ class EventLog {
     return more;
   }
 
+  template <class T>
+  static Json if_judged(const JudgedClosure& closure, T value) {
+    return closure.judged ? Json(value) : Json();
+  }
+
   void add_loop_closures() {
     for (const JudgedClosure& judged : results_.loops.closures) {
       if (judged.tick != at_) continue;
-      add("loop_closure", {{"tag", judged.closure.tag_id},
-                           {"earlier_t", exact_seconds(judged.closure.earlier)},
-                           {"later_t", exact_seconds(judged.closure.later)},
-                           {"correction_m", judged.closure.correction},
-                           {"error_m", judged.error_m},
-                           {"error_deg", judged.error_rad * 180 / std::numbers::pi},
-                           {"correct", judged.correct}});
+      add("loop_closure",
+          {{"tag", judged.closure.tag_id},
+           {"earlier_t", exact_seconds(judged.closure.earlier)},
+           {"later_t", exact_seconds(judged.closure.later)},
+           {"correction_m", judged.closure.correction},
+           {"error_m", if_judged(judged, judged.error_m)},
+           {"error_deg", if_judged(judged, judged.error_rad * 180 / std::numbers::pi)},
+           {"correct", if_judged(judged, judged.correct)}});
     }
     for (const TagVisit& visit : results_.loops.missed) {
       if (visit.last != at_) continue;

@@ -14,10 +14,12 @@ namespace vinebench {
 namespace {
 
 std::string encode_png(const cv::Mat& image) {
-  cv::Mat bgr = image;
+  cv::Mat
+      bgr;  // not a second name of the picture: that would turn its colours for those who follow
   if (image.channels() == 3) cv::cvtColor(image, bgr, cv::COLOR_RGB2BGR);
   std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", bgr, bytes)) fail("a picture cannot be encoded as PNG");
+  if (!cv::imencode(".png", bgr.empty() ? image : bgr, bytes))
+    fail("a picture cannot be encoded as PNG");
   return {bytes.begin(), bytes.end()};
 }
 

@@ -22,6 +22,8 @@ JudgedClosure judge(const RunRecord& record, std::size_t tick) {
     judged.error_m = judged.error_rad = std::numeric_limits<double>::infinity();
     return judged;
   }
+  judged.judged = earlier->truth.known && later->truth.known;
+  if (!judged.judged) return judged;
   const Pose truth = earlier->truth.T_world_body.inverse() * later->truth.T_world_body;
   const Pose error = truth.inverse() * judged.closure.T_earlier_later;
   judged.error_m = error.translation.norm();
@@ -68,6 +70,11 @@ bool was_closed(const RunRecord& record, const LoopVerdict& verdict, const TagVi
 
 int LoopVerdict::correct() const {
   return static_cast<int>(std::ranges::count(closures, true, &JudgedClosure::correct));
+}
+
+int LoopVerdict::wrong() const {
+  return static_cast<int>(std::ranges::count_if(
+      closures, [](const JudgedClosure& closure) { return closure.judged && !closure.correct; }));
 }
 
 std::vector<TagVisit> tag_visits(const RunRecord& record) {

@@ -25,6 +25,7 @@ struct JudgedClosure {
   double error_m = 0;  ///< of T_earlier_later
   double error_rad = 0;
   bool correct = false;
+  bool judged = true;  ///< false where the truth of either end is unknown
 };
 
 /// A time during which the truth has a tag in view, short gaps included.
@@ -39,7 +40,7 @@ struct LoopVerdict {
   std::vector<JudgedClosure> closures;
   std::vector<TagVisit> missed;  ///< returns to a tag during which no closure with it was reported
   int correct() const;
-  int wrong() const { return static_cast<int>(closures.size()) - correct(); }
+  int wrong() const;
 };
 
 /// Visits of each tag by the truth, in the order of tags, then of time.

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/measurement.h"
 
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <fstream>
 
 #include "slam/base/error.h"
 
@@ -53,6 +55,11 @@ Timing median(const std::vector<Timing>& timings) {
 
 double rounded(double value) {
   return std::round(100 * value) / 100;
+}
+
+void reset_peak_memory() {
+  malloc_trim(0);
+  std::ofstream("/proc/self/clear_refs") << "5";
 }
 
 double peak_memory_mib() {

@@ -24,7 +24,11 @@ Timing median(const std::vector<Timing>& timings);
 /// Two decimals, for reports.
 double rounded(double value);
 
-/// The most memory that this process has held so far, MiB.
+/// The most memory that this process has held so far or since reset_peak_memory(), MiB.
 double peak_memory_mib();
+
+/// Gives back what is free, and makes what is held then the most that was held. Without effect
+/// where the system has no such thing.
+void reset_peak_memory();
 
 }  // namespace vinebench

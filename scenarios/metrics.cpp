@@ -39,6 +39,14 @@ void add_errors(Json& metrics, const RunResults& results) {
   metrics["rpe_trans_percent"] = corrected ? or_null(corrected->rpe_trans_percent) : Json();
 }
 
+/// How often each kind of fault in the data occurred; no key where there was none.
+void count_events(const Tick& tick, Json& metrics) {
+  for (const SourceEvent& event : tick.events) {
+    Json& count = metrics["input_faults"][event.event];
+    count = count.is_null() ? 1 : count.get<int>() + 1;
+  }
+}
+
 Json blind_metrics(const BlindStretch& blind) {
   return {{"seconds", blind.seconds},
           {"metres", blind.metres},
@@ -67,6 +75,7 @@ Json result_metrics(const ScenarioConfig& scenario, const RunRecord& record,
   metrics["landmarks"] = record.summary.landmarks;
   metrics["features"] = camera_means(record, &CameraCounts::features);
   metrics["inliers"] = camera_means(record, &CameraCounts::inliers);
+  for (const Tick& tick : record.ticks) count_events(tick, metrics);
   if (results.blind) metrics["blind"] = blind_metrics(*results.blind);
   return metrics;
 }

@@ -17,6 +17,7 @@ constexpr double kMargin = 0.6;                                      // m around
 constexpr double kMaxWidth = 1000;                                   // px of the map
 constexpr double kMaxHeight = 700;                                   // px
 constexpr double kLeft = 60, kTop = 60, kRight = 230, kBottom = 60;  // px around the map
+constexpr double kLegendHeight = 330;                                // px
 
 /// Dark blue to yellow: seen by the colour-blind, and in print (after the viridis scale).
 constexpr std::array<const char*, 6> kScale{"#440154", "#414487", "#2a788e",
@@ -64,7 +65,8 @@ class Drawing {
         "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
         "<clipPath id=\"map\"><rect x=\"{2}\" y=\"{3}\" width=\"{4:.1f}\" height=\"{5:.1f}\"/>"
         "</clipPath>\n{6}</svg>\n",
-        width_ + kLeft + kRight, height_ + kTop + kBottom, kLeft, kTop, width_, height_, body_);
+        width_ + kLeft + kRight, std::max(height_ + kTop + kBottom, kLegendHeight), kLeft, kTop,
+        width_, height_, body_);
   }
 
  private:
@@ -81,7 +83,8 @@ class Drawing {
   std::string body_;
 };
 
-/// Everything that is true; an estimate that ran away must not shrink it to a dot.
+/// Everything that is true; an estimate that ran away must not shrink it to a dot. Where nothing is
+/// known to be true, the estimate.
 Eigen::AlignedBox2d bounds_of(const WorldConfig& world, const RunRecord& record) {
   Eigen::AlignedBox2d bounds;
   for (const auto& row : world.rows) bounds.extend(row.start).extend(row.end);
@@ -91,7 +94,12 @@ Eigen::AlignedBox2d bounds_of(const WorldConfig& world, const RunRecord& record)
     bounds.extend((box.position - half).eval()).extend((box.position + half).eval());
   }
   for (const Tick& tick : record.ticks) {
-    bounds.extend(tick.truth.T_world_body.translation.head<2>().eval());
+    if (tick.truth.known) bounds.extend(tick.truth.T_world_body.translation.head<2>().eval());
+  }
+  if (bounds.isEmpty()) {
+    for (const StampedPose& at : record.summary.trajectory) {
+      bounds.extend(at.pose.translation.head<2>().eval());
+    }
   }
   if (bounds.isEmpty()) bounds.extend(Eigen::Vector2d::Zero().eval());
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kMargin);
@@ -105,12 +113,12 @@ void draw_axes(Drawing& drawing) {
   const char* grid = "stroke=\"#dddddd\" stroke-width=\"1\"";
   for (double x = std::ceil(low.x() / step) * step; x <= high.x(); x += step) {
     drawing.line({x, low.y()}, {x, high.y()}, grid);
-    drawing.text(drawing.x(x), kTop + drawing.height() + 18, fmt::format("{:g}", x),
+    drawing.text(drawing.x(x), kTop + drawing.height() + 18, fmt::format("{:g}", x + 0.0),  // no -0
                  "text-anchor=\"middle\"");
   }
   for (double y = std::ceil(low.y() / step) * step; y <= high.y(); y += step) {
     drawing.line({low.x(), y}, {high.x(), y}, grid);
-    drawing.text(kLeft - 8, drawing.y(y) + 4, fmt::format("{:g}", y), "text-anchor=\"end\"");
+    drawing.text(kLeft - 8, drawing.y(y) + 4, fmt::format("{:g}", y + 0.0), "text-anchor=\"end\"");
   }
   drawing.text(kLeft + drawing.width() / 2, kTop + drawing.height() + 42, "x, east (m)",
                "text-anchor=\"middle\"");
@@ -170,6 +178,7 @@ void draw_truth(Drawing& drawing, const RunRecord& record, const RunResults& res
   std::vector<Eigen::Vector2d> all;
   std::vector<Eigen::Vector2d> blind;
   for (std::size_t i = 0; i < record.ticks.size(); ++i) {
+    if (!record.ticks[i].truth.known) continue;
     all.push_back(record.ticks[i].truth.T_world_body.translation.head<2>());
     if (results.blind && i >= results.blind->first && i <= results.blind->last) {
       blind.push_back(all.back());
@@ -196,8 +205,18 @@ void draw_estimate(Drawing& drawing, const RunRecord& record, const RunResults& 
   }
 }
 
+/// Without a truth to align it with and to colour it by.
+void draw_estimate_alone(Drawing& drawing, const RunRecord& record) {
+  std::vector<Eigen::Vector2d> way;
+  for (const StampedPose& at : record.summary.trajectory) {
+    way.push_back(at.pose.translation.head<2>());
+  }
+  drawing.way(way, fmt::format("stroke=\"{}\" stroke-width=\"3\"", kScale.front()));
+}
+
 void draw_closures(Drawing& drawing, const RunRecord& record, const RunResults& results) {
   for (const JudgedClosure& judged : results.loops.closures) {
+    if (!record.ticks[judged.tick].truth.known) continue;
     const Eigen::Vector2d at = record.ticks[judged.tick].truth.T_world_body.translation.head<2>();
     drawing.circle(at, 9,
                    fmt::format("fill=\"none\" stroke-width=\"2.5\" stroke=\"{}\"",
@@ -206,9 +225,11 @@ void draw_closures(Drawing& drawing, const RunRecord& record, const RunResults& 
 }
 
 void draw_ends(Drawing& drawing, const RunRecord& record) {
-  if (record.ticks.empty()) return;
-  const Eigen::Vector2d start = record.ticks.front().truth.T_world_body.translation.head<2>();
-  const Eigen::Vector2d end = record.ticks.back().truth.T_world_body.translation.head<2>();
+  const Trajectory truth = true_trajectory(record);
+  const Trajectory& way = truth.empty() ? record.summary.trajectory : truth;
+  if (way.empty()) return;
+  const Eigen::Vector2d start = way.front().pose.translation.head<2>();
+  const Eigen::Vector2d end = way.back().pose.translation.head<2>();
   drawing.circle(start, 5, "fill=\"white\" stroke=\"black\" stroke-width=\"2\"");
   drawing.circle(end, 3, "fill=\"black\"");
 }
@@ -243,14 +264,21 @@ class Legend {
   double y_ = kTop + 12;
 };
 
-void draw_legend(Drawing& drawing, const RunResults& results, double top) {
+void explain_world(Legend& legend, const WorldConfig& world) {
+  if (!world.rows.empty()) {
+    legend.entry("vine row", "#c5dfb3", 12);
+    legend.mark("vine", 3, "fill=\"#4c8c2b\"");
+    legend.mark("post", 3, "fill=\"#7f6a4f\"");
+  }
+  if (!world.tags.empty()) legend.entry("tag and where it faces", "#d62728", 6);
+}
+
+void draw_legend(Drawing& drawing, const WorldConfig& world, const RunResults& results,
+                 double top) {
   Legend legend(drawing);
   legend.entry("truth", "#bbbbbb", 8);
   if (results.blind) legend.entry("truth, cameras blind", "#555555", 8);
-  legend.entry("vine row", "#c5dfb3", 12);
-  legend.mark("vine", 3, "fill=\"#4c8c2b\"");
-  legend.mark("post", 3, "fill=\"#7f6a4f\"");
-  legend.entry("tag and where it faces", "#d62728", 6);
+  explain_world(legend, world);
   legend.mark("start", 5, "fill=\"white\" stroke=\"black\" stroke-width=\"2\"");
   legend.mark("end", 3, "fill=\"black\"");
   if (!results.loops.closures.empty()) {
@@ -266,7 +294,8 @@ void draw_legend(Drawing& drawing, const RunResults& results, double top) {
 }
 
 std::string title_of(const ScenarioConfig& scenario, const RunResults& results) {
-  std::string title = fmt::format("{}, seed {}", scenario.name, scenario.seed);
+  std::string title = scenario.name;
+  if (!scenario.simulation.world.rows.empty()) title += fmt::format(", seed {}", scenario.seed);
   if (results.corrected) {
     title += fmt::format(": ATE {:.1f} mm SE(3)-aligned, {:.1f} mm first pose aligned",
                          1000 * results.corrected->ate.rmse, 1000 * results.corrected->origin.rmse);
@@ -286,10 +315,11 @@ std::string plot_svg(const ScenarioConfig& scenario, const RunRecord& record,
   draw_world(drawing, scenario.simulation.world);
   draw_truth(drawing, record, results);
   if (results.corrected) draw_estimate(drawing, record, results, top);
+  if (true_trajectory(record).empty()) draw_estimate_alone(drawing, record);
   draw_closures(drawing, record, results);
   draw_ends(drawing, record);
   drawing.add("</g>");
-  draw_legend(drawing, results, top);
+  draw_legend(drawing, scenario.simulation.world, results, top);
   return drawing.document();
 }
 

@@ -58,7 +58,9 @@ RunOutcome run_lockstep_and_judge(const ScenarioConfig& scenario, FrameSource& s
                                   SlamSystem& slam, const RunOptions& options) {
   if (const auto& blind = scenario.expectations.blind) find_cameras(source.rig(), blind->cameras);
   Sinks sinks(scenario, source, options);
-  run_lockstep(source, slam, sinks.list(), options.stopped);
+  std::vector<Sink*> all = sinks.list();
+  all.insert(all.end(), options.sinks.begin(), options.sinks.end());
+  run_lockstep(source, slam, all, options.stopped);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - options.started;
 
   const RunRecord& record = sinks.recorder.record();

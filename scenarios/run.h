@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <ostream>
+#include <vector>
 
 #include "scenarios/metrics.h"
 #include "scenarios/verdict.h"
@@ -27,6 +28,7 @@ struct RunOptions {
   bool terminal = false;             ///< `progress` is a terminal
   std::string title = "run";         ///< of the progress line
   std::function<bool()> stopped;     ///< asked before each frame
+  std::vector<Sink*> sinks;          ///< told of each tick after the run's own
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
 };
 

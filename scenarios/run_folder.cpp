@@ -32,9 +32,14 @@ void remove_old_pictures(const std::filesystem::path& folder) {
 }  // namespace
 
 void prepare_run_folder(const std::filesystem::path& folder, const ScenarioConfig& scenario) {
+  prepare_run_folder(folder, "scenario.resolved.yaml", format_yaml(scenario));
+}
+
+void prepare_run_folder(const std::filesystem::path& folder, const std::string& name,
+                        const std::string& settings) {
   make_folder(folder / "frames");
   try {
-    write_file_atomically(folder / "scenario.resolved.yaml", format_yaml(scenario));
+    write_file_atomically(folder / name, settings);
   } catch (const Error& error) {
     fail("output folder {}", error.what());
   }

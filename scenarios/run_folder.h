@@ -3,14 +3,19 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "scenarios/metrics.h"
 
 namespace vinebench {
 
-/// Makes the folder of a run, writes scenario.resolved.yaml into it and takes away what an earlier
-/// run would leave beside the new one (metrics.json and pictures of frames). Throws Error when it
-/// cannot be written to, before any work is done.
+/// Makes the folder of a run, writes its settings into it under the given name and takes away what
+/// an earlier run would leave beside the new one (metrics.json and pictures of frames). Throws
+/// Error when it cannot be written to, before any work is done.
+void prepare_run_folder(const std::filesystem::path& folder, const std::string& name,
+                        const std::string& settings);
+
+/// The same with scenario.resolved.yaml.
 void prepare_run_folder(const std::filesystem::path& folder, const ScenarioConfig& scenario);
 
 /// Trajectories, events and plot: all but the metrics, which only a whole run has.

@@ -72,7 +72,7 @@ struct RunHash::State {
     }
   }
   void add(const Truth& truth) {
-    add(truth.T_world_body);
+    if (truth.known) add(truth.T_world_body);
     for (const double share : truth.box_share) add(share);
     for (const int tag : truth.visible_tags) add(tag);
   }

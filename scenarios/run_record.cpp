@@ -6,7 +6,9 @@ namespace vinebench {
 
 Trajectory true_trajectory(const RunRecord& record) {
   Trajectory trajectory;
-  for (const Tick& tick : record.ticks) trajectory.push_back({tick.stamp, tick.truth.T_world_body});
+  for (const Tick& tick : record.ticks) {
+    if (tick.truth.known) trajectory.push_back({tick.stamp, tick.truth.T_world_body});
+  }
   return trajectory;
 }
 
@@ -21,11 +23,13 @@ Trajectory live_trajectory(const RunRecord& record) {
 std::vector<double> true_path_lengths(const RunRecord& record) {
   std::vector<double> lengths;
   double length = 0;
-  for (std::size_t i = 0; i < record.ticks.size(); ++i) {
-    if (i > 0) {
-      length += (record.ticks[i].truth.T_world_body.translation -
-                 record.ticks[i - 1].truth.T_world_body.translation)
-                    .norm();
+  const Truth* last = nullptr;
+  for (const Tick& tick : record.ticks) {
+    if (tick.truth.known) {
+      if (last != nullptr) {
+        length += (tick.truth.T_world_body.translation - last->T_world_body.translation).norm();
+      }
+      last = &tick.truth;
     }
     lengths.push_back(length);
   }
@@ -38,7 +42,8 @@ Recorder::Recorder(Rig rig, std::vector<WorldConfig::Tag> tags) {
 }
 
 void Recorder::on_tick(const Sample& sample, const Estimate& estimate) {
-  record_.ticks.push_back({sample.frame.index, sample.frame.stamp, sample.truth, estimate});
+  record_.ticks.push_back(
+      {sample.frame.index, sample.frame.stamp, sample.truth, estimate, sample.events});
 }
 
 }  // namespace vinebench

@@ -14,6 +14,7 @@ struct Tick {
   Stamp stamp = 0;
   Truth truth;
   Estimate estimate;
+  std::vector<SourceEvent> events;
 };
 
 /// A whole run, or as much of it as there was: the one input of judge, log, plot and metrics.
@@ -29,12 +30,13 @@ inline bool is_tracked(const Estimate& estimate) {
   return estimate.T_map_body.has_value() && estimate.status != TrackingStatus::kLost;
 }
 
+/// Where the truth is known.
 Trajectory true_trajectory(const RunRecord& record);
 
 /// Poses as they were known at their own frame.
 Trajectory live_trajectory(const RunRecord& record);
 
-/// Length of the true way from the first tick to each, m.
+/// Length of the true way from the first tick to each, m. Unknown poses add nothing.
 std::vector<double> true_path_lengths(const RunRecord& record);
 
 /// Fills a record.

@@ -35,19 +35,26 @@ std::filesystem::path default_cache() {
   return std::filesystem::temp_directory_path() / "vinebench-cache";
 }
 
-RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options) {
+RunOutcome run_mapping_system(const ScenarioConfig& scenario, FrameSource& source,
+                              MappingSystem& slam, const RunOptions& options) {
   expect_folder(options.maps.save);
+  expect_folder(options.maps.cloud);
+  if (!options.maps.load.empty()) slam.load_map(options.maps.load);
+  const RunOutcome outcome = run_lockstep_and_judge(scenario, source, slam, options);
+  if (!options.maps.save.empty()) slam.save_map(options.maps.save);
+  if (!options.maps.cloud.empty()) slam.save_cloud(options.maps.cloud);
+  return outcome;
+}
+
+RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options) {
+  expect_folder(options.maps.save);  // before the vineyard is grown
   expect_folder(options.maps.cloud);
   WorkerPool pool(threads);
   const auto source = make_simulation(
       scenario.simulation, static_cast<std::uint64_t>(scenario.seed), default_cache(), pool);
   const auto slam =
       make_slam(scenario.slam, source->rig(), registered_tags(scenario.simulation.world), pool);
-  if (!options.maps.load.empty()) slam->load_map(options.maps.load);
-  const RunOutcome outcome = run_lockstep_and_judge(scenario, *source, *slam, options);
-  if (!options.maps.save.empty()) slam->save_map(options.maps.save);
-  if (!options.maps.cloud.empty()) slam->save_cloud(options.maps.cloud);
-  return outcome;
+  return run_mapping_system(scenario, *source, *slam, options);
 }
 
 }  // namespace vinebench

@@ -10,6 +10,11 @@ namespace vinebench {
 /// ~/.cache/vinebench, else a folder for temporary files.
 std::filesystem::path default_cache();
 
+/// Runs a SLAM system on a source and judges it, with the maps of the options loaded before and
+/// saved after.
+RunOutcome run_mapping_system(const ScenarioConfig& scenario, FrameSource& source,
+                              MappingSystem& slam, const RunOptions& options);
+
 /// Builds the simulation and the SLAM system of a scenario and runs one on the other. `threads`
 /// counts all threads that share the work; it changes no result.
 RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options);

@@ -8,6 +8,7 @@
 
 #include "scenarios/evaluation.h"
 #include "scenarios/lockstep.h"
+#include "scenarios/replay.h"
 #include "scenarios/run_folder.h"
 #include "scenarios/run_scenario.h"
 #include "scenarios/scenario.h"

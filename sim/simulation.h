@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "sim/renderer.h"
@@ -22,16 +23,26 @@ namespace vinebench {
 /// What only the judge may know of an instant.
 struct Truth {
   Pose T_world_body;
+  bool known = true;  ///< false where a recording has no ground truth; the pose means nothing then
   std::vector<double> box_share;  ///< of each camera's pixels, 0 to 1, those that show a carton box
   /// Indices into WorldConfig::tags that are wholly in the picture of a tag camera, unoccluded at
   /// their centre and corners.
   std::vector<int> visible_tags;
 };
 
+/// Something wrong with the data of a frame that its source survived, such as a picture that cannot
+/// be read.
+struct SourceEvent {
+  std::string event;   ///< its kind, for counting: "picture_missing"
+  std::string sensor;  ///< name of the camera or other sensor
+  std::string detail;  ///< what was found, for people
+};
+
 /// One tick of a source of frames. Only `frame` is passed on to a SLAM system.
 struct Sample {
   Frame frame;
   Truth truth;
+  std::vector<SourceEvent> events;
 };
 
 /// Frames in order, from a simulation, a recording or a test.

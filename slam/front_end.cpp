@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "slam/base/error.h"
+#include "slam/rectification.h"
 
 namespace vinebench {
 namespace {
@@ -66,9 +67,13 @@ void FrontEnd::extract(const Frame& frame, StageTimes& times) {
       }
     } else {
       const std::size_t p = job - tag_jobs;
-      const cv::Mat left = grey(frame, rig_.pairs[p].left_camera);
-      const cv::Mat right = grey(frame, rig_.pairs[p].right_camera);
+      const Rectification* const rectify = rig_.pairs[p].rectification.get();
+      cv::Mat left = grey(frame, rig_.pairs[p].left_camera);
+      cv::Mat right = grey(frame, rig_.pairs[p].right_camera);
+      if (rectify != nullptr && !left.empty()) left = rectify->left(left);
+      if (rectify != nullptr && !right.empty()) right = rectify->right(right);
       left_[p] = left.empty() ? Extraction{} : extractor_.extract(left);
+      if (rectify != nullptr) rectify->drop_unseen(left_[p].features, extractor_);
       right_pyramids_[p] = right.empty() ? std::vector<cv::Mat>{} : extractor_.pyramid(right);
     }
     spent[job] = milliseconds_since(start);

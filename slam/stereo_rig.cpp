@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "slam/base/error.h"
+#include "slam/rectification.h"
 
 namespace vinebench {
 namespace {
@@ -14,35 +15,40 @@ bool same_lens(const PinholeCamera& a, const PinholeCamera& b) {
          a.cx == b.cx && a.cy == b.cy;
 }
 
-StereoEye make_pair(const Rig& rig, const StereoPair& pair) {
-  const RigCamera& left = rig.cameras[static_cast<std::size_t>(pair.left)];
-  const RigCamera& right = rig.cameras[static_cast<std::size_t>(pair.right)];
+/// Whether the right eye is on the left eye's x axis and parallel to it, with the same lens.
+bool is_rectified(const RigCamera& left, const RigCamera& right) {
   if (left.model.has_distortion() || right.model.has_distortion() ||
       !same_lens(left.model, right.model)) {
-    fail(
-        "rig '{}': stereo pair '{}' must be rectified: expected two equal lenses without "
-        "distortion",
-        rig.name, pair.name);
+    return false;
   }
   const Pose T_left_right = left.T_body_cam.inverse() * right.T_body_cam;
   const Eigen::Vector3d& offset = T_left_right.translation;
   // A hundredth of a pixel at this focal length is the most that a row may be off.
   const double tolerance = 0.01 / left.model.fx;
-  const bool parallel = angle_of(T_left_right.rotation) < tolerance;
-  const bool side_by_side = offset.x() > 0 && offset.tail<2>().norm() < tolerance * offset.x();
-  if (!parallel || !side_by_side) {
-    fail(
-        "rig '{}': stereo pair '{}' must be rectified: expected the right eye on the left eye's x "
-        "axis, parallel to it",
-        rig.name, pair.name);
+  return angle_of(T_left_right.rotation) < tolerance && offset.x() > 0 &&
+         offset.tail<2>().norm() < tolerance * offset.x();
+}
+
+StereoEye make_pair(const Rig& rig, const StereoPair& pair) {
+  const RigCamera& left = rig.cameras[static_cast<std::size_t>(pair.left)];
+  const RigCamera& right = rig.cameras[static_cast<std::size_t>(pair.right)];
+  StereoEye eye;
+  eye.name = pair.name;
+  eye.left_camera = pair.left;
+  eye.right_camera = pair.right;
+  if (is_rectified(left, right)) {
+    eye.lens = left.model;
+    eye.baseline = rig.baseline(pair);
+    eye.T_body_cam = left.T_body_cam;
+  } else {
+    const std::string what = fmt::format("rig '{}': stereo pair '{}'", rig.name, pair.name);
+    eye.rectification = std::make_shared<Rectification>(left, right, what);
+    eye.lens = eye.rectification->lens();
+    eye.baseline = eye.rectification->baseline();
+    eye.T_body_cam = eye.rectification->T_body_left();
   }
-  return {pair.name,
-          pair.left,
-          pair.right,
-          left.model,
-          rig.baseline(pair),
-          left.T_body_cam,
-          left.T_body_cam.inverse()};
+  eye.T_cam_body = eye.T_body_cam.inverse();
+  return eye;
 }
 
 }  // namespace

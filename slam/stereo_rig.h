@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,10 @@
 
 namespace vinebench {
 
-/// A rectified pair as the estimator uses it: one lens, two eyes on one row.
+class Rectification;
+
+/// A rectified pair as the estimator uses it: one lens, two eyes on one row. Of a pair whose
+/// pictures must be rectified first, these are the virtual eyes'.
 struct StereoEye {
   std::string name;
   int left_camera = 0;  ///< index into Rig::cameras
@@ -18,6 +22,7 @@ struct StereoEye {
   double baseline = 0;  ///< m
   Pose T_body_cam;      ///< left eye
   Pose T_cam_body;
+  std::shared_ptr<const Rectification> rectification;  ///< none where the pictures are rectified
 };
 
 /// The part of a rig that is in use: pairs for tracking, cameras for tags.
@@ -28,8 +33,9 @@ struct StereoRig {
 };
 
 /// Selects the pairs and tag cameras that `names` lists (all where it is empty). Throws Error for
-/// an unknown name, when no pair is left, and for a pair that is not rectified: different or
-/// distorted lenses, eyes not parallel or not side by side.
+/// an unknown name, when no pair is left, and for a pair that cannot be rectified. A pair of equal
+/// lenses without distortion whose eyes are parallel and side by side, to a hundredth of a pixel,
+/// is used as it is.
 StereoRig make_stereo_rig(const Rig& rig, const std::vector<std::string>& names);
 
 }  // namespace vinebench

@@ -101,13 +101,9 @@ int bench_render(const BenchArguments& arguments) {
   return 0;
 }
 
-}  // namespace
-
-void add_bench_command(CLI::App& app, Command& chosen) {
-  CLI::App* bench = app.add_subcommand("bench", "Measure the speed of a part");
-  bench->require_subcommand(1);
+void add_bench_render(CLI::App& bench, Command& chosen) {
   const auto arguments = std::make_shared<BenchArguments>();
-  CLI::App* render = bench->add_subcommand(
+  CLI::App* render = bench.add_subcommand(
       "render", "Rendering, without SLAM, in the middle aisle: medians over the frames");
   render->add_option("--world", arguments->worlds,
                      "World files; csl-vineyard, typical-vineyard and the latter with 40 rows "
@@ -128,6 +124,15 @@ void add_bench_command(CLI::App& app, Command& chosen) {
       ->check(CLI::ExistingDirectory);
   render->callback(
       [&chosen, arguments] { chosen = [arguments] { return bench_render(*arguments); }; });
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, Command& chosen) {
+  CLI::App* bench = app.add_subcommand("bench", "Measure the speed of a part");
+  bench->require_subcommand(1);
+  add_bench_render(*bench, chosen);
+  add_bench_slam(*bench, chosen);
 }
 
 }  // namespace vinebench

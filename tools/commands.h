@@ -19,9 +19,13 @@ using Command = std::function<int()>;
 
 // Each adds its sub-command to the program; parsing one of them sets `chosen`.
 void add_run_command(CLI::App& app, Command& chosen);
+void add_replay_command(CLI::App& app, Command& chosen);
 void add_eval_command(CLI::App& app, Command& chosen);
 void add_render_command(CLI::App& app, Command& chosen);
 void add_bench_command(CLI::App& app, Command& chosen);
 void add_world_command(CLI::App& app, Command& chosen);
+
+/// A sub-command of bench's own file.
+void add_bench_slam(CLI::App& bench, Command& chosen);
 
 }  // namespace vinebench

@@ -1,39 +1,26 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <signal.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <iostream>
 #include <limits>
 #include <memory>
 #include <thread>
 
+#include "scenarios/euroc_writer.h"
 #include "scenarios/scenarios.h"
 #include "tools/commands.h"
+#include "tools/interactive.h"
 
 namespace vinebench {
 namespace {
-
-constexpr int kSignalBase = 128;  // a shell's convention for a program that a signal ended
-
-volatile sig_atomic_t g_signal = 0;
-
-/// The first ^C ends the run after its frame; a second one ends the program at once.
-void catch_interrupts() {
-  struct sigaction action {};
-  action.sa_handler = [](int signal) { g_signal = signal; };
-  action.sa_flags = SA_RESETHAND;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 struct RunArguments {
   std::string scenario;
   std::optional<std::int64_t> seed;
   std::string out;
+  std::string record;
   std::vector<std::string> overrides;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   bool verify_determinism = false;
@@ -41,20 +28,9 @@ struct RunArguments {
 };
 
 ScenarioConfig scenario_of(const RunArguments& arguments) {
-  std::vector<Override> overrides;
-  for (const std::string& text : arguments.overrides) overrides.push_back(parse_override(text));
-  ScenarioConfig scenario = load_scenario(arguments.scenario, overrides);
+  ScenarioConfig scenario = load_scenario(arguments.scenario, parse_overrides(arguments.overrides));
   if (arguments.seed) scenario.seed = *arguments.seed;
   return scenario;
-}
-
-RunOptions options_of(const ScenarioConfig& scenario, const char* title) {
-  RunOptions options;
-  options.progress = &std::cerr;
-  options.terminal = isatty(STDERR_FILENO) == 1;
-  options.title = fmt::format("{}{}", scenario.name, title);
-  options.stopped = [] { return g_signal != 0; };
-  return options;
 }
 
 void print_verdict(const ScenarioConfig& scenario, const RunOutcome& outcome,
@@ -65,21 +41,15 @@ void print_verdict(const ScenarioConfig& scenario, const RunOutcome& outcome,
              format_checks(outcome.checks), std::filesystem::absolute(folder).string());
 }
 
-int report_interruption(const RunOutcome& outcome, const std::filesystem::path& folder) {
-  fmt::print(stderr, "vinebench: stopped after {} frames; what there is of them is in {}\n",
-             outcome.frames, folder.string());
-  return kSignalBase + g_signal;
-}
-
 /// Runs once more, without files, and compares.
 int verify_determinism(const ScenarioConfig& scenario, const RunArguments& arguments,
                        const std::string& first) {
-  RunOptions options = options_of(scenario, " (again)");
+  RunOptions options = interactive_options(scenario.name + " (again)");
   options.maps.load = arguments.maps.load;
   const RunOutcome again = run_scenario(scenario, arguments.threads, options);
   if (again.interrupted) {
     fmt::print(stderr, "vinebench: stopped in the second run; determinism is not verified\n");
-    return kSignalBase + g_signal;
+    return interruption_code();
   }
   if (again.hash == first) {
     fmt::print("determinism: both runs have hash {}\n", first);
@@ -96,8 +66,12 @@ int run(const RunArguments& arguments) {
                                            : std::filesystem::path(arguments.out);
   prepare_run_folder(folder, scenario);
   catch_interrupts();
-  RunOptions options = options_of(scenario, "");
+  RunOptions options = interactive_options(scenario.name);
   options.folder = folder;
+  std::optional<EurocWriter> recording;
+  if (!arguments.record.empty()) {
+    options.sinks.push_back(&recording.emplace(arguments.record, notes_of(scenario)));
+  }
   options.maps = arguments.maps;
   const RunOutcome outcome = run_scenario(scenario, arguments.threads, options);
   if (outcome.interrupted) return report_interruption(outcome, folder);
@@ -118,6 +92,8 @@ void add_run_command(CLI::App& app, Command& chosen) {
       ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
   run->add_option("--out", arguments->out,
                   "Folder for the results (default: out/<scenario's name>)");
+  run->add_option("--record", arguments->record,
+                  "Also write the sensors' data and the truth there, as an EuRoC/ASL folder");
   run->add_option(
          "--set", arguments->overrides,
          "Set a key of the scenario, e.g. world.sun.elevation_deg=20; may stand many times")
@@ -127,13 +103,7 @@ void add_run_command(CLI::App& app, Command& chosen) {
   run->add_option("--threads", arguments->threads, "Threads to share the work; changes no result")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  run->add_option("--load-map", arguments->maps.load, "Map of an earlier run to go on with")
-      ->type_name("FILE")
-      ->check(CLI::ExistingFile);
-  run->add_option("--save-map", arguments->maps.save, "File for the map in the end")
-      ->type_name("FILE");
-  run->add_option("--save-cloud", arguments->maps.cloud, "File for its landmarks (PLY)")
-      ->type_name("FILE");
+  add_map_options(*run, arguments->maps);
   run->add_flag("--verify-determinism", arguments->verify_determinism,
                 "Run twice and fail unless both runs are the same to the byte");
   run->footer(

@@ -18,6 +18,7 @@ int dispatch(int argc, char** argv) {
   app.set_version_flag("--version", [] { return versions_text(); });  // starts OpenGL
   Command chosen;
   add_run_command(app, chosen);
+  add_replay_command(app, chosen);
   add_eval_command(app, chosen);
   add_render_command(app, chosen);
   add_bench_command(app, chosen);

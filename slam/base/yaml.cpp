@@ -115,6 +115,7 @@ void YamlDocument::set(const std::string& key, const std::string& value) {
   } catch (const YAML::ParserException& error) {
     fail("--set {}: '{}' is not valid YAML: {}", key, value, error.msg);
   }
+  if (root_.IsNull()) root_ = YAML::Node(YAML::NodeType::Map);  // a document without a file
   assign(root_, split(key), 0, parsed, key);
   overrides_[key] = value;
 }
@@ -122,6 +123,7 @@ void YamlDocument::set(const std::string& key, const std::string& value) {
 std::filesystem::path YamlDocument::file_of(const std::string& key) const {
   for (std::string prefix = key;;) {
     if (const auto found = files_.find(prefix); found != files_.end()) return found->second;
+    if (prefix.empty()) return "(defaults)";  // a document without a file
     const std::size_t dot = prefix.rfind('.');
     prefix = dot == std::string::npos ? "" : prefix.substr(0, dot);
   }

@@ -108,6 +108,24 @@ TEST_F(RunTest, PicturesAreThoseOfTheSource) {
   EXPECT_EQ(bgr.at<cv::Vec3b>(0, 0), cv::Vec3b(200, 2, 1));  // blue frame, green camera, red seed
 }
 
+TEST_F(RunTest, PicturesAreLeftAsTheyAreForOtherSinks) {
+  struct FirstPixels : Sink {
+    void on_tick(const Sample& sample, const Estimate&) override {
+      seen.push_back(sample.frame.images[0].at<cv::Vec3b>(0, 0));
+    }
+    std::vector<cv::Vec3b> seen;
+  } pixels;
+  prepare_run_folder(folder_, fakes::scenario());
+  fakes::Source source(7, 3);
+  fakes::Slam slam;
+  RunOptions options;
+  options.folder = folder_;
+  options.sinks = {&pixels};
+  run_lockstep_and_judge(fakes::scenario(), source, slam, options);
+  ASSERT_EQ(pixels.seen.size(), 3u);
+  EXPECT_EQ(pixels.seen[2], cv::Vec3b(7, 0, 2));  // red seed, green camera, blue frame
+}
+
 TEST_F(RunTest, EventsTellTheStory) {
   prepare_run_folder(folder_, fakes::scenario());
   run([](Estimate& estimate) {

@@ -106,6 +106,25 @@ sed 's/^/10/' "$work/truth.tum" >"$work/later.tum"
 expect 2 "eval of strangers" "later.tum: fewer than three" -- \
   eval "$work/truth.tum" "$work/later.tum"
 
+expect 0 "help of replay" "DATASET" "--groundtruth" "--rig" -- replay --help
+mkdir -p "$work/empty" "$work/kitti/image_l" "$work/kitti/image_r" "$work/euroc/mav0/cam0"
+expect 2 "replay of nothing" "none: expected a folder" -- replay "$work/none"
+expect 2 "replay of an empty folder" "is no recording: expected an EuRoC/ASL folder" "KITTI" -- \
+  replay "$work/empty"
+echo "20 0 15 0 0 20 11 0 0 0 1" >"$work/kitti/calib.txt"
+expect 2 "replay with a short matrix" "calib.txt:1: expected 12 numbers" "found 11" -- \
+  replay "$work/kitti" --out "$work/out"
+printf '20 0 15 %s 0 20 11 0 0 0 1 0\n' 0 -10 >"$work/kitti/calib.txt"
+expect 2 "replay without pictures" "image_l: expected pictures named by their number" -- \
+  replay "$work/kitti" --out "$work/out"
+expect 2 "replay of one camera" "expected a cam1 beside cam0" -- \
+  replay "$work/euroc" --out "$work/out"
+expect 2 "replay with a missing rig" "rig.yaml: cannot be read" -- \
+  replay "$work/kitti" --rig "$work/no/rig.yaml" --out "$work/out"
+expect 2 "recording into a full folder" "is not empty; expected a new or an empty folder" -- \
+  run "$root/scenarios/quick-loop.yaml" --out "$work/out" --record "$work/kitti"
+expect 2 "bench of no data set" "is no recording" -- bench slam "$work/empty"
+
 echo junk >"$work/junk.map"
 quick_loop=$root/scenarios/quick-loop.yaml
 expect 2 "load of no map" "junk.map: not a map of Vinebench" -- \

@@ -9,6 +9,7 @@
 #   resolved its own scenario.resolved.yaml repeats it (needs verdict)
 #   map      a run in the map that verdict left finds its place there, by tag and by looks (needs
 #            verdict)
+#   replayed a replay of a recording of it gives the same estimate (0.8 s)
 #   front    with the front cameras alone it is lost or ten times worse (needs verdict)
 set -euo pipefail
 step=$1 vinebench=$2 root=$3 work=$4
@@ -63,6 +64,18 @@ case $step in
     awk -v losses="$(metric front losses)" -v alone="$(metric front ate_rmse_m)" \
       -v all="$(metric verdict ate_rmse_m)" \
       'BEGIN { exit !(losses + 0 > 0 || alone == "null" || alone + 0 >= 10 * all) }'
+    ;;
+  replayed)
+    rm -rf "$work/recording"
+    code=0
+    "$vinebench" run "$scenario" --out "$work/short" --set duration=0.8 \
+      --record "$work/recording" || code=$?
+    [[ $code -le 1 ]] || exit $code  # too short for what the scenario expects
+    "$vinebench" replay "$work/recording" --out "$work/replayed" --threads 1
+    for file in estimate.tum estimate_live.tum keyframes.tum; do
+      [[ -s $work/short/$file ]] || { echo "$file is empty" >&2; exit 1; }
+      cmp "$work/short/$file" "$work/replayed/$file"
+    done
     ;;
   *)
     echo "unknown step '$step'" >&2

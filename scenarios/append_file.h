@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+namespace vinebench {
+
+/// A text file that grows by whole parts: what was appended is on its way to the disk at once, and
+/// a part that does not fit is taken back. Throws Error with the system's reason.
+class AppendFile {
+ public:
+  explicit AppendFile(std::filesystem::path file);
+  void append(std::string_view part);
+
+ private:
+  std::filesystem::path file_;
+  std::ofstream out_;
+  std::uintmax_t size_ = 0;
+};
+
+}  // namespace vinebench

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace vinebench {
+
+/// One thread that does jobs in their order, beside the caller. At most `capacity` wait; the caller
+/// of one more waits too, so that memory is bounded.
+class BackgroundWorker {
+ public:
+  explicit BackgroundWorker(std::size_t capacity);
+  BackgroundWorker(const BackgroundWorker&) = delete;
+  BackgroundWorker& operator=(const BackgroundWorker&) = delete;
+  ~BackgroundWorker();  ///< does what waits, and forgets what goes wrong
+
+  /// Rethrows what an earlier job threw; no job is done after that one.
+  void submit(std::function<void()> job);
+
+  /// Returns when all is done; rethrows likewise.
+  void wait();
+
+ private:
+  void work();
+  void rethrow();
+
+  std::size_t capacity_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::function<void()>> jobs_;
+  std::exception_ptr error_;
+  bool busy_ = false;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace vinebench

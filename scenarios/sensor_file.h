@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slam/base/camera.h"
+#include "slam/base/pose.h"
+
+namespace vinebench {
+
+/// A sensor.yaml of an EuRoC/ASL folder. Other people's files have keys that are none of our
+/// business, so unknown ones are let pass; what is read is checked. Throws Error with file and
+/// line.
+class SensorFile {
+ public:
+  explicit SensorFile(std::filesystem::path file);
+
+  Pose T_BS() const;             ///< sensor to body
+  PinholeCamera camera() const;  ///< pinhole, radial-tangential or without distortion
+  std::optional<double> rate_hz() const;
+
+ private:
+  [[noreturn]] void fault(const YAML::Node& node, const std::string& message) const;
+  std::vector<double> numbers(const YAML::Node& node, const std::string& key,
+                              std::size_t count) const;
+  void expect_word(const std::string& key, const std::vector<std::string>& words) const;
+
+  std::filesystem::path file_;
+  YAML::Node root_;
+};
+
+}  // namespace vinebench

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scenarios/run.h"
+
+namespace CLI {
+class App;
+}
+
+namespace vinebench {
+
+// What commands that run a SLAM system while a person watches have in common.
+
+/// The first ^C ends the run after its frame; a second one ends the program at once.
+void catch_interrupts();
+
+/// Options of a run that tells its progress on standard error and stops at ^C.
+RunOptions interactive_options(const std::string& title);
+
+/// Exit code of a program that the caught signal ended.
+int interruption_code();
+
+/// Says what there is, and returns the exit code.
+int report_interruption(const RunOutcome& outcome, const std::filesystem::path& folder);
+
+/// --load-map, --save-map, --save-cloud.
+void add_map_options(CLI::App& command, MapFiles& maps);
+
+/// Each of the texts as KEY=VALUE. Throws Error.
+std::vector<Override> parse_overrides(const std::vector<std::string>& texts);
+
+}  // namespace vinebench
