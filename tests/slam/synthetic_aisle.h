@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "slam/base/random.h"
@@ -83,7 +84,7 @@ class SyntheticAisle {
   void fill(FrameFeatures& features, std::size_t v, const Pose& T_world_body) const {
     const StereoEye& eye = rig.pairs[v];
     const Pose T_cam_world = eye.T_cam_body * T_world_body.inverse();
-    const RandomStream draw(seed_, v == 0 ? "noise0" : "noise1",
+    const RandomStream draw(seed_, "noise" + std::to_string(v),
                             static_cast<std::uint64_t>(features.index));
     StereoView& view = features.views[v];
     for (std::size_t i = 0; i < points_.size() && view.features.size() < 1000; ++i) {
