@@ -10,12 +10,13 @@ namespace vinebench {
 /// rad).
 ///
 /// From keyframe to keyframe errors add up; from a keyframe to the frames after it the motion-only
-/// adjustment says how well each is held by the landmarks. Its own covariance is too small, since
-/// landmarks are not exact and their errors are shared: it is taken `kInflation` times, a factor
-/// that was found on clean drives (docs/benchmarks.md) and holds no truth of the one at hand.
+/// adjustment says how well each is held by the landmarks. That takes landmarks as exact, which
+/// they are not, and errors as larger than most are, for the sake of their tails: `kInflation`
+/// makes up for both. It was found on two clean drives (docs/benchmarks.md) and holds no truth of
+/// any other.
 class PoseUncertainty {
  public:
-  static constexpr double kInflation = 9;
+  static constexpr double kInflation = 0.5;
 
   /// The map begins here, or a tag of known pose has just fixed it.
   void start(const Matrix6d& covariance);
