@@ -23,6 +23,8 @@ const char* status_text(const Estimate& estimate) {
       return "initializing";
     case TrackingStatus::kTracking:
       return "tracking";
+    case TrackingStatus::kDeadReckoning:
+      return "DEAD RECKONING";
     case TrackingStatus::kLost:
       return "LOST";
   }

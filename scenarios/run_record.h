@@ -25,9 +25,10 @@ struct RunRecord {
   SlamSummary summary;
 };
 
-/// Whether this frame has a pose that the system stands by.
+/// Whether this frame has a pose that the cameras bear out.
 inline bool is_tracked(const Estimate& estimate) {
-  return estimate.T_map_body.has_value() && estimate.status != TrackingStatus::kLost;
+  return estimate.T_map_body.has_value() && estimate.status != TrackingStatus::kLost &&
+         estimate.status != TrackingStatus::kDeadReckoning;
 }
 
 /// Where the truth is known.

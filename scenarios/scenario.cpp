@@ -17,6 +17,11 @@ std::string part_value(const std::string& value) {
   return fmt::format("\"{}\"", std::filesystem::absolute(value).string());
 }
 
+/// What a robot knows of its own wheels.
+MecanumWheels wheels_of(const RoverConfig& rover) {
+  return {rover.wheel_radius, rover.half_track, rover.half_wheelbase};
+}
+
 template <class T>
 void move_into(std::vector<T>& from, std::vector<T>& to) {
   to.insert(to.end(), from.begin(), from.end());
@@ -52,6 +57,8 @@ ScenarioConfig load_scenario(const std::filesystem::path& file,
   move_into(scenario.boxes, scenario.simulation.world.boxes);
   move_into(scenario.tags, scenario.simulation.world.tags);
   scenario.simulation.world.place();
+  std::optional<MecanumWheels>& wheels = scenario.slam.dead_reckoning.wheels;
+  if (!wheels) wheels = wheels_of(scenario.simulation.rover);
   return scenario;
 }
 

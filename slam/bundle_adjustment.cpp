@@ -23,6 +23,7 @@ class AdjustmentJob::Impl {
   void build(const Map& map) {
     add_keyframes(map);
     add_landmarks(map);
+    for (const int id : window_.moved) add_link(map.keyframe(id));
     for (const int id : window_.moved) add_tags(id, map);
     for (const int id : window_.fixed) add_tags(id, map);
   }
@@ -130,6 +131,15 @@ class AdjustmentJob::Impl {
     }
   }
 
+  /// Ties a keyframe to the one before a stretch without sight, where both take part.
+  void add_link(const Keyframe& keyframe) {
+    if (!keyframe.link) return;
+    if (pose_index_[static_cast<std::size_t>(keyframe.link->from)] == kAbsent) return;
+    odometry_errors_.emplace_back(keyframe.link->T_from_to, keyframe.link->covariance);
+    problem_.AddResidualBlock(&odometry_errors_.back(), nullptr, pose_of(keyframe.link->from),
+                              pose_of(keyframe.id));
+  }
+
   void add_tags(int keyframe, const Map& map) {
     if (tag_blocks_.empty()) {
       for (const MapTag& tag : map.tags()) tag_blocks_.push_back(to_block(tag.T_map_tag));
@@ -171,6 +181,7 @@ class AdjustmentJob::Impl {
   std::vector<char> tag_used_;
   std::deque<ReprojectionError> errors_;
   std::deque<TagCornerError> tag_errors_;
+  std::deque<OdometryError> odometry_errors_;
   std::vector<Term> terms_;
   std::unique_ptr<ceres::ParameterBlockOrdering> ordering_ =
       std::make_unique<ceres::ParameterBlockOrdering>();
@@ -206,6 +217,10 @@ AdjustmentWindow local_window(const Map& map, int keyframe, int size) {
   at(keyframe) = 1;
   for (const int id : map.covisible(keyframe, size - 1)) at(id) = 1;
   at(0) = 2;
+  // Behind a stretch without sight the map hangs on the keyframe that began it anew.
+  for (const Keyframe& other : map.keyframes()) {
+    if (other.link) at(other.id) = 2;
+  }
   std::vector<char> visited(map.landmarks().size(), 0);
   for (std::size_t k = 0; k < role.size(); ++k) {
     if (role[k] != 1) continue;

@@ -25,7 +25,8 @@ struct AdjustmentOptions {
 };
 
 /// The keyframe, those that share most landmarks with it, and as fixed ones all others that see
-/// their landmarks. The first keyframe of the map is fixed.
+/// their landmarks. The first keyframe of the map and those that begin it anew after a stretch
+/// without sight are fixed.
 AdjustmentWindow local_window(const Map& map, int keyframe, int size);
 
 /// All keyframes; the first is fixed unless a tag of known pose holds the map.

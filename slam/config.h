@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "slam/base/yaml.h"
+#include "slam/dead_reckoning.h"
 #include "slam/orb_extractor.h"
 #include "slam/patch.h"
 #include "slam/stereo_matcher.h"
@@ -142,6 +143,7 @@ struct SlamConfig {
   RefinementConfig refinement;
   KeyframeConfig keyframes;
   MappingConfig mapping;
+  DeadReckoningConfig dead_reckoning;
   TagDetectorConfig tags;
   LoopConfig loop;
 
@@ -154,6 +156,7 @@ struct SlamConfig {
     archive("refinement", refinement);
     archive("keyframes", keyframes);
     archive("mapping", mapping);
+    archive("dead_reckoning", dead_reckoning);
     archive("tags", tags);
     archive("loop", loop);
   }

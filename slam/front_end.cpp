@@ -21,6 +21,7 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 FrontEnd::FrontEnd(const SlamConfig& config, const StereoRig& rig,
                    const std::vector<RegisteredTag>& tags, WorkerPool& pool)
     : rig_(rig), stereo_(config.stereo), extractor_(config.features), pool_(pool) {
+  if (config.dead_reckoning.wheels) odometry_.emplace(*config.dead_reckoning.wheels);
   for (std::size_t i = 0; i < rig_.tag_cameras.size(); ++i) {
     detectors_.emplace_back(config.tags, tags);
   }
@@ -117,6 +118,7 @@ std::shared_ptr<FrameFeatures> FrontEnd::process(const Frame& frame, StageTimes&
   features->views.resize(rig_.pairs.size());
   features->pyramids.resize(rig_.pairs.size());
   features->right_pyramids.resize(rig_.pairs.size());
+  if (odometry_) features->wheels = odometry_->step(frame.wheels);
   extract(frame, times);
   match(*features, times);
   for (const std::vector<TagSighting>& seen : sightings_) {

@@ -11,6 +11,7 @@
 #include "slam/config.h"
 #include "slam/map.h"
 #include "slam/stereo_rig.h"
+#include "slam/wheel_odometry.h"
 
 namespace vinebench {
 
@@ -32,6 +33,7 @@ class FrontEnd {
   StereoRig rig_;
   StereoConfig stereo_;
   OrbExtractor extractor_;
+  std::optional<WheelOdometry> odometry_;
   std::vector<TagDetector> detectors_;  ///< one for each tag camera
   WorkerPool& pool_;
   std::vector<Extraction> left_;                      ///< of each pair

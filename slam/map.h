@@ -42,6 +42,7 @@ struct FrameFeatures {
   Stamp stamp = 0;
   std::vector<StereoView> views;  ///< of each pair of the StereoRig
   std::vector<TagSighting> tags;
+  std::optional<Pose> wheels;  ///< T_before_now since the frame before, by the wheels
   /// Left and right pyramid of each pair, while the frame is being tracked; dropped afterwards.
   std::vector<std::vector<cv::Mat>> pyramids;
   std::vector<std::vector<cv::Mat>> right_pyramids;
@@ -53,13 +54,21 @@ using Associations = std::vector<std::vector<int>>;
 /// No feature of the frame has a landmark.
 Associations no_associations(const FrameFeatures& frame);
 
+/// What dead reckoning says of a stretch between two keyframes that no landmark ties together.
+struct OdometryLink {
+  int from = 0;  ///< keyframe
+  Pose T_from_to;
+  Matrix6d covariance = Matrix6d::Identity();  ///< in the step of step_pose
+};
+
 struct Keyframe {
   int id = 0;
   std::shared_ptr<const FrameFeatures> frame;
   Pose T_map_body;
   Associations landmarks;
   std::vector<std::vector<std::optional<Patch>>> patches;  ///< of each feature of each view
-  std::map<int, int> covisible;  ///< keyframe id to the number of landmarks both see
+  std::optional<OdometryLink> link;  ///< to an earlier keyframe, after a stretch without sight
+  std::map<int, int> covisible;      ///< keyframe id to the number of landmarks both see
 
   /// Whether it came with a map that was loaded: frames of earlier runs have negative indices.
   bool inherited() const { return frame->index < 0; }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/map_file.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +14,7 @@ namespace vinebench {
 namespace {
 
 constexpr std::string_view kMagic("vinemap\0", 8);
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kHeaderSize = 20;  // magic, version, size of the content
 constexpr std::size_t kChecksumSize = 8;
 
@@ -29,6 +30,7 @@ struct StoredKeyframe {
   Pose T_map_body;
   Associations landmarks;
   std::vector<std::vector<std::optional<Patch>>> patches;
+  std::optional<OdometryLink> link;
 };
 
 }  // namespace
@@ -64,9 +66,17 @@ void fields(Archive& archive, Patch& patch) {
   archive(patch.grey);
 }
 template <class Archive>
+void fields(Archive& archive, OdometryLink& link) {
+  std::array<double, 36> covariance;
+  Eigen::Map<Matrix6d> matrix(covariance.data());
+  matrix = link.covariance;
+  archive(link.from, link.T_from_to, covariance);
+  link.covariance = matrix;
+}
+template <class Archive>
 void fields(Archive& archive, StoredKeyframe& k) {
   archive(k.frame.index, k.frame.stamp, k.frame.views, k.frame.tags, k.T_map_body, k.landmarks,
-          k.patches);
+          k.patches, k.link);
 }
 
 namespace {
@@ -116,6 +126,7 @@ StoredKeyframe stored(const Keyframe& keyframe, const FrameFeatures& last,
     for (int& id : view) id = id >= 0 ? moved_to[static_cast<std::size_t>(id)] : -1;
   }
   stored.patches = keyframe.patches;
+  stored.link = keyframe.link;
   return stored;
 }
 
@@ -177,6 +188,14 @@ void add(StoredKeyframe keyframe, const EstimatorRig& rig, Map& map, const Binar
   reader.expect(map.keyframe(id).landmarks == keyframe.landmarks,
                 "two features of a view are one landmark");
   map.keyframe(id).patches = std::move(keyframe.patches);
+  if (keyframe.link) {
+    const Matrix6d& covariance = keyframe.link->covariance;
+    reader.expect(keyframe.link->from >= 0 && keyframe.link->from < id && covariance.allFinite() &&
+                      covariance.isApprox(covariance.transpose()) &&
+                      covariance.llt().info() == Eigen::Success,
+                  "a keyframe's link");
+  }
+  map.keyframe(id).link = keyframe.link;
 }
 
 Map read_content(BinaryReader& reader, const EstimatorRig& rig, const std::string& where) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/pipeline.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include "slam/base/error.h"
@@ -13,9 +14,26 @@ namespace {
 /// A map begins with at least this many stereo points.
 constexpr int kMinFirstPoints = 100;
 
+/// Frames in a row that see that many and find nothing of the map: it begins anew.
+constexpr int kStrangeFrames = 3;
+
 /// While a tag is in view keyframes are this near to each other, so that it is seen from several
 /// places.
 constexpr double kTagKeyframeDistance = 0.05;  // m
+
+int count_stereo(const StereoView& view) {
+  return static_cast<int>(std::count_if(view.stereo.begin(), view.stereo.end(),
+                                        [](const StereoMatch& m) { return m.depth > 0; }));
+}
+
+/// Of a pose that a near tag gives: a tenth of a pixel at its corners, seen at half a metre.
+Matrix6d by_tag_covariance() {
+  constexpr double kPosition = 1e-3;    // m
+  constexpr double kRotation = 1.5e-3;  // rad
+  Vector6d sigma;
+  sigma << Eigen::Vector3d::Constant(kPosition), Eigen::Vector3d::Constant(kRotation);
+  return sigma.cwiseAbs2().asDiagonal();
+}
 
 /// Whether a loaded map knows the place as well as a new keyframe would.
 bool is_covered(const TrackedFrame& tracked, const Map& map, const KeyframeConfig& config) {
@@ -38,7 +56,7 @@ Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
     : config_(config),
       rig_(rig, config.features, config.refinement, config.stereo),
       map_(config.features.scale),
-      tracker_(config.tracking, rig_),
+      tracker_(config.tracking, config.dead_reckoning, rig_),
       mapper_(config, rig_),
       scheduler_(config.mapping),
       loop_closer_(config, rig_, tags) {}
@@ -59,10 +77,14 @@ Estimate Pipeline::process(const std::shared_ptr<FrameFeatures>& frame) {
   if (tracked.tracked && wants_new_keyframe(tracked)) map_keyframe(tracked, estimate);
   frame->pyramids.clear();
   frame->right_pyramids.clear();
-  if (!tracked.tracked) return estimate;
-  loop_closer_.note(*frame, tracker_.T_map_body(), path_length_, map_);
+  if (tracked.tracked) {
+    loop_closer_.note(*frame, tracker_.T_map_body(), path_length_, map_);
+  } else if (estimate.status != TrackingStatus::kDeadReckoning) {
+    return estimate;
+  }
   remember(frame->stamp);
   estimate.T_map_body = tracker_.T_map_body();
+  estimate.covariance = covariance(tracked, estimate.keyframe);
   return estimate;
 }
 
@@ -86,6 +108,14 @@ SlamSummary Pipeline::finish() {
   return summary;
 }
 
+/// Of the body's pose; a keyframe's own is part of the uncertainty kept.
+Matrix6d Pipeline::covariance(const TrackedFrame& tracked, bool keyframe) const {
+  const Pose T_last_now = map_.keyframes().back().T_map_body.inverse() * tracker_.T_map_body();
+  if (keyframe) return uncertainty_.at({}, Matrix6d::Zero());
+  if (tracked.tracked) return uncertainty_.at(T_last_now, tracked.motion.information);
+  return uncertainty_.at(T_last_now, Matrix6d::Zero()) + tracker_.dark().covariance();
+}
+
 /// The first frame with enough stereo points is the map's first keyframe. A registered tag in it
 /// makes the map's frame the world's; without one the body is at the origin.
 TrackedFrame Pipeline::initialise(const std::shared_ptr<FrameFeatures>& frame) {
@@ -93,8 +123,7 @@ TrackedFrame Pipeline::initialise(const std::shared_ptr<FrameFeatures>& frame) {
   tracked.frame = frame;
   tracked.associations = no_associations(*frame);
   for (const StereoView& view : frame->views) {
-    int points = 0;
-    for (const StereoMatch& match : view.stereo) points += match.depth > 0;
+    const int points = count_stereo(view);
     tracked.motion.matches_per_view.push_back(points);
     tracked.motion.inliers_per_view.push_back(points);
     tracked.motion.inliers += points;
@@ -103,6 +132,7 @@ TrackedFrame Pipeline::initialise(const std::shared_ptr<FrameFeatures>& frame) {
   if (tracked.tracked) {
     tracked.motion.T_map_body = loop_closer_.world_pose(frame->tags).value_or(Pose{});
     tracker_.start(tracked.motion.T_map_body, frame->stamp);
+    uncertainty_.start(by_tag_covariance());
   }
   return tracked;
 }
@@ -131,19 +161,46 @@ TrackedFrame Pipeline::track(const std::shared_ptr<FrameFeatures>& frame) {
   const Pose before = tracker_.T_map_body();
   TrackedFrame tracked = tracker_.track(frame, map_);
   if (!tracked.tracked) {
-    if (const auto by_tag = loop_closer_.map_pose(frame->tags, map_)) {
-      tracker_.start(*by_tag, frame->stamp);
+    if (const auto T_map_body = pose_from_outside(*frame)) {
+      tracker_.start(*T_map_body, frame->stamp);
       tracked = tracker_.track(frame, map_);
     }
   }
-  if (tracked.tracked) {
-    path_length_ += (tracker_.T_map_body().translation - before.translation).norm();
-  }
+  if (!tracked.tracked) tracked.tracked = begin_anew(tracked);
+  path_length_ += (tracker_.T_map_body().translation - before.translation).norm();
   return tracked;
 }
 
+/// Where the body is by a tag that the map knows or, once it is lost, by the looks of the place.
+std::optional<Pose> Pipeline::pose_from_outside(const FrameFeatures& frame) {
+  if (const auto by_tag = loop_closer_.map_pose(frame.tags, map_)) return by_tag;
+  if (!tracker_.dark().is_lost()) return std::nullopt;
+  for (const StereoView& view : frame.views) {
+    if (view.followed > 0) return std::nullopt;  // would recognise what was put in
+  }
+  return relocaliser_.find(map_, rig_, frame);
+}
+
+/// Makes a frame that sees well, but nothing of the map, the map's next keyframe where dead
+/// reckoning says that it is. False where that is not the case.
+bool Pipeline::begin_anew(TrackedFrame& tracked) {
+  int points = 0;
+  for (const StereoView& view : tracked.frame->views) points += count_stereo(view);
+  seeing_frames_ = points >= kMinFirstPoints ? seeing_frames_ + 1 : 0;
+  if (seeing_frames_ < kStrangeFrames || tracker_.dark().is_lost()) return false;
+  const Keyframe& last = map_.keyframes().back();
+  tracked.motion.T_map_body = tracker_.T_map_body();
+  tracked.link = OdometryLink{last.id, last.T_map_body.inverse() * tracker_.T_map_body(),
+                              tracker_.dark().covariance()};
+  tracked.associations = no_associations(*tracked.frame);
+  tracked.motion.information.setZero();
+  tracker_.start(tracked.motion.T_map_body, tracked.frame->stamp);
+  seeing_frames_ = 0;
+  return true;
+}
+
 bool Pipeline::wants_new_keyframe(const TrackedFrame& tracked) const {
-  if (!started_) return true;
+  if (!started_ || tracked.link) return true;
   // Live, a robot's tracking waits for the mapping before only when it would soon be lost.
   const bool waits = config_.mapping.schedule == MappingSchedule::kLockstep ||
                      tracked.motion.inliers < config_.keyframes.min_inliers / 2;
@@ -168,15 +225,12 @@ void Pipeline::join_mapping(TrackedFrame* tracked) {
 void Pipeline::map_keyframe(TrackedFrame& tracked, Estimate& estimate) {
   if (scheduler_.busy()) join_mapping(&tracked);
   const bool loop = started_ && loop_closer_.sees_loop(*tracked.frame, path_length_);
+  if (started_) grow_uncertainty(tracked);
   const int id = mapper_.insert(tracked, map_);
+  map_.keyframe(id).link = tracked.link;
   tags_since_adjustment_ |= closures_ > 0 && !tracked.frame->tags.empty();
-  if (loop) {
-    const ScopedTimer timer(times_, "global adjustment");
-    estimate.loop_closure = loop_closer_.close(id, path_length_, map_);
-    ++closures_;
-    tags_since_adjustment_ = false;
-  }
-  if (started_) {
+  if (loop) close_loop(id, estimate);
+  if (started_ && !tracked.link) {
     const ScopedTimer timer(times_, "local mapping");
     mapper_.extend(id, map_);
     scheduler_.start(mapper_.local_adjustment(id, map_), id);
@@ -188,6 +242,23 @@ void Pipeline::map_keyframe(TrackedFrame& tracked, Estimate& estimate) {
   started_ = true;
 }
 
+void Pipeline::grow_uncertainty(const TrackedFrame& tracked) {
+  const Pose T_last_now = map_.keyframes().back().T_map_body.inverse() * tracked.motion.T_map_body;
+  if (tracked.link) {
+    uncertainty_.bridge(T_last_now, tracked.link->covariance);
+  } else {
+    uncertainty_.keyframe(T_last_now, tracked.motion.information);
+  }
+}
+
+void Pipeline::close_loop(int keyframe, Estimate& estimate) {
+  const ScopedTimer timer(times_, "global adjustment");
+  estimate.loop_closure = loop_closer_.close(keyframe, path_length_, map_);
+  uncertainty_.start(by_tag_covariance());
+  ++closures_;
+  tags_since_adjustment_ = false;
+}
+
 void Pipeline::remember(Stamp stamp) {
   const Keyframe& last = map_.keyframes().back();
   records_.push_back({stamp, last.id, last.T_map_body.inverse() * tracker_.T_map_body()});
@@ -197,9 +268,10 @@ Estimate Pipeline::report(const TrackedFrame& tracked) const {
   const FrameFeatures& frame = *tracked.frame;
   Estimate estimate;
   estimate.stamp = frame.stamp;
-  estimate.status = tracked.tracked ? TrackingStatus::kTracking
-                    : started_      ? TrackingStatus::kLost
-                                    : TrackingStatus::kInitializing;
+  estimate.status = tracked.tracked             ? TrackingStatus::kTracking
+                    : !started_                 ? TrackingStatus::kInitializing
+                    : tracker_.dark().is_lost() ? TrackingStatus::kLost
+                                                : TrackingStatus::kDeadReckoning;
   estimate.tags = frame.tags;
   estimate.cameras.resize(rig_.rig.cameras.size());
   for (std::size_t p = 0; p < rig_.rig.pairs.size(); ++p) {

@@ -13,6 +13,7 @@
 #include "slam/loop_closer.h"
 #include "slam/map.h"
 #include "slam/mapping_scheduler.h"
+#include "slam/pose_uncertainty.h"
 #include "slam/relocaliser.h"
 #include "slam/tracker.h"
 
@@ -49,10 +50,15 @@ class Pipeline {
   TrackedFrame initialise(const std::shared_ptr<FrameFeatures>& frame);
   TrackedFrame relocalise(const std::shared_ptr<FrameFeatures>& frame);
   TrackedFrame track(const std::shared_ptr<FrameFeatures>& frame);
+  std::optional<Pose> pose_from_outside(const FrameFeatures& frame);
+  bool begin_anew(TrackedFrame& tracked);
   bool wants_new_keyframe(const TrackedFrame& tracked) const;
   void join_mapping(TrackedFrame* tracked = nullptr);
   void map_keyframe(TrackedFrame& tracked, Estimate& estimate);
+  void grow_uncertainty(const TrackedFrame& tracked);
+  void close_loop(int keyframe, Estimate& estimate);
   void remember(Stamp stamp);
+  Matrix6d covariance(const TrackedFrame& tracked, bool keyframe) const;
   Estimate report(const TrackedFrame& tracked) const;
 
   SlamConfig config_;
@@ -63,8 +69,10 @@ class Pipeline {
   MappingScheduler scheduler_;
   LoopCloser loop_closer_;
   Relocaliser relocaliser_;
+  PoseUncertainty uncertainty_;  ///< of the latest keyframe
   StageTimes times_;
   std::vector<FrameRecord> records_;
+  int seeing_frames_ = 0;   ///< in a row, that see enough and find nothing of the map
   double path_length_ = 0;  ///< m
   int closures_ = 0;
   bool started_ = false;

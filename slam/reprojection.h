@@ -114,6 +114,20 @@ class TagCornerError : public ceres::CostFunction {
   Eigen::Vector3d p_tag_;
 };
 
+/// How two keyframes' poses differ from what dead reckoning measured between them, in standard
+/// deviations: parameters are the poses of the earlier and the later (7 each). The Jacobians take
+/// the rotation's difference to be small.
+class OdometryError : public ceres::SizedCostFunction<6, 7, 7> {
+ public:
+  OdometryError(const Pose& T_from_to, const Matrix6d& covariance);
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  Pose T_from_to_;
+  Matrix6d weight_;  ///< W with W^T W the inverse covariance
+};
+
 /// 95 % of the chi-square distribution with two and three degrees of freedom.
 inline constexpr double kChiSquared2 = 5.991;
 inline constexpr double kChiSquared3 = 7.815;

@@ -19,7 +19,7 @@ struct StereoConfig {
   /// Mean difference of the aligned windows, as a share of their contrast, that is still a match.
   /// Windows that show two depths, a stem before the ground, differ more: they would be biased
   /// towards the nearer one.
-  double max_residual = 0.12;
+  double max_residual = 0.1;
   double noise = 1.5;  ///< grey levels, difference that the sensor's noise alone explains
 
   /// Whether aligned windows show the same thing.

@@ -18,8 +18,11 @@ namespace {
 constexpr double kNearby = 1.0;                                 // m
 constexpr double kSameHeading = 40.0 * std::numbers::pi / 180;  // rad
 
-/// Beyond this many frames without a pose the last velocity says nothing any more.
-constexpr int kCoastFrames = 5;
+/// What a pose found after a stretch without sight may differ from the dead-reckoned one: this many
+/// standard deviations, and what the found one's own error may be.
+constexpr double kMaxSigmas = 4;
+constexpr double kPoseNoise = 0.05;     // m
+constexpr double kHeadingNoise = 0.05;  // rad
 
 void add_landmarks_of(const Keyframe& keyframe, std::vector<char>& wanted) {
   for (const std::vector<int>& view : keyframe.landmarks) {
@@ -80,18 +83,16 @@ void Tracker::start(const Pose& T_map_body, Stamp stamp) {
   T_map_body_ = T_map_body;
   stamp_ = stamp;
   velocity_.setZero();
-  lost_frames_ = 0;
+  dark_.reset();
 }
 
 void Tracker::correct(const Pose& T_map_body) {
   T_map_body_ = T_map_body;
 }
 
-Pose Tracker::predict(Stamp stamp) const {
-  if (lost_frames_ > kCoastFrames) return T_map_body_;
-  const double dt = to_seconds(stamp - stamp_);
-  const Vector6d step = velocity_ * dt;
-  return T_map_body_ * Pose{exp_so3(step.tail<3>()), step.head<3>()};
+Pose Tracker::predict(const FrameFeatures& frame) const {
+  if (dark_.active() && frame.wheels) return T_map_body_ * *frame.wheels;
+  return T_map_body_ * step_of(velocity_ * to_seconds(frame.stamp - stamp_));
 }
 
 void Tracker::match_near(const Map& map, const std::vector<int>& landmarks,
@@ -115,7 +116,8 @@ void Tracker::match_anywhere(const Map& map, TrackedFrame& tracked) const {
       match_by_appearance(map, landmarks, *tracked.frame, config_.max_hamming, config_.second_best);
   const auto sampled = sample_pose(map, *tracked.frame, rig_, PoseSampling{}, 0, associations);
   if (!sampled) return;
-  const double reach = config_.max_speed * to_seconds(tracked.frame->stamp - stamp_);
+  const double reach = std::max(config_.max_speed * to_seconds(tracked.frame->stamp - stamp_),
+                                kMaxSigmas * dark_.sigma_position());
   if ((sampled->translation - predicted.translation).norm() > reach) return;
   const MotionEstimate motion =
       estimate_motion(map, *tracked.frame, *sampled, rig_, config_.min_inlier_share, associations);
@@ -135,8 +137,9 @@ void Tracker::match_local_map(const Map& map, const std::vector<int>& local,
 TrackedFrame Tracker::track(std::shared_ptr<FrameFeatures> frame, const Map& map) {
   TrackedFrame tracked;
   tracked.frame = std::move(frame);
-  tracked.motion.T_map_body = predict(tracked.frame->stamp);
-  const bool from_map = lost_frames_ > 0 || last_landmarks_.empty();
+  const Pose predicted = predict(*tracked.frame);
+  tracked.motion.T_map_body = predicted;
+  const bool from_map = dark_.active() || last_landmarks_.empty();
   const std::vector<int> landmarks =
       from_map ? local_landmarks(map, last_landmarks_, tracked.motion.T_map_body,
                                  config_.local_keyframes)
@@ -160,29 +163,46 @@ TrackedFrame Tracker::track(std::shared_ptr<FrameFeatures> frame, const Map& map
     tracked.motion = estimate_motion(map, *tracked.frame, tracked.motion.T_map_body, rig_,
                                      config_.min_inlier_share, tracked.associations);
   }
-  judge(tracked);
+  tracked.tracked = is_credible(tracked, predicted);
+  tracked.tracked ? accept(tracked) : reckon(*tracked.frame);
   return tracked;
 }
 
-void Tracker::judge(TrackedFrame& tracked) {
+bool Tracker::is_credible(const TrackedFrame& tracked, const Pose& predicted) const {
   int matches = 0;
   for (const int n : tracked.motion.matches_per_view) matches += n;
-  tracked.tracked = tracked.motion.inliers >= config_.min_inliers &&
-                    tracked.motion.inliers >= config_.min_inlier_share * matches;
-  if (!tracked.tracked) {
-    ++lost_frames_;
-    return;
+  if (tracked.motion.inliers < config_.min_inliers ||
+      tracked.motion.inliers < config_.min_inlier_share * matches) {
+    return false;
   }
+  if (!dark_.active()) return true;
+  const Pose off = predicted.inverse() * tracked.motion.T_map_body;
+  return off.translation.norm() <= kMaxSigmas * dark_.sigma_position() + kPoseNoise &&
+         angle_of(off.rotation) <= kMaxSigmas * dark_.sigma_rotation() + kHeadingNoise;
+}
+
+void Tracker::accept(const TrackedFrame& tracked) {
   const double dt = to_seconds(tracked.frame->stamp - stamp_);
-  if (dt > 0) {
+  // After a stretch without sight the step holds the stretch's error too: the old velocity is
+  // truer.
+  if (dt > 0 && !dark_.active()) {
     const Pose step = T_map_body_.inverse() * tracked.motion.T_map_body;
     velocity_ << step.translation / dt, log_so3(step.rotation) / dt;
   }
-  if (lost_frames_ > kCoastFrames) velocity_.setZero();
   T_map_body_ = tracked.motion.T_map_body;
   stamp_ = tracked.frame->stamp;
   last_landmarks_ = landmark_ids(tracked.associations);
-  lost_frames_ = 0;
+  dark_.reset();
+}
+
+void Tracker::reckon(const FrameFeatures& frame) {
+  const double dt = to_seconds(frame.stamp - stamp_);
+  T_map_body_ = T_map_body_ * dark_.advance(frame.wheels, velocity_, dt);
+  stamp_ = frame.stamp;
+  if (frame.wheels && dt > 0) {
+    velocity_ << frame.wheels->translation / dt, log_so3(frame.wheels->rotation) / dt;
+  }
+  if (dark_.is_lost()) velocity_.setZero();
 }
 
 }  // namespace vinebench

@@ -31,6 +31,10 @@ Eigen::Vector3d log_so3(const Eigen::Quaterniond& rotation) {
   return axis * (2.0 * std::atan2(sine, sign * rotation.w()) / sine);
 }
 
+Pose step_of(const Vector6d& step) {
+  return {exp_so3(step.tail<3>()), step.head<3>()};
+}
+
 Eigen::Quaterniond from_roll_pitch_yaw(const Eigen::Vector3d& rpy) {
   return Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
          Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *

@@ -33,6 +33,9 @@ struct Pose {
 Eigen::Quaterniond exp_so3(const Eigen::Vector3d& rotation_vector);
 Eigen::Vector3d log_so3(const Eigen::Quaterniond& rotation);
 
+/// The small motion (rho, theta) in a body's own frame as a pose: m, then a rotation vector, rad.
+Pose step_of(const Vector6d& step);
+
 /// Roll about x, then pitch about y, then yaw about z of the fixed axes (R = Rz Ry Rx), rad.
 Eigen::Quaterniond from_roll_pitch_yaw(const Eigen::Vector3d& rpy);
 

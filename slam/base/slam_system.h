@@ -22,7 +22,12 @@ struct RegisteredTag {
   Pose T_world_tag;  ///< tag frame: x right, y down on the printed face, z into the tag
 };
 
-enum class TrackingStatus { kInitializing, kTracking, kLost };
+enum class TrackingStatus {
+  kInitializing,   ///< no map yet, or not yet found in a loaded one
+  kTracking,       ///< by cameras
+  kDeadReckoning,  ///< the cameras say nothing: by the wheels or the last velocity, ever less sure
+  kLost,           ///< no pose
+};
 
 /// How well one camera took part in a frame.
 struct CameraCounts {
@@ -56,6 +61,8 @@ struct Estimate {
   Stamp stamp = 0;
   TrackingStatus status = TrackingStatus::kInitializing;
   std::optional<Pose> T_map_body;     ///< absent while there is none
+  /// Covariance of T_map_body in the body frame (m, then rad: p + R rho, R exp(theta)).
+  Matrix6d covariance = Matrix6d::Zero();
   std::vector<CameraCounts> cameras;  ///< in the rig's order
   bool keyframe = false;
   std::vector<TagSighting> tags;

@@ -127,6 +127,24 @@ TEST(ReprojectionErrorTest, BehindTheEyeIsNoInlierAndStaysFinite) {
   EXPECT_TRUE(std::isfinite(residuals[0]) && std::isfinite(residuals[1]));
 }
 
+TEST(OdometryErrorTest, JacobiansAreTheNumericOnes) {
+  const Pose T_from_to{exp_so3({0.02, -0.03, 0.4}), {0.5, 0.1, 0.02}};
+  Matrix6d covariance = 1e-4 * Matrix6d::Identity();
+  covariance(0, 1) = covariance(1, 0) = 3e-5;
+  const Pose to = body() * T_from_to * Pose{Eigen::Quaterniond::Identity(), {0.03, -0.01, 0.02}};
+  // The rotation agrees, for which the Jacobians are exact.
+  expect_jacobian(OdometryError(T_from_to, covariance),
+                  {as_vector(to_block(body())), as_vector(to_block(to))});
+  // Off by one standard deviation along z: chi squared is 1.
+  const Pose off = body() * T_from_to * Pose{Eigen::Quaterniond::Identity(), {0, 0, 0.01}};
+  const PoseBlock a = to_block(body());
+  const PoseBlock b = to_block(off);
+  const double* parameters[] = {a.data(), b.data()};
+  Vector6d r;
+  ASSERT_TRUE(OdometryError(T_from_to, covariance).Evaluate(parameters, r.data(), nullptr));
+  EXPECT_NEAR(r.squaredNorm(), 1, 1e-9);
+}
+
 TEST(TagCornerErrorTest, JacobiansAreTheNumericOnes) {
   const EyeModel e = eye();
   const Pose T_map_tag{exp_so3({0.3, -0.2, 0.5}), point()};

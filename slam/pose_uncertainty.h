@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "slam/base/pose.h"
+
+namespace vinebench {
+
+/// The covariance of the body's pose in the map, in the step of step_pose (body frame: m, then
+/// rad).
+///
+/// From keyframe to keyframe errors add up; from a keyframe to the frames after it the motion-only
+/// adjustment says how well each is held by the landmarks. That takes landmarks as exact, which
+/// they are not, and errors as larger than most are, for the sake of their tails: `kInflation`
+/// makes up for both. It was found on two clean drives (docs/benchmarks.md) and holds no truth of
+/// any other.
+class PoseUncertainty {
+ public:
+  static constexpr double kInflation = 0.5;
+
+  /// The map begins here, or a tag of known pose has just fixed it.
+  void start(const Matrix6d& covariance);
+
+  /// A keyframe at T_last_now from the one before, held by that information.
+  void keyframe(const Pose& T_last_now, const Matrix6d& information);
+
+  /// A stretch without sight ends in a keyframe.
+  void bridge(const Pose& T_last_now, const Matrix6d& covariance);
+
+  /// Of a frame at T_last_now from the last keyframe; without information (a zero matrix) that of a
+  /// stretch of dead reckoning is to be added by the caller.
+  Matrix6d at(const Pose& T_last_now, const Matrix6d& information) const;
+
+ private:
+  Matrix6d keyframe_ = Matrix6d::Zero();
+};
+
+/// The covariance of T_map_b where T_map_b = T_map_a T_a_b and T_a_b is exact.
+Matrix6d carry_covariance(const Matrix6d& of_a, const Pose& T_a_b);
+
+}  // namespace vinebench
