@@ -78,11 +78,12 @@ TEST(LiveSlamTest, TheNewestFrameIsWorkedOnAndOthersAreCounted) {
 TEST(LiveSlamTest, AnErrorComesOutOfTheNextPushAndOfFinish) {
   HeldSystem system;
   system.bad_frame = 0;
-  system.allowed.release(1);
   LiveSlam live(system, {});
   live.push(frame(0));
+  system.begun.acquire();  // or the next frame might take its place
+  system.allowed.release(1);
   const auto message = testing::ThrowsMessage<Error>("frame 0 is bad");
-  // The thread needs a while to fail; until then a frame is taken.
+  // The thread needs a while to fail; until then frames are taken.
   const auto push_until_it_throws = [&] {
     for (;;) {
       live.push(frame(1));
@@ -205,13 +206,13 @@ TEST(LiveSlamTest, StaysNearTheLockstepResult) {
   EXPECT_NEAR(static_cast<double>(dropped), 2.0 / 5 * kFrames, 2);
   ASSERT_EQ(live.trajectory.size(), static_cast<std::size_t>(kFrames - dropped));
   ASSERT_EQ(lockstep.trajectory.size(), static_cast<std::size_t>(kFrames));
-  // Both are within their drift of the truth: 3 m of way, of which half a pixel of noise makes
-  // about 0.1 %. When mapping joins and which frames become keyframes differs, no more.
+  // Each drifts from the truth by about 0.1 % of 3 m of way, 3 mm, in a direction of its own: when
+  // mapping joins and which frames become keyframes differs.
   std::size_t i = 0;
   for (const StampedPose& pose : live.trajectory) {
     while (lockstep.trajectory.at(i).stamp < pose.stamp) ++i;
     ASSERT_EQ(lockstep.trajectory[i].stamp, pose.stamp);
-    EXPECT_LT(distance(pose.pose, lockstep.trajectory[i].pose), 0.003) << i;  // m
+    EXPECT_LT(distance(pose.pose, lockstep.trajectory[i].pose), 0.006) << i;  // m
     EXPECT_LT(angle(pose.pose, lockstep.trajectory[i].pose), 0.003) << i;     // rad
   }
 }
