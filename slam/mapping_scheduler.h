@@ -13,8 +13,7 @@
 
 namespace vinebench {
 
-/// Runs local adjustments beside tracking, one at a time, on a thread of their own. The only place
-/// in the core with a thread of its own.
+/// Runs local adjustments beside tracking, one at a time, on a thread of their own.
 class MappingScheduler {
  public:
   explicit MappingScheduler(const MappingConfig& config)

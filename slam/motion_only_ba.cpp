@@ -141,7 +141,7 @@ MotionEstimate estimate_motion(const Map& map, const FrameFeatures& frame, const
 
   const RobustLoss far = RobustLoss::huber(std::sqrt(kChiSquared2));
   const RobustLoss near = RobustLoss::cauchy(kCauchyScale);
-  for (const RobustLoss& loss : {far, near, near}) {
+  for (const RobustLoss& loss : {far, near, near, near}) {
     estimate.T_map_body = adjust(matches, estimate.T_map_body, loss, estimate.information);
     estimate.inliers = classify(matches, estimate.T_map_body);
     if (estimate.inliers < 6) break;
