@@ -13,7 +13,7 @@ namespace vinebench {
 namespace {
 
 constexpr std::string_view kMagic("vinemap\0", 8);
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kHeaderSize = 20;  // magic, version, size of the content
 constexpr std::size_t kChecksumSize = 8;
 
@@ -57,7 +57,7 @@ void fields(Archive& archive, StereoView& view) {
 }
 template <class Archive>
 void fields(Archive& archive, TagSighting& tag) {
-  archive(tag.camera, tag.family, tag.id, tag.corners, tag.T_cam_tag);
+  archive(tag.camera, tag.family, tag.id, tag.corners, tag.T_cam_tag, tag.corner_sigma);
 }
 template <class Archive>
 void fields(Archive& archive, Patch& patch) {
@@ -161,6 +161,7 @@ void check(const StoredKeyframe& keyframe, const EstimatorRig& rig, std::size_t 
     for (const Eigen::Vector2d& corner : tag.corners) {
       reader.expect(corner.allFinite(), "a tag's corners");
     }
+    reader.expect(tag.corner_sigma >= 0 && std::isfinite(tag.corner_sigma), "a tag's corners");
   }
 }
 

@@ -181,9 +181,9 @@ TEST_F(MapFileTest, AlteredBeforeSealingItIsAnErrorOrAMap) {
 
 TEST_F(MapFileTest, AnotherVersionIsSaidSo) {
   std::string other = bytes_;
-  other[8] = 2;  // version, low byte
+  other[8] = 1;  // version, low byte
   EXPECT_THAT(error_of(sealed(other)),
-              AllOf(HasSubstr("version 2"), HasSubstr("expected version 1")));
+              AllOf(HasSubstr("version 1"), HasSubstr("expected version 2")));
 }
 
 TEST_F(MapFileTest, AnotherRigIsSaidSo) {
