@@ -6,10 +6,15 @@
 #include <cmath>
 #include <deque>
 
+#include "slam/tag_fix.h"
+
 namespace vinebench {
 namespace {
 
 constexpr std::size_t kAbsent = static_cast<std::size_t>(-1);
+
+/// Relative decrease of the cost at which a global adjustment is done.
+constexpr double kGlobalTolerance = 1e-5;
 
 }  // namespace
 
@@ -34,7 +39,7 @@ class AdjustmentJob::Impl {
     options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
     options.dense_linear_algebra_library_type = ceres::EIGEN;
     options.max_num_iterations = options_.iterations;
-    options.function_tolerance = 1e-6;
+    options.function_tolerance = options_.global ? kGlobalTolerance : 1e-6;
     options.num_threads = 1;
     options.logging_type = ceres::SILENT;
     options.linear_solver_ordering.reset(ordering_.release());
@@ -157,11 +162,10 @@ class AdjustmentJob::Impl {
         tag_used_[t] = 1;
       }
       const std::array<Eigen::Vector3d, 4> corners = tag_corners(tag->size);
-      const PinholeCamera& lens = rig_.rig.cameras[static_cast<std::size_t>(sighting.camera)].model;
+      const double sigma = corner_sigma(sighting, options_.tag_corner_sigma);
       const EyeModel& eye = rig_.tag_eyes[static_cast<std::size_t>(sighting.camera)];
       for (std::size_t c = 0; c < corners.size(); ++c) {
-        const Eigen::Vector2d ideal = eye.lens.project(lens.unproject(sighting.corners[c]));
-        tag_errors_.emplace_back(eye, ideal, options_.tag_corner_sigma, corners[c]);
+        tag_errors_.emplace_back(eye, ideal_corner(sighting, c, rig_), sigma, corners[c]);
         problem_.AddResidualBlock(&tag_errors_.back(), &huber_, pose_of(keyframe), block);
       }
     }

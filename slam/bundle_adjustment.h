@@ -20,7 +20,7 @@ struct AdjustmentWindow {
 
 struct AdjustmentOptions {
   int iterations = 6;
-  double tag_corner_sigma = 0.3;  ///< px
+  double tag_corner_sigma = 0.3;  ///< px, besides the noise that a sighting knows of
   bool global = false;            ///< all of the map: sparse solver; mapped tags move too
 };
 

@@ -59,7 +59,7 @@ void fields(Archive& archive, StereoView& view) {
 }
 template <class Archive>
 void fields(Archive& archive, TagSighting& tag) {
-  archive(tag.camera, tag.family, tag.id, tag.corners, tag.T_cam_tag);
+  archive(tag.camera, tag.family, tag.id, tag.corners, tag.T_cam_tag, tag.corner_sigma);
 }
 template <class Archive>
 void fields(Archive& archive, Patch& patch) {
@@ -172,6 +172,7 @@ void check(const StoredKeyframe& keyframe, const EstimatorRig& rig, std::size_t 
     for (const Eigen::Vector2d& corner : tag.corners) {
       reader.expect(corner.allFinite(), "a tag's corners");
     }
+    reader.expect(tag.corner_sigma >= 0 && std::isfinite(tag.corner_sigma), "a tag's corners");
   }
 }
 

@@ -74,6 +74,10 @@ Estimate Pipeline::process(const std::shared_ptr<FrameFeatures>& frame) {
                          : map_.keyframes().empty() ? initialise(frame)
                                                     : relocalise(frame);
   Estimate estimate = report(tracked);
+  if (tracked.tracked) {
+    estimate.rejected_tags =
+        loop_closer_.judge(*frame, tracked.motion.T_map_body, path_length_, map_);
+  }
   if (tracked.tracked && wants_new_keyframe(tracked)) map_keyframe(tracked, estimate);
   frame->pyramids.clear();
   frame->right_pyramids.clear();

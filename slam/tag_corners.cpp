@@ -17,6 +17,10 @@ constexpr double kMinContrast = 20.0;  // grey levels
 constexpr double kSlopeShare = 0.15;   // of the steepest; flatter than this is noise
 constexpr double kMaxMove = 1.5;       // px
 constexpr std::size_t kMinPoints = 8;  // on a side
+constexpr double kUnrefined = 0.4;     // px, of a corner as AprilTag finds it
+constexpr double kLeast = 0.02;        // px, no corner is better than this
+/// Profiles a pixel apart share pixels: so many count as one.
+constexpr double kNeighbours = 2;
 
 std::optional<double> grey_at(const cv::Mat& grey, const Eigen::Vector2d& p) {
   const int x = static_cast<int>(std::floor(p.x()));
@@ -57,10 +61,23 @@ std::optional<double> find_edge(const cv::Mat& grey, const Eigen::Vector2d& p,
   return moment / sum;
 }
 
-/// A line of the plane z = 1 as homogeneous coordinates.
-std::optional<Eigen::Vector3d> fit_side(const cv::Mat& grey, const PinholeCamera& model,
-                                        const Eigen::Vector2d& from, const Eigen::Vector2d& to,
-                                        const Eigen::Vector2d& outward, double reach) {
+/// A side of the tag.
+struct Side {
+  Eigen::Vector3d line;     ///< homogeneous, in the plane z = 1; the normal is a unit vector
+  double end_variance = 0;  ///< px^2, of the line across itself at the side's ends
+};
+
+/// The variance of a fitted line at its ends: with n points of variance v along a length L their
+/// mean has v / n, the slope v / S with S the sum of their squared distances from the middle, and
+/// the ends are L / 2 away from that: v (1 / n + (L / 2)^2 / S).
+double end_variance(const Eigen::Vector2d& scatter, double points, double length) {
+  const double variance = kNeighbours * scatter[0] / (points - 2);
+  return variance * (1 / points + length * length / 4 / scatter[1]);
+}
+
+std::optional<Side> fit_side(const cv::Mat& grey, const PinholeCamera& model,
+                             const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                             const Eigen::Vector2d& outward, double reach) {
   // The ends are left out: there the neighbouring side rounds the edge off.
   const double length = (to - from).norm();
   const double margin = reach + 2;
@@ -78,33 +95,48 @@ std::optional<Eigen::Vector3d> fit_side(const cv::Mat& grey, const PinholeCamera
   for (const Eigen::Vector2d& p : points) scatter += (p - mean) * (p - mean).transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(scatter);
   const Eigen::Vector2d normal = solver.eigenvectors().col(0);
-  return Eigen::Vector3d(normal.x(), normal.y(), -normal.dot(mean));
+  const Eigen::Vector2d scatter_px = model.fx * model.fy * solver.eigenvalues();
+  return Side{{normal.x(), normal.y(), -normal.dot(mean)},
+              end_variance(scatter_px, static_cast<double>(points.size()), length)};
+}
+
+/// Mean variance in x and y of the point where two sides meet, px^2. Errors e of the lines move it
+/// by N^-1 e, N the rows of their normals; the columns of N^-1 are 1 / sin long, of the angle
+/// between the sides. Seen aslant, corners are the worse for it.
+double corner_variance(const Side& a, const Side& b) {
+  const Eigen::Vector2d p = a.line.head<2>();
+  const Eigen::Vector2d q = b.line.head<2>();
+  const double sine = p.x() * q.y() - p.y() * q.x();
+  return (a.end_variance + b.end_variance) / (2 * sine * sine);
 }
 
 }  // namespace
 
-void refine_tag_corners(const cv::Mat& grey, const PinholeCamera& model, double module,
-                        std::array<Eigen::Vector2d, 4>& corners) {
+double refine_tag_corners(const cv::Mat& grey, const PinholeCamera& model, double module,
+                          std::array<Eigen::Vector2d, 4>& corners) {
   const double reach = kStep * std::floor(std::min(kMaxReach, 0.6 * module) / kStep);
-  if (reach < 1.5) return;
+  if (reach < 1.5) return kUnrefined;
   const Eigen::Vector2d centre = (corners[0] + corners[1] + corners[2] + corners[3]) / 4;
-  std::array<Eigen::Vector3d, 4> sides;
+  std::array<Side, 4> sides;
   for (std::size_t i = 0; i < 4; ++i) {
     const Eigen::Vector2d& from = corners[i];
     const Eigen::Vector2d& to = corners[(i + 1) % 4];
     Eigen::Vector2d outward = Eigen::Vector2d(to.y() - from.y(), from.x() - to.x()).normalized();
     if (outward.dot((from + to) / 2 - centre) < 0) outward = -outward;
     const auto side = fit_side(grey, model, from, to, outward, reach);
-    if (!side) return;
+    if (!side) return kUnrefined;
     sides[i] = *side;
   }
   std::array<Eigen::Vector2d, 4> refined;
+  double variance = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    const Eigen::Vector3d meeting = sides[(i + 3) % 4].cross(sides[i]);
+    const Eigen::Vector3d meeting = sides[(i + 3) % 4].line.cross(sides[i].line);
     refined[i] = model.project(meeting / meeting.z());
-    if (!((refined[i] - corners[i]).norm() < kMaxMove)) return;
+    if (!((refined[i] - corners[i]).norm() < kMaxMove)) return kUnrefined;
+    variance += corner_variance(sides[(i + 3) % 4], sides[i]) / 4;
   }
   corners = refined;
+  return std::sqrt(variance + kLeast * kLeast);
 }
 
 }  // namespace vinebench

@@ -15,7 +15,8 @@ namespace vinebench {
 /// four sides (in the undistorted picture) and intersected. AprilTag itself looks for edges in
 /// steps of a quarter of a pixel. `grey` is CV_8UC1, corners are px in AprilTag's order; `module`
 /// is the least width of the tag's modules, px. Corners stay as they are where a side is not found.
-void refine_tag_corners(const cv::Mat& grey, const PinholeCamera& model, double module,
-                        std::array<Eigen::Vector2d, 4>& corners);
+/// Returns the standard deviation of a corner in x or y, px, the four taken together.
+double refine_tag_corners(const cv::Mat& grey, const PinholeCamera& model, double module,
+                          std::array<Eigen::Vector2d, 4>& corners);
 
 }  // namespace vinebench

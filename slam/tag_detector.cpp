@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -118,8 +119,10 @@ struct TagDetector::Impl {
     return find_tag_candidates(grey, static_cast<int>(config.decimate));
   }
 
-  TagSighting sighting(const apriltag_detection_t& found, const cv::Mat& grey, const cv::Rect& part,
-                       const PinholeCamera& model, int camera) const {
+  /// Nothing where the corners are not those of a square.
+  std::optional<TagSighting> sighting(const apriltag_detection_t& found, const cv::Mat& grey,
+                                      const cv::Rect& part, const PinholeCamera& model,
+                                      int camera) const {
     TagSighting result;
     result.camera = camera;
     result.family = found.family->name;
@@ -128,9 +131,13 @@ struct TagDetector::Impl {
       result.corners[i] = {found.p[i][0] - kPixelCentre + part.x,
                            found.p[i][1] - kPixelCentre + part.y};
     }
-    refine_tag_corners(grey, model, module_width(result.corners, found.family->width_at_border),
-                       result.corners);
-    result.T_cam_tag = estimate_tag_pose(result.corners, model, size_of(result.family, result.id));
+    const double module = module_width(result.corners, found.family->width_at_border);
+    result.corner_sigma = refine_tag_corners(grey, model, module, result.corners);
+    const TagPose pose = estimate_tag_pose(result.corners, model, size_of(result.family, result.id),
+                                           result.corner_sigma);
+    if (!pose.square) return std::nullopt;
+    result.T_cam_tag = pose.T_cam_tag;
+    result.ambiguous = pose.ambiguous;
     return result;
   }
 
@@ -146,11 +153,12 @@ struct TagDetector::Impl {
       const apriltag_detection_t* detection = nullptr;
       zarray_get(found.get(), i, static_cast<void*>(&detection));
       if (!believes(*detection)) continue;
-      TagSighting seen = sighting(*detection, grey, part, model, camera);
-      const bool whole = std::ranges::all_of(seen.corners, [&](const Eigen::Vector2d& corner) {
+      std::optional<TagSighting> seen = sighting(*detection, grey, part, model, camera);
+      if (!seen) continue;
+      const bool whole = std::ranges::all_of(seen->corners, [&](const Eigen::Vector2d& corner) {
         return model.contains(corner, kBorder);
       });
-      if (whole) sightings.push_back(std::move(seen));
+      if (whole) sightings.push_back(std::move(*seen));
     }
   }
 };

@@ -4,7 +4,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <opencv2/calib3d.hpp>
+#include <utility>
 #include <vector>
 
 namespace vinebench {
@@ -15,6 +17,15 @@ using Points2 = std::array<Eigen::Vector2d, 4>;
 
 constexpr int kMaxSteps = 20;
 constexpr double kConverged = 1e-12;  ///< rad and m
+
+/// Poses nearer to each other than this are one pose and its uncertainty.
+constexpr double kOtherPose = 0.15;  // rad
+/// A difference of squared errors, in variances, that makes one pose a thousand times likelier than
+/// the other: 2 ln 1000. Also 99.9 % of the chi-square distribution with two degrees of freedom,
+/// which is what four corners have over a pose.
+constexpr double kThousandfold = 13.8;
+/// By which corners are off besides their noise: bent edges, a bent print.
+constexpr double kBent = 0.3;  // px
 
 /// Corners in the tag frame, in the order of TagSighting::corners.
 Points3 tag_corners(double size) {
@@ -81,6 +92,15 @@ Pose refine(Pose pose, const Points3& corners, const Points2& seen) {
   return pose;
 }
 
+bool is_square(double squared_error, double sigma) {
+  return squared_error <= kThousandfold * (sigma * sigma + kBent * kBent);
+}
+
+/// The better pose's errors say too how large errors are: two degrees of freedom are left of eight.
+bool is_as_likely(double squared_error, double least, double sigma) {
+  return squared_error - least < kThousandfold * std::max(sigma * sigma, least / 2);
+}
+
 /// The two poses of the closed-form solution.
 std::vector<Pose> solve_closed_form(const Points3& corners, const Points2& seen) {
   std::vector<cv::Point3d> object;
@@ -104,21 +124,26 @@ std::vector<Pose> solve_closed_form(const Points3& corners, const Points2& seen)
 
 }  // namespace
 
-Pose estimate_tag_pose(const std::array<Eigen::Vector2d, 4>& corners, const PinholeCamera& model,
-                       double size) {
+TagPose estimate_tag_pose(const std::array<Eigen::Vector2d, 4>& corners, const PinholeCamera& model,
+                          double size, double corner_sigma) {
   const Points3 object = tag_corners(size);
   Points2 seen;
   for (std::size_t i = 0; i < 4; ++i) seen[i] = model.unproject(corners[i]).head<2>();
-  Pose best;
-  double least = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<double, Pose>> solutions;  // sum of squared errors, px^2
   for (const Pose& start : solve_closed_form(object, seen)) {
     const Pose pose = refine(start, object, seen);
-    const double error = reprojection_error(pose, object, seen);
-    if (error >= least) continue;
-    least = error;
-    best = pose;
+    solutions.emplace_back(model.fx * model.fy * reprojection_error(pose, object, seen), pose);
   }
-  return best;
+  std::ranges::stable_sort(solutions, {}, &std::pair<double, Pose>::first);
+  TagPose result;
+  result.square = !solutions.empty() && is_square(solutions[0].first, corner_sigma);
+  if (solutions.empty()) return result;
+  result.T_cam_tag = solutions[0].second;
+  for (const auto& [error, pose] : solutions) {
+    const bool other = angle_of(pose.rotation.conjugate() * result.T_cam_tag.rotation) > kOtherPose;
+    result.ambiguous |= other && is_as_likely(error, solutions[0].first, corner_sigma);
+  }
+  return result;
 }
 
 }  // namespace vinebench

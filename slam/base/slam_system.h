@@ -45,6 +45,23 @@ struct TagSighting {
   std::array<Eigen::Vector2d, 4> corners;  ///< px; the tag's own lower left, then counter-clockwise
                                            ///< as printed (AprilTag's order)
   Pose T_cam_tag;
+  double corner_sigma = 0;  ///< px, standard deviation of a corner in x or y; 0 where not known
+  bool ambiguous = false;   ///< another pose explains the corners nearly as well
+};
+
+/// Why a sighting of a tag is not believed.
+enum class TagRejection {
+  kAmbiguous,  ///< two poses explain it
+  kMisplaced,  ///< farther from where the map has the tag than the way driven can explain
+  kDuplicate,  ///< two of this name are in view, in different places
+};
+
+/// A sighting that was left out.
+struct RejectedTag {
+  std::string family;
+  int id = 0;
+  int camera = 0;  ///< index into Rig::cameras
+  TagRejection reason = TagRejection::kAmbiguous;
 };
 
 /// A loop closed in this frame: the constraint that tied it to an earlier one.
@@ -65,7 +82,8 @@ struct Estimate {
   Matrix6d covariance = Matrix6d::Zero();
   std::vector<CameraCounts> cameras;  ///< in the rig's order
   bool keyframe = false;
-  std::vector<TagSighting> tags;
+  std::vector<TagSighting> tags;           ///< all that were found, the rejected too
+  std::vector<RejectedTag> rejected_tags;  ///< of these, while there is a pose to judge them by
   std::optional<LoopClosure> loop_closure;
 };
 

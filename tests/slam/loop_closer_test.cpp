@@ -35,6 +35,14 @@ class LoopCloserTest : public testing::Test {
     return seen;
   }
 
+  TagSighting with_corners(TagSighting seen) const {
+    const RigCamera& side = rig_.rig.cameras[kSide];
+    for (std::size_t c = 0; c < 4; ++c) {
+      seen.corners[c] = side.model.project(seen.T_cam_tag * tag_corners(0.161)[c]);
+    }
+    return seen;
+  }
+
   std::shared_ptr<const FrameFeatures> frame(std::int64_t index,
                                              const std::vector<TagSighting>& tags) const {
     auto features = std::make_shared<FrameFeatures>();
@@ -127,9 +135,9 @@ TEST_F(LoopCloserTest, ATagThatWasLeftAndIsSeenAgainIsALoop) {
   EXPECT_TRUE(loop.sees_loop(*frame(45, {sighting(3, T_body_tag_)}), 1.0));
   EXPECT_FALSE(loop.sees_loop(*frame(45, {sighting(4, T_body_tag_)}), 1.0));
   EXPECT_FALSE(loop.sees_loop(*frame(45, {}), 1.0));
-  // Noted, the visit goes on.
+  // It stays one until it is closed.
   loop.note(*frame(45, {sighting(3, T_body_tag_)}), body_, 1.0, map_);
-  EXPECT_FALSE(loop.sees_loop(*frame(46, {sighting(3, T_body_tag_)}), 1.02));
+  EXPECT_TRUE(loop.sees_loop(*frame(46, {sighting(3, T_body_tag_)}), 1.02));
 }
 
 TEST_F(LoopCloserTest, OutOfViewForAMomentIsNotLeft) {
@@ -183,11 +191,7 @@ class LoopClosureTest : public LoopCloserTest {
                : aisle_.frame(30 * k, truth_[i])));
     if (second && k >= 4) {
       TagSighting other = sighting(1, truth_[i].inverse() * truth_[4] * T_body_tag_);
-      for (std::size_t c = 0; c < 4; ++c) {
-        const RigCamera& side = rig_.rig.cameras[kSide];
-        other.corners[c] = side.model.project(other.T_cam_tag * tag_corners(0.161)[c]);
-      }
-      features->tags.insert(features->tags.begin(), other);
+      features->tags.insert(features->tags.begin(), with_corners(other));
     }
     return features;
   }
@@ -231,6 +235,8 @@ TEST_F(LoopClosureTest, TiesTheTwoVisitsTogether) {
   EXPECT_LT(distance(closure.T_earlier_later, moved), 1e-12);
   EXPECT_NEAR(closure.correction, 0.05, 1e-5);  // five steps of 1 cm
   expect_true_poses();
+  // Closed, the visit goes on.
+  EXPECT_FALSE(loop.sees_loop(*keyframe(5, false), 2.5));
 }
 
 TEST_F(LoopClosureTest, TheTagThatWasLeftClosesItWhateverElseIsInView) {
@@ -238,6 +244,27 @@ TEST_F(LoopClosureTest, TheTagThatWasLeftClosesItWhateverElseIsInView) {
   const LoopClosure closure = drive_and_close(loop, true);
   EXPECT_EQ(closure.tag_id, 0);  // tag 1 was in view at the keyframe before
   EXPECT_EQ(closure.earlier, 0);
+  expect_true_poses();
+}
+
+TEST_F(LoopClosureTest, ARegisteredTagThatIsNewClosesItWithTheLastOne) {
+  // Tag 0 is in view at the first keyframe only, tag 7 at the last only; the world is the map.
+  const Pose T_world_new = truth_[5] * T_body_tag_;
+  LoopCloser loop =
+      closer({{"tag36h11", 0, 0.161, T_world_tag_}, {"tag36h11", 7, 0.161, T_world_new}});
+  for (int k = 0; k < 5; ++k) {
+    const auto features = keyframe(k, false);
+    known_.add(features, drifted(k));
+    loop.note(*features, drifted(k), 0.5 * k, known_.map);
+  }
+  auto last = std::make_shared<FrameFeatures>(*aisle_.frame(150, truth_[5]));
+  last->tags.push_back(with_corners(sighting(7, T_body_tag_)));
+  ASSERT_TRUE(loop.sees_loop(*last, 2.5));
+  const LoopClosure closure = loop.close(known_.add(last, drifted(5)), 2.5, known_.map);
+  EXPECT_EQ(closure.tag_id, 7);
+  EXPECT_EQ(closure.earlier, 0);
+  const Pose moved = truth_[0].inverse() * truth_[5];
+  EXPECT_LT(distance(closure.T_earlier_later, moved), 1e-9);
   expect_true_poses();
 }
 

@@ -38,7 +38,7 @@ TEST(TagPoseTest, IsExactForExactCorners) {
   for (const PinholeCamera& lens : {camera(), camera({-0.05, 0.01, 1e-3, -5e-4})}) {
     for (int i = 0; i < 100; ++i) {
       const Pose truth = draw_pose(random);
-      const Pose pose = estimate_tag_pose(corners_of(truth, lens, 0.161), lens, 0.161);
+      const Pose pose = estimate_tag_pose(corners_of(truth, lens, 0.161), lens, 0.161).T_cam_tag;
       EXPECT_LT((pose.translation - truth.translation).norm(), 1e-7) << i;
       EXPECT_LT(angle_of(pose.rotation.conjugate() * truth.rotation), 1e-6) << i;
     }
@@ -47,7 +47,8 @@ TEST(TagPoseTest, IsExactForExactCorners) {
 
 TEST(TagPoseTest, ScalesWithTheSizeOfTheTag) {
   const Pose truth{exp_so3({0.4, 0.2, 0.1}), {0.1, 0.2, 1.0}};
-  const Pose pose = estimate_tag_pose(corners_of(truth, camera(), 0.161), camera(), 0.322);
+  const Pose pose =
+      estimate_tag_pose(corners_of(truth, camera(), 0.161), camera(), 0.322).T_cam_tag;
   EXPECT_LT((pose.translation - 2 * truth.translation).norm(), 1e-7);
 }
 
@@ -62,10 +63,34 @@ TEST(TagPoseTest, OfTheTwoPosesThatASquareHasTheBetterIsTaken) {
       corner.x() += random.normal(0, 0.1);
       corner.y() += random.normal(0, 0.1);
     }
-    const Pose pose = estimate_tag_pose(corners, camera(), 0.161);
+    const Pose pose = estimate_tag_pose(corners, camera(), 0.161).T_cam_tag;
     EXPECT_LT(angle_of(pose.rotation.conjugate() * truth.rotation), 0.05) << i;
     EXPECT_LT((pose.translation - truth.translation).norm(), 0.02) << i;
   }
+}
+
+TEST(TagPoseTest, FarAwayTheTwoPosesCannotBeToldApart) {
+  // The mirrored pose differs in how much the near side is larger: s/z sin(tilt) of half a side,
+  // 0.08 x 0.6 x 30 px = 1.4 px where the tag is 59 px wide at 2 m, and 0.06 px at 10 m (12 px).
+  const auto seen = [](double range, double sigma) {
+    const Pose truth{exp_so3({0, 0.6, 0}), {0.1, 0.05, range}};
+    return estimate_tag_pose(corners_of(truth, camera(), 0.161), camera(), 0.161, sigma);
+  };
+  EXPECT_FALSE(seen(2, 0.1).ambiguous);
+  EXPECT_TRUE(seen(10, 0.1).ambiguous);
+  EXPECT_TRUE(seen(2, 1).ambiguous);
+  // Near and square before the camera the two are one pose.
+  const Pose frontal{{1, 0, 0, 0}, {0, 0, 0.5}};
+  EXPECT_FALSE(
+      estimate_tag_pose(corners_of(frontal, camera(), 0.161), camera(), 0.161, 0.1).ambiguous);
+}
+
+TEST(TagPoseTest, FourCornersThatAreNoSquareAreSeen) {
+  const Pose truth{exp_so3({0.3, 0.4, 0.2}), {0.1, 0.05, 1.0}};
+  auto corners = corners_of(truth, camera(), 0.161);
+  EXPECT_TRUE(estimate_tag_pose(corners, camera(), 0.161).square);
+  corners[2] += Eigen::Vector2d(8, -5);  // of a side of 110 px
+  EXPECT_FALSE(estimate_tag_pose(corners, camera(), 0.161).square);
 }
 
 }  // namespace
