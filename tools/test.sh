@@ -15,5 +15,5 @@ cmake --build build
 echo "checking the format"
 git ls-files -z --cached --others --exclude-standard '*.h' '*.cpp' |
   xargs -0 clang-format --dry-run -Werror
-ctest --test-dir build --output-on-failure --no-tests=error "$@"
+ctest --test-dir build --output-on-failure --no-tests=error -j "$(nproc)" "$@"
 if [[ -n ${CI:-} ]]; then tools/sanitize.sh; fi

@@ -77,7 +77,7 @@ struct LoopClosure {
 struct Estimate {
   Stamp stamp = 0;
   TrackingStatus status = TrackingStatus::kInitializing;
-  std::optional<Pose> T_map_body;     ///< absent while there is none
+  std::optional<Pose> T_map_body;  ///< absent while there is none
   /// Covariance of T_map_body in the body frame (m, then rad: p + R rho, R exp(theta)).
   Matrix6d covariance = Matrix6d::Zero();
   std::vector<CameraCounts> cameras;  ///< in the rig's order

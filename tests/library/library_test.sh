@@ -11,7 +11,8 @@ work=$build/library
 prefix=$work/prefix
 rm -rf "$prefix" "$work/pictures"
 
-sed -n '/^```cpp$/,/^```$/p' "$root/docs/library.md" | sed '1d;$d' |
+# The first C++ block is the example.
+awk '/^```cpp$/ { inside = 1; next } inside && /^```$/ { exit } inside' "$root/docs/library.md" |
   diff - <(sed 1,2d "$root/examples/feed_images/feed_images.cpp") ||
   { echo "docs/library.md shows another example than examples/feed_images/feed_images.cpp" >&2; exit 1; }
 

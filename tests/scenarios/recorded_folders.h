@@ -10,7 +10,7 @@
 
 #include "scenarios/recording.h"
 #include "slam/base/worker_pool.h"
-#include "tests/sim/test_folder.h"
+#include "tests/test_folder.h"
 
 namespace vinebench::test {
 

@@ -12,6 +12,7 @@
 #include "slam/base/error.h"
 #include "slam/base/files.h"
 #include "tests/scenarios/fakes.h"
+#include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {
@@ -20,13 +21,6 @@ namespace fs = std::filesystem;
 
 class RunTest : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / (std::string("vinebench-run-") + info->name());
-    fs::remove_all(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   RunOutcome run(fakes::Slam::Change change = {}, int seed = 1) {
     fakes::Source source(seed);
     fakes::Slam slam(std::move(change));
@@ -43,7 +37,8 @@ class RunTest : public testing::Test {
     return list;
   }
 
-  fs::path folder_;
+  test::TestFolder tests_;
+  const fs::path folder_ = tests_ / "run";
   std::function<bool()> stopped_;
 };
 

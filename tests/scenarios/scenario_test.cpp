@@ -7,6 +7,7 @@
 
 #include "slam/base/error.h"
 #include "slam/base/files.h"
+#include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {
@@ -16,10 +17,6 @@ namespace fs = std::filesystem;
 class ScenarioTest : public testing::Test {
  protected:
   void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / (std::string("vinebench-scenario-") + info->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     write_file_atomically(folder_ / "world.yaml", R"(name: small
 rows:
   - {start: [0, 0], end: [4, 0]}
@@ -33,7 +30,6 @@ boxes:
     fs::copy_file(fs::path(VINEBENCH_SOURCE_DIR) / "models/csl-rover/rig.yaml",
                   folder_ / "rig.yaml");
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   fs::path write(const std::string& more) {
     const fs::path file = folder_ / "scenario.yaml";
@@ -50,7 +46,7 @@ boxes:
   }
 
   const std::string kRoute = "route: {waypoints: [{position: [0, 1]}]}\n";
-  fs::path folder_;
+  test::TestFolder folder_;
 };
 
 TEST_F(ScenarioTest, ReadsItsPartsFromTheirFiles) {

@@ -12,7 +12,7 @@
 
 #include "slam/base/error.h"
 #include "slam/base/files.h"
-#include "tests/sim/test_folder.h"
+#include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {

@@ -6,7 +6,7 @@
 #include "sim/cultivar.h"
 #include "sim/terrain.h"
 #include "sim/world.h"
-#include "tests/sim/test_folder.h"
+#include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/sim/test_folder.h"
+#include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {

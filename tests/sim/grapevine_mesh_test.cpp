@@ -9,8 +9,8 @@
 #include <set>
 
 #include "sim/asset_file.h"
-#include "tests/sim/test_folder.h"
 #include "tests/sim/test_plant.h"
+#include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "slam/base/error.h"
-#include "tests/sim/test_folder.h"
 #include "tests/sim/test_plant.h"
+#include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {

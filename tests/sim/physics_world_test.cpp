@@ -12,6 +12,7 @@
 
 #include "slam/base/error.h"
 #include "slam/base/rig.h"
+#include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {
@@ -139,27 +140,23 @@ TEST(PhysicsWorldTest, LeavesNoTemporaryFile) {
     }
     return count;
   };
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / "physics_world_test";
-  std::filesystem::create_directories(folder);
+  const test::TestFolder folder;
   const char* before = std::getenv("TMPDIR");
   const std::string restored = before ? before : "";
-  setenv("TMPDIR", folder.c_str(), 1);
+  setenv("TMPDIR", folder.path().c_str(), 1);
   PhysicsWorld(kModels / "rover.xml", one_row());
   EXPECT_THROW(PhysicsWorld("/nowhere.xml", one_row()), Error);
   EXPECT_EQ(files(), 0);
   before ? setenv("TMPDIR", restored.c_str(), 1) : unsetenv("TMPDIR");
-  std::filesystem::remove_all(folder);
 }
 
 TEST(PhysicsWorldTest, LoadsFromAFolderOfAnyName) {
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / "rovers & <\"friends\">";
+  const test::TestFolder tests;
+  const std::filesystem::path folder = tests / "rovers & <\"friends\">";
   std::filesystem::create_directories(folder);
   std::filesystem::copy_file(kModels / "rover.xml", folder / "rover.xml",
                              std::filesystem::copy_options::overwrite_existing);
   EXPECT_NO_THROW(PhysicsWorld(folder / "rover.xml", one_row()));
-  std::filesystem::remove_all(folder);
 }
 
 TEST(PhysicsWorldTest, ReportsPhysicsThatFail) {

@@ -13,6 +13,7 @@
 #include "slam/base/error.h"
 #include "slam/base/files.h"
 #include "slam/base/rig.h"
+#include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {
@@ -348,8 +349,9 @@ TEST(RoverTest, ErrorsNameWhatIsWrong) {
       },
       ThrowsMessage<Error>(HasSubstr("/nowhere/rover.xml")));
 
+  const test::TestFolder folder;
   RoverConfig broken = csl_rover();
-  broken.model = std::filesystem::path(testing::TempDir()) / "broken.xml";
+  broken.model = folder / "broken.xml";
   write_file_atomically(broken.model,
                         "<mujoco><worldbody><geom tpye=\"box\"/></worldbody></mujoco>");
   EXPECT_THAT(
@@ -359,7 +361,7 @@ TEST(RoverTest, ErrorsNameWhatIsWrong) {
       ThrowsMessage<Error>(testing::AllOf(HasSubstr("broken.xml"), HasSubstr("tpye"))));
 
   RoverConfig wheelless = csl_rover();
-  wheelless.model = std::filesystem::path(testing::TempDir()) / "wheelless.xml";
+  wheelless.model = folder / "wheelless.xml";
   write_file_atomically(wheelless.model,
                         "<mujoco><worldbody><body><freejoint name=\"chassis\"/>"
                         "<geom size=\"0.1\"/></body></worldbody></mujoco>");

@@ -12,8 +12,8 @@
 #include "sim/truth_images.h"
 #include "slam/base/error.h"
 #include "slam/base/rig.h"
-#include "tests/sim/test_folder.h"
 #include "tests/sim/test_scene.h"
+#include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "slam/base/yaml.h"
-#include "tests/sim/test_folder.h"
+#include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {

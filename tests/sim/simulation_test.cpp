@@ -9,7 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include "slam/base/error.h"
-#include "tests/sim/test_folder.h"
+#include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {

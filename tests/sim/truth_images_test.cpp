@@ -10,8 +10,8 @@
 #include "sim/camera_sensor.h"
 #include "sim/instance_names.h"
 #include "sim/sensors.h"
-#include "tests/sim/test_folder.h"
 #include "tests/sim/test_scene.h"
+#include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {

@@ -14,8 +14,8 @@
 #include "sim/truth_images.h"
 #include "slam/base/rig.h"
 #include "tests/sim/picture_warp.h"
-#include "tests/sim/test_folder.h"
 #include "tests/sim/test_scene.h"
+#include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {

@@ -12,7 +12,7 @@
 #include "sim/row_frame.h"
 #include "sim/row_index.h"
 #include "sim/tag_family.h"
-#include "tests/sim/test_folder.h"
+#include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {

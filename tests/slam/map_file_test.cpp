@@ -10,6 +10,7 @@
 #include "slam/base/error.h"
 #include "slam/base/files.h"
 #include "tests/slam/aisle_map.h"
+#include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {
@@ -211,7 +212,8 @@ TEST_F(MapFileTest, AnotherRigIsSaidSo) {
 }
 
 TEST_F(MapFileTest, FilesAreWrittenAndRead) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "row.map";
+  const test::TestFolder folder;
+  const std::filesystem::path file = folder / "row.map";
   save_map(made_.map, made_.rig, file);
   EXPECT_EQ(read_file(file), bytes_);
   EXPECT_EQ(load_map(file, made_.rig).keyframes().size(), 2u);

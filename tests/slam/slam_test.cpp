@@ -7,6 +7,7 @@
 
 #include "slam/base/files.h"
 #include "tests/slam/synthetic_texture.h"
+#include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {
@@ -73,27 +74,26 @@ std::unique_ptr<MappingSystem> system(WorkerPool& pool) {
 
 class SlamTest : public testing::Test {
  protected:
-  std::filesystem::path file(const std::string& name) const {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    return std::filesystem::path(testing::TempDir()) / (std::string(test->name()) + name);
-  }
+  std::filesystem::path file(const std::string& name) const { return folder_ / name; }
 
   /// A map file of the way past the walls.
   std::filesystem::path saved_map() const {
     static const std::string bytes = drive_and_save();
-    write_file_atomically(file(".map"), bytes);
-    return file(".map");
+    write_file_atomically(file("drive.map"), bytes);
+    return file("drive.map");
   }
 
   WorkerPool pool_{2};
 
  private:
+  test::TestFolder folder_;
+
   std::string drive_and_save() const {
     WorkerPool pool(2);
     const auto slam = system(pool);
     for (int i = 0; i < kFrames; ++i) slam->process(frame(i, i));
-    slam->save_map(file("_first.map"));
-    return read_file(file("_first.map"));
+    slam->save_map(file("first.map"));
+    return read_file(file("first.map"));
   }
 };
 
@@ -114,8 +114,8 @@ TEST_F(SlamTest, AnyNumberOfThreadsGivesTheSameBits) {
     const auto slam = system(pool);
     for (int i = 0; i < 6; ++i) slam->process(frame(i, 3 * i));
     slam->finish();
-    slam->save_map(file(".map"));
-    maps.push_back(read_file(file(".map")));
+    slam->save_map(file("drive.map"));
+    maps.push_back(read_file(file("drive.map")));
   }
   EXPECT_EQ(maps[0], maps[1]);
 }
@@ -143,8 +143,8 @@ TEST_F(SlamTest, ALoadedMapIsFoundAgain) {
 TEST_F(SlamTest, ALoadedMapIsSavedAsItWas) {
   const auto slam = system(pool_);
   slam->load_map(saved_map());
-  slam->save_map(file("_again.map"));
-  EXPECT_EQ(read_file(file("_again.map")), read_file(saved_map()));
+  slam->save_map(file("again.map"));
+  EXPECT_EQ(read_file(file("again.map")), read_file(saved_map()));
 }
 
 TEST_F(SlamTest, AMapIsLoadedBeforeTheFirstFrameOnly) {
@@ -157,8 +157,8 @@ TEST_F(SlamTest, AMapIsLoadedBeforeTheFirstFrameOnly) {
 TEST_F(SlamTest, TheCloudIsAPlyFile) {
   const auto slam = system(pool_);
   for (int i = 0; i < 4; ++i) slam->process(frame(i, 4 * i));
-  slam->save_cloud(file(".ply"));
-  EXPECT_THAT(read_file(file(".ply")),
+  slam->save_cloud(file("cloud.ply"));
+  EXPECT_THAT(read_file(file("cloud.ply")),
               testing::StartsWith("ply\nformat binary_little_endian 1.0\n"));
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "slam/base/error.h"
+#include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {
@@ -16,11 +17,6 @@ namespace fs = std::filesystem;
 
 class FilesTest : public testing::Test {
  protected:
-  void SetUp() override {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
   std::set<std::string> content() const {
     std::set<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder_)) {
@@ -28,7 +24,8 @@ class FilesTest : public testing::Test {
     }
     return names;
   }
-  fs::path folder_ = fs::path(testing::TempDir()) / "files_test";
+  test::TestFolder tests_;
+  const fs::path folder_ = tests_.path();
 };
 
 TEST_F(FilesTest, ComesBackByteByByte) {

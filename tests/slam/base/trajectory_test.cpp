@@ -9,19 +9,15 @@
 
 #include "slam/base/error.h"
 #include "slam/base/random.h"
+#include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {
 
-std::filesystem::path file_of(const std::string& text) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "trajectory_test.tum";
-  std::ofstream(file) << text;
-  return file;
-}
-
 void expect_error(const std::string& text, const std::string& message) {
-  EXPECT_THAT([&] { read_tum(file_of(text)); },
-              testing::ThrowsMessage<Error>(testing::HasSubstr(message)))
+  const test::TestFolder folder;
+  EXPECT_THAT(test::error_of([&] { read_tum(folder.write("trajectory_test.tum", text)); }),
+              testing::HasSubstr(message))
       << text;
 }
 
@@ -33,7 +29,8 @@ TEST(TrajectoryTest, ComesBackToTheLastDecimal) {
     const Eigen::Vector3d p(random.uniform(-100, 100), random.uniform(-100, 100), random.normal());
     written.push_back({stamp_of_frame(i, 15), {exp_so3(turn), p}});
   }
-  const auto file = std::filesystem::path(testing::TempDir()) / "trajectory_test.tum";
+  const test::TestFolder folder;
+  const auto file = folder / "trajectory_test.tum";
   write_tum(written, file);
   const Trajectory read = read_tum(file);
   ASSERT_EQ(read.size(), written.size());
@@ -54,11 +51,13 @@ TEST(TrajectoryTest, WritesTheScalarLast) {
 }
 
 TEST(TrajectoryTest, SkipsCommentsAndEmptyLines) {
-  const Trajectory read = read_tum(file_of("# t x y z\n\n0.5 1 2 3 0 0 0 1\r\n  # more\n"));
+  const test::TestFolder folder;
+  const Trajectory read =
+      read_tum(folder.write("a.tum", "# t x y z\n\n0.5 1 2 3 0 0 0 1\r\n  # more\n"));
   ASSERT_EQ(read.size(), 1u);
   EXPECT_EQ(read[0].stamp, 500'000'000);
   EXPECT_EQ(read[0].pose.translation, Eigen::Vector3d(1, 2, 3));
-  EXPECT_TRUE(read_tum(file_of("")).empty());
+  EXPECT_TRUE(read_tum(folder.write("none.tum", "")).empty());
 }
 
 TEST(TrajectoryTest, ErrorsNameFileLineAndWhatWasFound) {

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "slam/base/error.h"
+#include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {
@@ -52,19 +53,15 @@ struct Outer {
 
 class YamlTest : public testing::Test {
  protected:
-  std::filesystem::path write(const std::string& name, const std::string& text) {
-    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / name;
-    std::ofstream(file) << text;
-    return file;
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    return folder_.write(name, text);
   }
-  std::string error_of(const std::string& text) {
-    try {
-      YamlDocument::load(write("bad.yaml", text)).read<Outer>();
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no error";
+  std::string error_of(const std::string& text) const {
+    return test::error_of([&] { YamlDocument::load(write("bad.yaml", text)).read<Outer>(); });
   }
+
+ private:
+  test::TestFolder folder_;
 };
 
 TEST_F(YamlTest, ReadsEveryKindOfField) {
