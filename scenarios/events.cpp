@@ -5,6 +5,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
+#include <utility>
 
 namespace vinebench {
 namespace {
@@ -14,6 +16,18 @@ using Json = nlohmann::ordered_json;
 /// Division, not multiplication: gives the double nearest to the decimal number.
 double exact_seconds(Stamp stamp) {
   return static_cast<double>(stamp) / 1e9;
+}
+
+const char* name_of(TagRejection reason) {
+  switch (reason) {
+    case TagRejection::kAmbiguous:
+      return "ambiguous";
+    case TagRejection::kMisplaced:
+      return "misplaced";
+    case TagRejection::kDuplicate:
+      return "duplicate";
+  }
+  return "";
 }
 
 /// Walks the ticks and remembers what has begun and not ended yet.
@@ -30,6 +44,7 @@ class EventLog {
         add_occlusion(camera, box_share);
       }
       add_sightings();
+      add_rejections();
       if (tick_->estimate.keyframe) add("keyframe");
       add_loop_closures();
     }
@@ -51,7 +66,10 @@ class EventLog {
 
   void add_losses() {
     const bool tracked = is_tracked(tick_->estimate);
-    if (had_pose_ && !tracked) add("lost");
+    const bool reckons = tick_->estimate.status == TrackingStatus::kDeadReckoning;
+    if (had_pose_ && !tracked) add("lost", {{"dead_reckoning", reckons}});
+    if (reckoned_ && !tracked && !reckons) add("dead_reckoning_given_up");
+    reckoned_ = reckons;
     if (!had_pose_ && tracked) add(ever_had_pose_ ? "relocalised" : "initialised");
     had_pose_ = tracked;
     ever_had_pose_ = ever_had_pose_ || tracked;
@@ -94,12 +112,26 @@ class EventLog {
     }
   }
 
+  /// One event when a tag is not believed any more, or for another reason than in the frame before.
+  void add_rejections() {
+    std::set<Rejection> now;
+    for (const RejectedTag& tag : tick_->estimate.rejected_tags) {
+      const Rejection rejection{{tag.camera, tag.family, tag.id}, tag.reason};
+      if (!now.insert(rejection).second || rejected_.contains(rejection)) continue;
+      Json more = describe(rejection.first, std::nullopt);
+      more["reason"] = name_of(tag.reason);
+      add("tag_rejected", more);
+    }
+    rejected_ = std::move(now);
+  }
+
   struct TagKey {
     int camera;
     std::string family;
     int id;
     auto operator<=>(const TagKey&) const = default;
   };
+  using Rejection = std::pair<TagKey, TagRejection>;
   struct Sighting {
     std::size_t last = 0;
     int frames = 0;
@@ -145,8 +177,10 @@ class EventLog {
   std::size_t at_ = 0;
   bool had_pose_ = false;
   bool ever_had_pose_ = false;
+  bool reckoned_ = false;
   std::map<std::size_t, std::size_t> occlusions_;  ///< camera to the tick it began at
   std::map<TagKey, Sighting> sightings_;
+  std::set<Rejection> rejected_;  ///< in the frame before
   std::string text_;
 };
 

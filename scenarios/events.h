@@ -9,9 +9,9 @@
 namespace vinebench {
 
 /// The run's log, a JSON object a line in order of time: keyframes, occlusions by the truth (a
-/// camera whose share of carton is at least `box_share`), tag sightings, loop closures, losses, and
-/// faults of the source's data.
-/// Each has `t` (s), `frame` and `event`.
+/// camera whose share of carton is at least `box_share`), tag sightings and those that were not
+/// believed, loop closures, losses, and faults of the source's data. Each has `t` (s), `frame` and
+/// `event`.
 std::string format_events(const RunRecord& record, const RunResults& results, double box_share);
 
 }  // namespace vinebench

@@ -27,6 +27,10 @@ bool same_tag(const A& a, const B& b) {
   return a.id == b.id && a.family == b.family;
 }
 
+double square(double x) {
+  return x * x;
+}
+
 Matrix6d diagonal_covariance(double offset, double turn) {
   Vector6d variances;
   variances << Eigen::Vector3d::Constant(offset * offset), Eigen::Vector3d::Constant(turn * turn);
@@ -185,21 +189,36 @@ Matrix6d LoopCloser::covariance(const TagSighting& sighting) const {
                         config_.loop.corner_sigma);
 }
 
-/// Whether the tag is where the map has it, or its place is not known. The greatest drift along one
-/// axis is made the edge of what the chi-square test lets pass when the sighting is exact.
+/// Of the way from `since` to `path_length`: the greatest drift along one axis is made the edge of
+/// what the chi-square test lets pass when the sighting is exact. A turn in a stretch without sight
+/// moves the body sideways on all of the way after it.
+Matrix6d LoopCloser::drift(double since, double path_length) const {
+  const LoopConfig& limits = config_.loop;
+  const double way = path_length - since;
+  const double turn = limits.max_turn_deg + limits.max_turn_deg_per_metre * way;
+  const double edge = std::sqrt(kChiSquared6);
+  double offset2 = square((limits.max_offset + limits.max_drift * way) / edge);
+  double turn2 = square(turn * std::numbers::pi / 180 / edge);
+  for (const Gap& gap : gaps_) {
+    if (gap.path_length < since) continue;
+    const double turned = gap.covariance.bottomRightCorner<3, 3>().trace();
+    offset2 += gap.covariance.topLeftCorner<3, 3>().trace() +
+               turned * square(path_length - gap.path_length);
+    turn2 += turned;
+  }
+  return diagonal_covariance(std::sqrt(offset2), std::sqrt(turn2));
+}
+
+/// Whether the tag is where the map has it, or its place is not known.
 bool LoopCloser::is_in_place(const TagSighting& sighting, const Pose& T_map_body,
                              double path_length, const Map& map) const {
   const auto known = placed(sighting, map);
   if (!known) return true;
-  const LoopConfig& limits = config_.loop;
   const Visit* last = reference(sighting);
-  const double way = path_length - (last != nullptr ? last->path_length : 0);
-  const double turn = limits.max_turn_deg + limits.max_turn_deg_per_metre * way;
-  const double edge = std::sqrt(kChiSquared6);
-  const Matrix6d drift = diagonal_covariance((limits.max_offset + limits.max_drift * way) / edge,
-                                             turn * std::numbers::pi / 180 / edge);
   const Pose T_body_seen = T_body_tag(sighting, rig_);
-  Matrix6d expected = covariance(sighting) + carry_covariance(drift, T_body_seen);
+  Matrix6d expected =
+      covariance(sighting) +
+      carry_covariance(drift(last != nullptr ? last->path_length : 0, path_length), T_body_seen);
   if (const Visit* own = visit(sighting)) expected += own->mapped;
   return pose_chi_squared(T_map_body * T_body_seen, known->T_ref_tag, expected) <= kChiSquared6;
 }

@@ -40,6 +40,12 @@ class LoopCloser {
   std::vector<RejectedTag> judge(FrameFeatures& frame, const Pose& T_map_body, double path_length,
                                  const Map& map);
 
+  /// Tells of a stretch of the way that no camera saw, and how uncertain the motion in it is: tags
+  /// may be that much farther from their place in the map from here on.
+  void bridge(double path_length, const Matrix6d& covariance) {
+    gaps_.push_back({path_length, covariance});
+  }
+
   /// Whether a tag of this frame was seen before, in a keyframe, and left since: a loop to close.
   bool sees_loop(const FrameFeatures& frame, double path_length) const;
 
@@ -63,6 +69,11 @@ class LoopCloser {
     bool in_keyframe = false;            ///< a keyframe saw it: a loop has an earlier end
     Matrix6d mapped = Matrix6d::Zero();  ///< covariance of the place it was mapped at
   };
+  /// A stretch of the way without sight.
+  struct Gap {
+    double path_length = 0;  ///< m, the way driven until its end
+    Matrix6d covariance = Matrix6d::Zero();
+  };
   /// A sighting that would close a loop.
   struct Return {
     TagSighting sighting;
@@ -80,6 +91,7 @@ class LoopCloser {
 
   std::optional<PlacedSighting> placed(const TagSighting& sighting, const Map& map) const;
   Matrix6d covariance(const TagSighting& sighting) const;
+  Matrix6d drift(double since, double path_length) const;
   bool is_in_place(const TagSighting& sighting, const Pose& T_map_body, double path_length,
                    const Map& map) const;
   bool is_doubled(const TagSighting& sighting, const FrameFeatures& frame, const Pose& T_map_body,
@@ -93,6 +105,7 @@ class LoopCloser {
   std::vector<RegisteredTag> registered_;
   std::optional<Pose> T_map_world_;  ///< known from the first registered tag on
   std::vector<Visit> visits_;
+  std::vector<Gap> gaps_;                                ///< in the order of the way
   std::vector<Return> returns_;                          ///< of the last frame judged
   std::vector<std::pair<std::string, int>> distrusted_;  ///< found elsewhere than the map has them
 };

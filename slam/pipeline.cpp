@@ -196,6 +196,7 @@ bool Pipeline::begin_anew(TrackedFrame& tracked) {
   tracked.motion.T_map_body = tracker_.T_map_body();
   tracked.link = OdometryLink{last.id, last.T_map_body.inverse() * tracker_.T_map_body(),
                               tracker_.dark().covariance()};
+  loop_closer_.bridge(path_length_, tracked.link->covariance);
   tracked.associations = no_associations(*tracked.frame);
   tracked.motion.information.setZero();
   tracker_.start(tracked.motion.T_map_body, tracked.frame->stamp);

@@ -115,17 +115,6 @@ Matrix6d tag_covariance(const TagSighting& sighting, double size, const Estimato
   return inverse(J.transpose() * J);
 }
 
-Matrix6d carry_covariance(const Matrix6d& covariance, const Pose& T_b_c) {
-  // A step (rho, theta) about b moves c by R^T (rho + theta x p) and turns it by R^T theta.
-  const Eigen::Matrix3d R_c_b = T_b_c.rotation.toRotationMatrix().transpose();
-  const Eigen::Vector3d& p = T_b_c.translation;
-  Eigen::Matrix3d cross;
-  cross << 0, -p.z(), p.y(), p.z(), 0, -p.x(), -p.y(), p.x(), 0;
-  Matrix6d carry;
-  carry << R_c_b, -R_c_b * cross, Eigen::Matrix3d::Zero(), R_c_b;
-  return carry * covariance * carry.transpose();
-}
-
 double pose_chi_squared(const Pose& a, const Pose& b, const Matrix6d& covariance) {
   const Pose T_a_b = a.inverse() * b;
   Vector6d difference;

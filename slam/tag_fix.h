@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "slam/estimator_rig.h"
+#include "slam/pose_uncertainty.h"
 
 namespace vinebench {
 
@@ -32,9 +33,6 @@ Pose T_body_tag(const TagSighting& sighting, const EstimatorRig& rig);
 /// Covariance of T_body_tag, from that of the corners: far away and aslant it is large.
 Matrix6d tag_covariance(const TagSighting& sighting, double size, const EstimatorRig& rig,
                         double systematic);
-
-/// Covariance of T_a_b * T_b_c where `covariance` is that of T_a_b.
-Matrix6d carry_covariance(const Matrix6d& covariance, const Pose& T_b_c);
 
 /// Squared distance of two poses in standard deviations of their difference: chi-square with six
 /// degrees of freedom. `covariance` is about `a`.

@@ -127,10 +127,13 @@ TEST_F(RunTest, EventsTellTheStory) {
     close_loop(estimate);
     const double t = to_seconds(estimate.stamp);
     if (t >= 9 && t <= 10) {
-      estimate.status = TrackingStatus::kLost;
+      estimate.status = t <= 9.5 ? TrackingStatus::kDeadReckoning : TrackingStatus::kLost;
       estimate.T_map_body.reset();
       estimate.keyframe = false;
     }
+    // Ambiguous for a second, believed for one, and not where it was for half a second.
+    if (t < 1) estimate.rejected_tags = {{"tag36h11", 7, 2, TagRejection::kAmbiguous}};
+    if (t >= 2 && t < 2.5) estimate.rejected_tags = {{"tag36h11", 7, 2, TagRejection::kMisplaced}};
     if (t <= 2)
       estimate.tags = {
           {.camera = 2, .family = "tag36h11", .id = 7, .corners = {}, .T_cam_tag = {}}};
@@ -150,11 +153,24 @@ TEST_F(RunTest, EventsTellTheStory) {
     if (event["event"] == "tag_gone") {
       EXPECT_EQ(event["frames"], 21);
     }
+    if (event["event"] == "lost") {
+      EXPECT_TRUE(event["dead_reckoning"]);
+    }
+    if (event["event"] == "tag_rejected") {
+      EXPECT_EQ(event["reason"], event["frame"] == 0 ? "ambiguous" : "misplaced");
+    }
   }
-  const std::map<std::string, int> expected{
-      {"initialised", 1}, {"keyframe", 4},      {"loop_closure", 1},
-      {"lost", 1},        {"relocalised", 1},   {"occlusion_begin", 2},
-      {"tag_gone", 1},    {"occlusion_end", 2}, {"tag_seen", 1}};
+  const std::map<std::string, int> expected{{"initialised", 1},
+                                            {"keyframe", 4},
+                                            {"loop_closure", 1},
+                                            {"lost", 1},
+                                            {"relocalised", 1},
+                                            {"occlusion_begin", 2},
+                                            {"tag_gone", 1},
+                                            {"occlusion_end", 2},
+                                            {"tag_seen", 1},
+                                            {"tag_rejected", 2},
+                                            {"dead_reckoning_given_up", 1}};
   EXPECT_EQ(counts, expected);
 }
 
