@@ -10,6 +10,7 @@ SlamSummary run_lockstep(FrameSource& source, SlamSystem& slam, const std::vecto
     const std::optional<Sample> sample = source.next();
     if (!sample) break;
     const Estimate estimate = slam.process(sample->frame);
+    source.answer(estimate);
     for (Sink* sink : sinks) sink->on_tick(*sample, estimate);
   }
   SlamSummary summary = slam.finish();

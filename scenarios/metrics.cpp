@@ -68,6 +68,11 @@ Json result_metrics(const ScenarioConfig& scenario, const RunRecord& record,
   metrics["lost_frames"] = results.lost_frames;
   metrics["losses"] = results.losses;
   add_errors(metrics, results);
+  if (results.consistency) {
+    metrics["nees_mean"] = results.consistency->nees_mean;
+    metrics["nees_within_95"] = results.consistency->within_95;
+  }
+  metrics["end_error_m"] = or_null(results.end_error);
   metrics["loop_closures"] = {{"correct", results.loops.correct()},
                               {"wrong", results.loops.wrong()},
                               {"missed", results.loops.missed.size()}};

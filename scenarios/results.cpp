@@ -20,16 +20,25 @@ void count_losses(const RunRecord& record, RunResults& results) {
   }
 }
 
+std::optional<double> end_error(const RunRecord& record, const RouteConfig& route) {
+  if (record.ticks.empty() || !record.ticks.back().truth.known) return std::nullopt;
+  if (route.waypoints.empty()) return std::nullopt;
+  const Eigen::Vector3d& end = record.ticks.back().truth.T_world_body.translation;
+  return (end.head<2>() - route.waypoints.back().position).norm();
+}
+
 }  // namespace
 
-RunResults measure(const RunRecord& record, const Expectations& expectations) {
+RunResults measure(const RunRecord& record, const ScenarioConfig& scenario) {
   RunResults results;
   count_losses(record, results);
   const Trajectory truth = true_trajectory(record);
   results.corrected = evaluate(truth, record.summary.trajectory);
   results.live = evaluate(truth, live_trajectory(record));
+  results.consistency = check_consistency(record);
+  results.end_error = end_error(record, scenario.simulation.route);
   results.loops = judge_loop_closures(record);
-  if (const auto& blind = expectations.blind) {
+  if (const auto& blind = scenario.expectations.blind) {
     results.blind =
         longest_blind_stretch(record, find_cameras(record.rig, blind->cameras), blind->box_share);
   }

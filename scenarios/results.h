@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "scenarios/consistency.h"
 #include "scenarios/evaluation.h"
 #include "scenarios/loop_judge.h"
 #include "scenarios/occlusion.h"
@@ -19,11 +20,13 @@ struct RunResults {
   int losses = 0;                       ///< how often tracking went from a pose to none
   std::optional<Evaluation> corrected;  ///< of every frame's pose after all corrections
   std::optional<Evaluation> live;       ///< of the poses as they were known at their own frame
+  std::optional<Consistency> consistency;
+  std::optional<double> end_error;  ///< m, from the route's end to where the body truly ended
   LoopVerdict loops;
   std::optional<BlindStretch> blind;  ///< where the scenario asks for one
 };
 
 /// Throws Error when an expectation names a camera that the rig has not.
-RunResults measure(const RunRecord& record, const Expectations& expectations);
+RunResults measure(const RunRecord& record, const ScenarioConfig& scenario);
 
 }  // namespace vinebench

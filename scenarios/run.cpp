@@ -64,7 +64,7 @@ RunOutcome run_lockstep_and_judge(const ScenarioConfig& scenario, FrameSource& s
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - options.started;
 
   const RunRecord& record = sinks.recorder.record();
-  const RunResults results = measure(record, scenario.expectations);
+  const RunResults results = measure(record, scenario);
   if (!options.folder.empty()) write_run_files(options.folder, scenario, record, results);
   RunOutcome outcome;
   outcome.frames = static_cast<std::int64_t>(record.ticks.size());

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "scenarios/look_ahead.h"
 #include "slam/base/error.h"
 
 namespace vinebench {
@@ -49,12 +50,18 @@ RunOutcome run_mapping_system(const ScenarioConfig& scenario, FrameSource& sourc
 RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options) {
   expect_folder(options.maps.save);  // before the vineyard is grown
   expect_folder(options.maps.cloud);
-  WorkerPool pool(threads);
+  // A pool each, for both work at the same time.
+  WorkerPool drawing(threads);
+  WorkerPool estimating(threads);
   const auto source = make_simulation(
-      scenario.simulation, static_cast<std::uint64_t>(scenario.seed), default_cache(), pool);
-  const auto slam =
-      make_slam(scenario.slam, source->rig(), registered_tags(scenario.simulation.world), pool);
-  return run_mapping_system(scenario, *source, *slam, options);
+      scenario.simulation, static_cast<std::uint64_t>(scenario.seed), default_cache(), drawing);
+  const auto slam = make_slam(scenario.slam, source->rig(),
+                              registered_tags(scenario.simulation.world), estimating);
+  if (threads == 1 || scenario.simulation.route.steering == Steering::kEstimate) {
+    return run_mapping_system(scenario, *source, *slam, options);
+  }
+  LookAhead ahead(*source);
+  return run_mapping_system(scenario, ahead, *slam, options);
 }
 
 }  // namespace vinebench

@@ -42,6 +42,7 @@ ScenarioConfig load_scenario(const std::filesystem::path& file,
                              const std::vector<Override>& overrides) {
   YamlDocument document = YamlDocument::load(file);
   const std::vector<std::string> parts{"world", "rover"};
+  document.inherit("base", parts);
   const auto is_part = [&](const Override& o) { return std::ranges::count(parts, o.first) > 0; };
   for (const Override& o : overrides) {
     if (is_part(o)) document.set(o.first, part_value(o.second));

@@ -36,6 +36,7 @@ struct Expectations {
   std::optional<int> losses_max;              ///< times that tracking was lost
   std::optional<double> ate_rmse_max;         ///< m, SE(3)-aligned
   std::optional<double> ate_origin_rmse_max;  ///< m, aligned by the first pose
+  std::optional<double> end_error_max;        ///< m, from the route's end to the true place
   std::optional<int> loop_closures_correct_min;
   std::optional<int> loop_closures_wrong_max;
   std::optional<int> loop_closures_missed_max;
@@ -46,6 +47,7 @@ struct Expectations {
     archive("losses_max", losses_max, Range::non_negative());
     archive("ate_rmse_max", ate_rmse_max, Range::positive());
     archive("ate_origin_rmse_max", ate_origin_rmse_max, Range::positive());
+    archive("end_error_max", end_error_max, Range::positive());
     archive("loop_closures_correct_min", loop_closures_correct_min, Range::non_negative());
     archive("loop_closures_wrong_max", loop_closures_wrong_max, Range::non_negative());
     archive("loop_closures_missed_max", loop_closures_missed_max, Range::non_negative());
@@ -84,10 +86,11 @@ using Override = std::pair<std::string, std::string>;
 /// Splits "KEY=VALUE". Throws Error when there is no '=' or no key.
 Override parse_override(const std::string& text);
 
-/// Reads a scenario. `world` and `rover` may be maps or names of files beside the scenario;
-/// overrides apply after those are read in, so that "world.sun.elevation_deg" works. Boxes and tags
-/// of the scenario are moved into its world. The rig is read too, so that its faults show before
-/// anything is started. Throws Error that names file, line and key.
+/// Reads a scenario. `base` names another one whose keys hold where this one is silent. `world` and
+/// `rover` may be maps or names of files beside the scenario; overrides apply after those are read
+/// in, so that "world.sun.elevation_deg" works. Boxes and tags of the scenario are moved into its
+/// world. The rig is read too, so that its faults show before anything is started. Throws Error
+/// that names file, line and key.
 ScenarioConfig load_scenario(const std::filesystem::path& file,
                              const std::vector<Override>& overrides = {});
 

@@ -71,6 +71,7 @@ std::vector<Check> check_expectations(const Expectations& asked, const RunResult
                  " m");
   checks.at_most("ATE, first pose aligned", asked.ate_origin_rmse_max,
                  ate(results.corrected, &Evaluation::origin), " m");
+  checks.at_most("distance from the route's end", asked.end_error_max, results.end_error, " m");
   checks.at_least<int>("loop closures, correct", asked.loop_closures_correct_min, loops.correct());
   checks.at_most<int>("loop closures, wrong", asked.loop_closures_wrong_max, loops.wrong());
   checks.at_most<int>("loop closures, missed", asked.loop_closures_missed_max,

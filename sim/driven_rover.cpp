@@ -31,10 +31,25 @@ DrivenRover::DrivenRover(const RoverConfig& rover, const WorldConfig& world,
 void DrivenRover::advance_to(Stamp stamp) {
   for (; next_control_ <= stamp; next_control_ += kControlPeriod) {
     rover_.advance_to(next_control_, imu_, wheels_);
-    rover_.command(follow(route_.at(next_control_), rover_.T_world_body()));
+    twist_ = follow(route_.at(next_control_), steered_by(next_control_));
+    rover_.command(twist_);
   }
   if (stamp > rover_.now()) rover_.advance_to(stamp, imu_, wheels_);
   remember();
+}
+
+void DrivenRover::steer_by(Stamp stamp, const Pose& T_world_body) {
+  believed_ = {stamp, T_world_body};
+}
+
+/// The pose at a control instant, as the position loop has it.
+Pose DrivenRover::steered_by(Stamp stamp) {
+  if (!believed_) return rover_.T_world_body();
+  Vector6d velocity = Vector6d::Zero();
+  velocity.head<2>() = twist_.head<2>();
+  velocity[5] = twist_.z();
+  believed_ = {stamp, believed_->pose * step_of(velocity * to_seconds(stamp - believed_->stamp))};
+  return believed_->pose;
 }
 
 void DrivenRover::advance_and_remember(Stamp stamp) {

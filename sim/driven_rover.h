@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "sim/route.h"
@@ -28,6 +29,10 @@ class DrivenRover {
   /// Forgets the poses that only instants before `stamp` need.
   void forget_before(Stamp stamp);
 
+  /// From now on the position loop goes by this pose, of the instant `stamp`, and by what was
+  /// commanded since, in place of the true one.
+  void steer_by(Stamp stamp, const Pose& T_world_body);
+
   /// The truth at a remembered instant, linear between two poses; the start's before t = 0.
   Pose T_world_body(Stamp stamp) const;
 
@@ -36,10 +41,13 @@ class DrivenRover {
 
  private:
   void remember();
+  Pose steered_by(Stamp stamp);
 
   Route route_;
   Rover rover_;
   Stamp next_control_ = 0;
+  Eigen::Vector3d twist_ = Eigen::Vector3d::Zero();  ///< commanded: m/s ahead, left; rad/s
+  std::optional<StampedPose> believed_;              ///< what is steered by; the truth where absent
   std::deque<StampedPose> poses_;
   std::vector<ImuSample> imu_;
   std::vector<WheelSample> wheels_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "slam/base/pose.h"
@@ -10,6 +11,16 @@
 #include "slam/base/yaml.h"
 
 namespace vinebench {
+
+/// Where the position loop has the rover's pose from.
+enum class Steering {
+  kTruth,     ///< from the simulation: the way driven is the same whatever is estimated
+  kEstimate,  ///< from the SLAM system under test, as a robot would
+};
+
+inline std::vector<std::string> yaml_names(Steering) {
+  return {"truth", "estimate"};
+}
 
 /// Where the rover goes. It is omnidirectional: position and heading are independent.
 struct RouteConfig {
@@ -32,13 +43,15 @@ struct RouteConfig {
   double turn_rate_deg = 45;           ///< deg/s
   double acceleration = 0.5;           ///< m/s^2
   double turn_acceleration_deg = 120;  ///< deg/s^2
-  std::vector<Waypoint> waypoints;     ///< the first is where the rover starts
+  Steering steering = Steering::kTruth;
+  std::vector<Waypoint> waypoints;  ///< the first is where the rover starts
   template <class Archive>
   void serialize(Archive& archive) {
     archive("speed", speed, Range::positive());
     archive("turn_rate_deg", turn_rate_deg, Range::positive());
     archive("acceleration", acceleration, Range::positive());
     archive("turn_acceleration_deg", turn_acceleration_deg, Range::positive());
+    archive("steering", steering);
     archive("waypoints", waypoints);
     archive.require(!waypoints.empty(), "waypoints", "expected at least one waypoint");
   }

@@ -58,6 +58,15 @@ class Simulation : public FrameSource {
     return sample;
   }
 
+  void answer(const Estimate& estimate) override {
+    if (config_.route.steering != Steering::kEstimate || !estimate.T_map_body) return;
+    const Stamp instant = timing_.instant(index_ - 1);
+    if (!T_world_map_) {
+      T_world_map_ = rover_.T_world_body(instant) * estimate.T_map_body->inverse();
+    }
+    rover_.steer_by(instant, *T_world_map_ * *estimate.T_map_body);
+  }
+
   std::int64_t size() const override { return frames_; }
   const Rig& rig() const override { return told_rig_; }
   const StageTimes& times() const override { return times_; }
@@ -158,6 +167,7 @@ class Simulation : public FrameSource {
   Rig told_rig_;
   Rig rig_;  ///< the true one
   DrivenRover rover_;
+  std::optional<Pose> T_world_map_;  ///< the estimator's map, once there is one
   FrameTiming timing_;
   ExposureControl exposure_;
   InertialSensor inertial_;

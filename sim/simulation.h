@@ -15,6 +15,7 @@
 #include "sim/world.h"
 #include "slam/base/frame.h"
 #include "slam/base/rig.h"
+#include "slam/base/slam_system.h"
 #include "slam/base/stage_timer.h"
 #include "slam/base/worker_pool.h"
 
@@ -51,6 +52,9 @@ class FrameSource {
   virtual ~FrameSource() = default;
   /// The next sample, or nothing after the last.
   virtual std::optional<Sample> next() = 0;
+  /// What a SLAM system said of the last sample, before the next one is asked for. Most sources do
+  /// not care.
+  virtual void answer(const Estimate&) {}
   /// How many there will be.
   virtual std::int64_t size() const = 0;
   /// The cameras as a SLAM system is told of them.
@@ -80,7 +84,9 @@ struct SimulationConfig {
 /// rig() is what a SLAM system is told; the pictures are taken by the true one, which differs by
 /// the calibration error. Stamps are what the cameras say; the truth is that of the frame's
 /// instant. A picture that is dropped is empty and shows nothing: its box share is 0 and no tag is
-/// visible.
+/// visible. Where the route says so the rover is steered by the estimates that it is answered:
+/// the first one of a pose is taken to be where the rover stands, and while there is none it goes
+/// on as commanded.
 std::unique_ptr<FrameSource> make_simulation(const SimulationConfig& config, std::uint64_t seed,
                                              const std::filesystem::path& cache, WorkerPool& pool);
 

@@ -245,7 +245,11 @@ Pose box_pose(const WorldConfig::Box& box) {
 std::vector<RegisteredTag> registered_tags(const WorldConfig& world) {
   std::vector<RegisteredTag> tags;
   for (const WorldConfig::Tag& tag : world.tags) {
-    if (tag.registered) tags.push_back({tag.family, tag.id, tag.size, tag_pose(tag)});
+    if (!tag.registered) continue;
+    WorldConfig::Tag surveyed = tag;
+    surveyed.position += tag.survey_error.offset;
+    surveyed.facing_deg += tag.survey_error.turn_deg;
+    tags.push_back({tag.family, tag.id, tag.size, tag_pose(surveyed)});
   }
   return tags;
 }

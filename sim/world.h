@@ -137,6 +137,16 @@ struct WorldConfig {
       archive("height", height, Range::between(0.01, 6));
     }
   };
+  /// By how much the registered pose of a tag is off the true one.
+  struct SurveyError {
+    Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< m, in the world frame
+    double turn_deg = 0;                               ///< to the left, about the tag's centre
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive("offset", offset, Range::between(-100, 100));
+      archive("turn_deg", turn_deg, Range::between(-180, 180));
+    }
+  };
   struct Tag {
     std::string family = "tag36h11";
     int id = 0;
@@ -144,6 +154,7 @@ struct WorldConfig {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, its centre; z above the ground
     double facing_deg = 0;                               ///< heading of the printed face
     bool registered = true;                              ///< its pose is given to the SLAM system
+    SurveyError survey_error;                            ///< of the pose that is given
     std::optional<PostSide> post;                        ///< sets position and facing_deg
     double ground = 0;  ///< m, height of the ground below; set by place()
     template <class Archive>
@@ -154,6 +165,7 @@ struct WorldConfig {
       archive("position", position, kPlace);
       archive("facing_deg", facing_deg, Range::between(-360, 360));
       archive("registered", registered);
+      archive("survey_error", survey_error);
       archive("post", post);
       const std::string problem = tag_problem(family, id);
       archive.require(problem.empty(), "id", problem);
@@ -298,7 +310,7 @@ Pose tag_pose(const WorldConfig::Tag& tag);
 /// Frame of a box: its centre, z up.
 Pose box_pose(const WorldConfig::Box& box);
 
-/// The tags whose pose the SLAM system is told.
+/// The tags whose pose the SLAM system is told, with the errors of their survey.
 std::vector<RegisteredTag> registered_tags(const WorldConfig& world);
 
 /// Grows (or loads) the plants and assembles all that can be drawn. The plants of a seed are grown

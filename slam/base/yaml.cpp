@@ -21,6 +21,9 @@ std::string describe(const YAML::Node& node) {
   return "'" + text + "'";
 }
 
+/// Files that one after the other name the next as their base.
+constexpr int kMostBases = 8;
+
 YAML::Node parse(const std::filesystem::path& file) {
   try {
     return YAML::Load(read_file(file));
@@ -94,6 +97,49 @@ YamlDocument YamlDocument::load(const std::filesystem::path& file) {
     fail("{}:1: expected a map of keys, found {}", file.string(), describe(document.root_));
   }
   return document;
+}
+
+void YamlDocument::inherit(const std::string& key, const std::vector<std::string>& parts,
+                           int depth) {
+  const YAML::Node named = std::as_const(root_)[key];
+  if (!named.IsDefined()) return;
+  const std::filesystem::path own = file_of("");
+  const std::string place = place_of(key, named);
+  if (!named.IsScalar()) fail("{}: {}: expected a file, found {}", place, key, describe(named));
+  const std::filesystem::path file = own.parent_path() / named.Scalar();
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) {
+    fail("{}: {}: expected a file, found none at '{}'", place, key, file.string());
+  }
+  if (depth >= kMostBases)
+    fail("{}: {}: expected at most {} files in a row", place, key, kMostBases);
+  YamlDocument base = load(file);
+  base.inherit(key, parts, depth + 1);
+  for (const std::string& part : parts) base.include(part);
+  root_.remove(key);
+  base.overlay(base.root_, root_, "", own);
+  *this = std::move(base);
+}
+
+/// Puts the items of `source`, which stand in `file`, into `target`.
+void YamlDocument::overlay(YAML::Node target, const YAML::Node& source, const std::string& prefix,
+                           const std::filesystem::path& file) {
+  std::set<std::string> present;
+  for (const auto& item : std::as_const(target)) present.insert(item.first.as<std::string>(""));
+  for (const auto& item : source) {
+    const auto key = item.first.as<std::string>("");
+    const std::string dotted = prefix.empty() ? key : prefix + "." + key;
+    if (!present.contains(key)) {
+      target.force_insert(item.first, item.second);
+    } else if (item.second.IsMap() && target[key].IsMap()) {
+      overlay(target[key], item.second, dotted, file);
+      continue;
+    } else {
+      target[key] = item.second;
+    }
+    std::erase_if(files_, [&](const auto& of) { return of.first.starts_with(dotted + "."); });
+    files_[dotted] = file;
+  }
 }
 
 void YamlDocument::include(const std::string& key) {

@@ -65,6 +65,14 @@ class YamlDocument {
   /// content. Nothing happens where the key is absent or already a map.
   void include(const std::string& key);
 
+  /// Takes over what this document does not say itself from the file that the top-level scalar
+  /// `key` names, relative to this file: maps are joined key by key, all else counts as a whole. A
+  /// base may have a base; `parts` are included in it. Nothing happens where the key is absent.
+  /// Throws Error for a missing file and for bases that go round in a circle.
+  void inherit(const std::string& key, const std::vector<std::string>& parts) {
+    inherit(key, parts, 0);
+  }
+
   /// Sets a dotted key ("slam.tracking.radius", "route.2.speed") to the YAML value `value`. A key
   /// that no struct knows is reported when the document is read.
   void set(const std::string& key, const std::string& value);
@@ -76,6 +84,9 @@ class YamlDocument {
 
  private:
   friend class YamlReader;
+  void inherit(const std::string& key, const std::vector<std::string>& parts, int depth);
+  void overlay(YAML::Node target, const YAML::Node& source, const std::string& prefix,
+               const std::filesystem::path& file);
   std::filesystem::path file_of(const std::string& key) const;
   std::string place_of(const std::string& key, const YAML::Node& node) const;
 

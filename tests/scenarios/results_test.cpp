@@ -47,6 +47,12 @@ Expectations everything() {
   return expectations;
 }
 
+ScenarioConfig asking(const Expectations& expectations) {
+  ScenarioConfig scenario = fakes::scenario();
+  scenario.expectations = expectations;
+  return scenario;
+}
+
 TEST(ResultsTest, PerfectRunHasNoErrors) {
   const RunResults results = measure(record_of({}), {});
   EXPECT_EQ(results.coverage, 1);
@@ -90,7 +96,7 @@ TEST(ResultsTest, LiveAndCorrectedAreJudgedApart) {
 }
 
 TEST(ResultsTest, MeasuresTheBlindStretch) {
-  const RunResults results = measure(record_of(blind_and_lost), everything());
+  const RunResults results = measure(record_of(blind_and_lost), asking(everything()));
   ASSERT_TRUE(results.blind);
   const BlindStretch& blind = *results.blind;
   EXPECT_EQ(blind.first, 80u);
@@ -108,13 +114,25 @@ TEST(ResultsTest, StandingInFrontOfTheBoxDoesNotCount) {
   RunRecord record = record_of({});
   const Pose stopped = record.ticks[100].truth.T_world_body;
   for (std::size_t i = 100; i < 200; ++i) record.ticks[i].truth.T_world_body = stopped;
-  EXPECT_DOUBLE_EQ(measure(record, everything()).blind.value().seconds, 2);  // 8 s to 10 s
+  EXPECT_DOUBLE_EQ(measure(record, asking(everything())).blind.value().seconds, 2);  // 8 s to 10 s
+}
+
+// The circle's last point is its first, (1, 0).
+TEST(ResultsTest, MeasuresHowFarFromTheRoutesEndTheBodyStops) {
+  ScenarioConfig scenario = fakes::scenario();
+  EXPECT_FALSE(measure(record_of({}), scenario).end_error);
+  scenario.simulation.route.waypoints = {{}, {}};
+  scenario.simulation.route.waypoints.back().position = {1.03, -0.04};
+  const RunResults results = measure(record_of({}), scenario);
+  EXPECT_NEAR(results.end_error.value(), 0.05, 1e-12);
+  scenario.expectations.end_error_max = 0.04;
+  EXPECT_FALSE(all_hold(check_expectations(scenario.expectations, results)));
 }
 
 TEST(ResultsTest, UnknownCameraIsAnError) {
   Expectations expectations = everything();
   expectations.blind->cameras = {"top"};
-  EXPECT_THAT([&] { measure(record_of({}), expectations); },
+  EXPECT_THAT([&] { measure(record_of({}), asking(expectations)); },
               testing::ThrowsMessage<Error>(testing::HasSubstr("no camera 'top'")));
 }
 
@@ -132,14 +150,14 @@ TEST(VerdictTest, HoldsForAGoodRun) {
       estimate.loop_closure = fakes::closure(fakes::seconds(1), fakes::seconds(19));
     }
   });
-  const auto checks = check_expectations(everything(), measure(record, everything()));
+  const auto checks = check_expectations(everything(), measure(record, asking(everything())));
   EXPECT_EQ(checks.size(), 9u);
   EXPECT_TRUE(all_hold(checks)) << format_checks(checks);
 }
 
 TEST(VerdictTest, NamesEachBrokenExpectation) {
   const auto checks =
-      check_expectations(everything(), measure(record_of(blind_and_lost), everything()));
+      check_expectations(everything(), measure(record_of(blind_and_lost), asking(everything())));
   std::vector<std::string> failed;
   for (const Check& check : checks) {
     if (!check.ok) failed.push_back(check.what);
@@ -151,7 +169,7 @@ TEST(VerdictTest, NamesEachBrokenExpectation) {
 
 TEST(VerdictTest, WhatWasNotMeasuredFails) {
   const RunRecord record = record_of(lose);
-  const auto checks = check_expectations(everything(), measure(record, everything()));
+  const auto checks = check_expectations(everything(), measure(record, asking(everything())));
   for (const Check& check : checks) {
     if (check.what.starts_with("ATE")) {
       EXPECT_FALSE(check.ok);

@@ -84,6 +84,66 @@ TEST_F(ScenarioTest, AnOverrideMayNameAnotherWorld) {
   EXPECT_EQ(scenario.simulation.world.sun.elevation_deg, 20);
 }
 
+TEST_F(ScenarioTest, ABaseHoldsWhereTheScenarioIsSilent) {
+  write(kRoute +
+        "seed: 5\nboxes: [{position: [1, 2]}]\nsensors: {wheels: {counts_per_turn: 99}}\n");
+  const fs::path file = folder_ / "below" / "derived.yaml";
+  fs::create_directories(file.parent_path());
+  write_file_atomically(file, R"(base: ../scenario.yaml
+name: derived
+world: {sun: {elevation_deg: 20}}
+boxes: []
+slam: {cameras: front}
+)");
+  const ScenarioConfig scenario = load_scenario(file, {{"seed", "7"}});
+  EXPECT_EQ(scenario.name, "derived");
+  EXPECT_EQ(scenario.seed, 7);
+  EXPECT_EQ(scenario.simulation.sensors.wheels.counts_per_turn, 99);
+  EXPECT_EQ(scenario.simulation.world.name, "small");  // joined with the base's world
+  EXPECT_EQ(scenario.simulation.world.sun.elevation_deg, 20);
+  EXPECT_EQ(scenario.simulation.world.boxes.size(), 1u);  // the world's own; lists are replaced
+  EXPECT_EQ(scenario.simulation.route.waypoints.size(), 1u);
+  EXPECT_EQ(scenario.simulation.rover.model, fs::absolute(folder_ / "rover.xml"));
+}
+
+TEST_F(ScenarioTest, ABaseMayHaveABaseAndAnotherWorldReplacesIt) {
+  write(kRoute + "seed: 5\n");
+  write_file_atomically(folder_ / "middle.yaml", "base: scenario.yaml\nname: middle\n");
+  fs::create_directories(folder_ / "below");
+  write_file_atomically(folder_ / "below" / "world.yaml", "name: other\nrows: [{end: [1, 0]}]\n");
+  const fs::path file = folder_ / "below" / "derived.yaml";
+  write_file_atomically(file, "base: ../middle.yaml\nworld: world.yaml\n");
+  const ScenarioConfig scenario = load_scenario(file);
+  EXPECT_EQ(scenario.name, "middle");
+  EXPECT_EQ(scenario.seed, 5);
+  EXPECT_EQ(scenario.simulation.world.name, "other");
+  EXPECT_TRUE(scenario.simulation.world.boxes.empty());
+}
+
+TEST_F(ScenarioTest, ErrorsNameTheFileOfTheBaseOrOfTheScenario) {
+  const fs::path file = folder_ / "derived.yaml";
+  const auto error_with = [&](const std::string& base, const std::string& derived) {
+    write(kRoute + base);
+    write_file_atomically(file, derived);
+    try {
+      load_scenario(file);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_THAT(error_with("sede: 1\n", "base: scenario.yaml\n"),
+              testing::HasSubstr("scenario.yaml:5: sede: unknown key"));
+  EXPECT_THAT(error_with("", "base: scenario.yaml\nseed: 3\nslam: {camera: front}\n"),
+              testing::HasSubstr("derived.yaml:3: slam.camera: unknown key"));
+  EXPECT_THAT(error_with("seed: 2\n", "base: scenario.yaml\nseed: -1\n"),
+              testing::HasSubstr("derived.yaml:2: seed: expected"));
+  EXPECT_THAT(error_with("", "base: nowhere.yaml\n"),
+              testing::HasSubstr("derived.yaml:1: base: expected a file, found none at"));
+  EXPECT_THAT(error_with("", "base: derived.yaml\n"),
+              testing::HasSubstr("base: expected at most 8 files in a row"));
+}
+
 TEST_F(ScenarioTest, ResolvedTextIsTheSameScenario) {
   const std::string text = format_yaml(load_scenario(write(kRoute + R"(
 description: >
@@ -128,7 +188,7 @@ TEST_F(ScenarioTest, ParsesOverrides) {
 TEST(ShippedScenariosTest, AreValid) {
   const fs::path folder = fs::path(VINEBENCH_SOURCE_DIR) / "scenarios";
   int count = 0;
-  for (const auto& entry : fs::directory_iterator(folder)) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (entry.path().extension() != ".yaml") continue;
     const ScenarioConfig scenario = load_scenario(entry.path());
     EXPECT_EQ(scenario.name, entry.path().stem());

@@ -115,6 +115,20 @@ TEST(RegisteredTagsTest, AreThoseThatTheWorldRegisters) {
   EXPECT_EQ(tags[1].T_world_tag.translation, Eigen::Vector3d(1, 2, 3));
 }
 
+// Facing along x and told to be turned by 90 degrees to the left, the tag seems to face along y: the
+// z axis, into the tag, is then -y.
+TEST(RegisteredTagsTest, CarryTheErrorOfTheirSurvey) {
+  WorldConfig world = one_row({0, 0}, {4, 0});
+  world.tags.resize(1);
+  world.tags[0].position = {1, 2, 0.5};
+  world.tags[0].survey_error = {{0.01, -0.02, 0.03}, 90};
+  const RegisteredTag told = registered_tags(world).at(0);
+  EXPECT_LT((told.T_world_tag.translation - Eigen::Vector3d(1.01, 1.98, 0.53)).norm(), 1e-12);
+  const Eigen::Vector3d into = told.T_world_tag.rotation * Eigen::Vector3d::UnitZ();
+  EXPECT_LT((into + Eigen::Vector3d::UnitY()).norm(), 1e-12);
+  EXPECT_EQ(tag_pose(world.tags[0]).translation, Eigen::Vector3d(1, 2, 0.5));  // as it hangs
+}
+
 TEST(TagProblemTest, KnowsEveryFamilyAndItsLastTag) {
   // The library's own counts, as its documentation has them.
   EXPECT_EQ(TagFamily("tag36h11").size(), 587);
