@@ -11,6 +11,9 @@
 namespace vinebench {
 namespace {
 
+const RobustLoss kFar = RobustLoss::huber(std::sqrt(kChiSquared2));
+const RobustLoss kNear = RobustLoss::cauchy(kCauchyScale);
+
 struct Match {
   Match(std::size_t v, std::size_t f, const EyeModel& eye, const PixelMeasurement& m,
         const Eigen::Vector3d& p)
@@ -95,13 +98,37 @@ Pose adjust(const Matches& matches, Pose pose, const RobustLoss& loss, Matrix6d&
   return pose;
 }
 
-int classify(Matches& matches, const Pose& T_map_body) {
+struct Classes {
   int inliers = 0;
+  int changed = 0;  ///< of all, that were of the other class before
+};
+
+Classes classify(Matches& matches, const Pose& T_map_body) {
+  Classes classes;
   for (Match& match : matches) {
-    match.inlier = match.error.chi_squared(T_map_body, match.p_map) <= match.limit;
-    inliers += match.inlier;
+    const bool inlier = match.error.chi_squared(T_map_body, match.p_map) <= match.limit;
+    classes.inliers += inlier;
+    classes.changed += inlier != match.inlier;
+    match.inlier = inlier;
   }
-  return inliers;
+  return classes;
+}
+
+/// Rounds of adjustment and removal of outliers: one that bears a far prediction, and then so many
+/// that hardly any match changes its class, which takes more than three where many are wrong.
+void adjust_in_rounds(Matches& matches, MotionEstimate& estimate) {
+  constexpr int kLeastRounds = 4;
+  constexpr int kMostRounds = 12;
+  constexpr double kAtRest = 0.01;  // share of the matches
+  for (int round = 0; round < kMostRounds; ++round) {
+    const RobustLoss loss = round == 0 ? kFar : kNear;
+    estimate.T_map_body = adjust(matches, estimate.T_map_body, loss, estimate.information);
+    const Classes classes = classify(matches, estimate.T_map_body);
+    estimate.inliers = classes.inliers;
+    if (classes.inliers < 6) break;
+    const bool at_rest = classes.changed <= kAtRest * static_cast<double>(matches.size());
+    if (at_rest && round + 1 >= kLeastRounds) break;
+  }
 }
 
 void count_views(const Matches& matches, MotionEstimate& estimate) {
@@ -139,19 +166,13 @@ MotionEstimate estimate_motion(const Map& map, const FrameFeatures& frame, const
     return estimate;
   }
 
-  const RobustLoss far = RobustLoss::huber(std::sqrt(kChiSquared2));
-  const RobustLoss near = RobustLoss::cauchy(kCauchyScale);
-  for (const RobustLoss& loss : {far, near, near, near}) {
-    estimate.T_map_body = adjust(matches, estimate.T_map_body, loss, estimate.information);
-    estimate.inliers = classify(matches, estimate.T_map_body);
-    if (estimate.inliers < 6) break;
-  }
+  adjust_in_rounds(matches, estimate);
   count_views(matches, estimate);
   const std::vector<char> doubtful = doubtful_views(estimate, min_inlier_share);
   if (std::find(doubtful.begin(), doubtful.end(), 1) != doubtful.end()) {
     for (Match& match : matches) match.inlier &= !doubtful[match.view];
-    estimate.T_map_body = adjust(matches, estimate.T_map_body, near, estimate.information);
-    estimate.inliers = classify(matches, estimate.T_map_body);
+    estimate.T_map_body = adjust(matches, estimate.T_map_body, kNear, estimate.information);
+    estimate.inliers = classify(matches, estimate.T_map_body).inliers;
     for (Match& match : matches) {
       estimate.inliers -= match.inlier && doubtful[match.view];
       match.inlier &= !doubtful[match.view];

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <opencv2/core.hpp>
+
 #include "slam/base/error.h"
 #include "tests/scenarios/fakes.h"
 

@@ -188,9 +188,8 @@ TEST_P(MotionAccuracyTest, BearsOutliersUpToFortyPercent) {
     }
     // As good as the right ones alone allow, but for wrong ones that lie within the limit by
     // chance: a tenth more error, squared and over four standard deviations of 240 degrees of
-    // freedom. With four in ten wrong the first round's pose lies so far off that two further ones
-    // do not always come to rest, on a single pair above all: three times the error.
-    const double factor = percent < 40 ? 1.1 : 3;
+    // freedom.
+    constexpr double factor = 1.1;
     const double expected = 6 * kRuns * loss_under_normal_noise().inflation;
     EXPECT_LT(sum, factor * factor * (1 + 4 * std::sqrt(2.0 / (6 * kRuns))) * expected) << percent;
   }

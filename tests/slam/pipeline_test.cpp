@@ -18,9 +18,9 @@ SlamConfig config() {
   return {};
 }
 
-/// Drives along x at 0.3 m/s, 0.02 m a frame, swaying a little in heading.
-Pose driving(std::int64_t frame) {
-  const double x = 0.02 * static_cast<double>(frame);
+/// Drives along x, swaying a little in heading; 0.3 m/s where a frame is 0.02 m.
+Pose driving(std::int64_t frame, double step = 0.02) {
+  const double x = step * static_cast<double>(frame);
   return {exp_so3({0, 0, 0.1 * std::sin(2.0 * x)}), {x, 0.05 * std::sin(x), 0}};
 }
 
@@ -105,8 +105,8 @@ TEST(PipelineTest, ReckonsThroughADarkHalfSecond) {
   Pipeline pipeline(config(), aisle.rig, {});
   std::vector<Pose> truth;
   for (std::int64_t i = 0; i < 80; ++i) {
-    truth.push_back(driving(i));
-    const bool dark = i >= 40 && i < 48;  // 0.53 s at 15 Hz
+    truth.push_back(driving(i, 0.4 / 15));  // 0.4 m/s
+    const bool dark = i >= 40 && i < 48;    // 0.53 s at 15 Hz
     const auto frame = dark ? aisle.frame(i, truth.back(), {0, 1}) : aisle.frame(i, truth.back());
     const Estimate estimate = pipeline.process(frame);
     EXPECT_EQ(estimate.status, dark ? TrackingStatus::kDeadReckoning : TrackingStatus::kTracking)
