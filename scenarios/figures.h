@@ -12,10 +12,10 @@ namespace vinebench {
 
 /// A figure of metrics.json that runs are put side by side by.
 struct Figure {
-  std::string key;    ///< JSON pointer into metrics.json
-  std::string title;  ///< with the unit it is shown in
-  double scale = 1;   ///< from the unit of metrics.json to the shown one
-  int decimals = 0;   ///< shown
+  std::string key{};    ///< JSON pointer into metrics.json
+  std::string title{};  ///< with the unit it is shown in
+  double scale = 1;     ///< from the unit of metrics.json to the shown one
+  int decimals = 0;     ///< shown
   bool larger_is_better = false;
   bool of_estimate = true;  ///< says how good the estimate is, not what it cost
 };

@@ -118,11 +118,14 @@ std::string format_table(const std::vector<SeedsSummary>& scenarios) {
 
 std::string format_failures(const std::vector<SeedsSummary>& scenarios) {
   std::string text;
+  std::error_code ignored;
   for (const SeedsSummary& summary : scenarios) {
     for (const SetRun& run : summary.runs) {
       if (!run.error.empty()) {
-        text += fmt::format("{}, seed {}: {}; see {}\n", run.scenario, run.seed, run.error,
-                            (run.folder / "log.txt").string());
+        const std::filesystem::path log = run.folder / "log.txt";
+        const bool logged = std::filesystem::is_regular_file(log, ignored);
+        text += fmt::format("{}, seed {}: {}{}\n", run.scenario, run.seed, run.error,
+                            logged ? "; see " + log.string() : "");
       } else if (run.failed()) {
         text += fmt::format("{}, seed {} ({}):\n{}", run.scenario, run.seed, run.folder.string(),
                             format_checks(failed_of(run.checks)));
