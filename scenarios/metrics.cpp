@@ -111,4 +111,36 @@ double peak_rss_mib() {
   return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts in KiB
 }
 
+double cpu_seconds() {
+  double seconds = 0;
+  for (const auto who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    getrusage(who, &usage);
+    for (const timeval& time : {usage.ru_utime, usage.ru_stime}) {
+      seconds += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    }
+  }
+  return seconds;
+}
+
+Json checks_json(const std::vector<Check>& checks) {
+  Json list = Json::array();
+  for (const Check& check : checks) {
+    list.push_back({{"what", check.what},
+                    {"measured", check.measured},
+                    {"expected", check.expected},
+                    {"ok", check.ok}});
+  }
+  return list;
+}
+
+std::vector<Check> checks_of(const Json& list) {
+  std::vector<Check> checks;
+  for (const Json& check : list) {
+    checks.push_back(
+        {check.at("what"), check.at("measured"), check.at("expected"), check.at("ok").get<bool>()});
+  }
+  return checks;
+}
+
 }  // namespace vinebench

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scenarios/results.h"
+#include "scenarios/verdict.h"
 #include "slam/base/stage_timer.h"
 
 namespace vinebench {
@@ -25,5 +26,12 @@ double percentile(std::vector<double> samples, double share);
 
 /// The most memory this process ever held, MiB.
 double peak_rss_mib();
+
+/// CPU time of this process' threads and of the children that it waited for, s.
+double cpu_seconds();
+
+/// Expectations and what became of them as they stand in metrics.json, and back.
+Json checks_json(const std::vector<Check>& checks);
+std::vector<Check> checks_of(const Json& list);
 
 }  // namespace vinebench

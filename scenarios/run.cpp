@@ -46,6 +46,7 @@ Json complete_metrics(const Json& results, const FrameSource& source, const Slam
   metrics.update(results);
   metrics["real_time_factor"] = simulated / wall_seconds;
   metrics["wall_seconds"] = wall_seconds;
+  metrics["cpu_seconds"] = cpu_seconds();
   metrics["timing_ms"] = timing_metrics(times);
   metrics["peak_rss_mib"] = peak_rss_mib();
   metrics["hash"] = hash;
@@ -76,6 +77,7 @@ RunOutcome run_lockstep_and_judge(const ScenarioConfig& scenario, FrameSource& s
   outcome.hash = sinks.hash.digits();
   outcome.checks = check_expectations(scenario.expectations, results);
   outcome.metrics = complete_metrics(figures, source, slam, wall.count(), outcome.hash);
+  outcome.metrics["expectations"] = checks_json(outcome.checks);
   if (!options.folder.empty()) write_metrics(options.folder, outcome.metrics);
   return outcome;
 }

@@ -44,7 +44,9 @@ void prepare_run_folder(const std::filesystem::path& folder, const std::string& 
     fail("output folder {}", error.what());
   }
   std::error_code ignored;
-  std::filesystem::remove(folder / "metrics.json", ignored);
+  for (const char* stale : {"metrics.json", kInputsFile}) {
+    std::filesystem::remove(folder / stale, ignored);
+  }
   remove_old_pictures(folder / "frames");
 }
 

@@ -9,6 +9,9 @@
 
 namespace vinebench {
 
+/// In the folder of a set's run: the fingerprint of its inputs (run_inputs.h).
+inline constexpr const char* kInputsFile = "inputs.txt";
+
 /// Makes the folder of a run, writes its settings into it under the given name and takes away what
 /// an earlier run would leave beside the new one (metrics.json and pictures of frames). Throws
 /// Error when it cannot be written to, before any work is done.

@@ -15,6 +15,9 @@
 
 namespace vinebench {
 
+/// Fewer seeds than this have no median worth the name.
+inline constexpr std::size_t kSeedsForMedian = 3;
+
 /// What a scenario asks of its run. An absent one is not asked.
 struct Expectations {
   /// Some cameras see almost nothing but carton while the rover moves, and the estimate goes on.
@@ -32,6 +35,16 @@ struct Expectations {
       archive.require(!cameras.empty(), "cameras", "expected at least one camera of the rig");
     }
   };
+  /// Of the median over the runs of a set, where it has kSeedsForMedian seeds.
+  struct Median {
+    std::optional<double> ate_rmse_max;         ///< m, SE(3)-aligned
+    std::optional<double> ate_origin_rmse_max;  ///< m, aligned by the first pose
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive("ate_rmse_max", ate_rmse_max, Range::positive());
+      archive("ate_origin_rmse_max", ate_origin_rmse_max, Range::positive());
+    }
+  };
   std::optional<double> coverage_min;         ///< share of frames with a pose, 0 to 1
   std::optional<int> losses_max;              ///< times that tracking was lost
   std::optional<double> ate_rmse_max;         ///< m, SE(3)-aligned
@@ -41,6 +54,7 @@ struct Expectations {
   std::optional<int> loop_closures_wrong_max;
   std::optional<int> loop_closures_missed_max;
   std::optional<Blind> blind;
+  std::optional<Median> median;
   template <class Archive>
   void serialize(Archive& archive) {
     archive("coverage_min", coverage_min, Range::between(0, 1));
@@ -52,6 +66,7 @@ struct Expectations {
     archive("loop_closures_wrong_max", loop_closures_wrong_max, Range::non_negative());
     archive("loop_closures_missed_max", loop_closures_missed_max, Range::non_negative());
     archive("blind", blind);
+    archive("median", median);
   }
 };
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace vinebench {
 namespace {
@@ -82,6 +83,12 @@ std::vector<Check> check_expectations(const Expectations& asked, const RunResult
 
 bool all_hold(const std::vector<Check>& checks) {
   return std::ranges::all_of(checks, &Check::ok);
+}
+
+std::vector<Check> failed_of(const std::vector<Check>& checks) {
+  std::vector<Check> failed;
+  std::ranges::copy_if(checks, std::back_inserter(failed), [](const Check& c) { return !c.ok; });
+  return failed;
 }
 
 std::string format_checks(const std::vector<Check>& checks) {

@@ -21,6 +21,9 @@ std::vector<Check> check_expectations(const Expectations& expectations, const Ru
 
 bool all_hold(const std::vector<Check>& checks);
 
+/// Those that do not hold.
+std::vector<Check> failed_of(const std::vector<Check>& checks);
+
 /// A table for people, a line a check; empty when there is none.
 std::string format_checks(const std::vector<Check>& checks);
 

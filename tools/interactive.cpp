@@ -27,12 +27,16 @@ void catch_interrupts() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
+bool interrupted() {
+  return g_signal != 0;
+}
+
 RunOptions interactive_options(const std::string& title) {
   RunOptions options;
   options.progress = &std::cerr;
   options.terminal = isatty(STDERR_FILENO) == 1;
   options.title = title;
-  options.stopped = [] { return g_signal != 0; };
+  options.stopped = interrupted;
   return options;
 }
 

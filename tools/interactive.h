@@ -19,6 +19,9 @@ namespace vinebench {
 /// The first ^C ends the run after its frame; a second one ends the program at once.
 void catch_interrupts();
 
+/// Whether ^C came.
+bool interrupted();
+
 /// Options of a run that tells its progress on standard error and stops at ^C.
 RunOptions interactive_options(const std::string& title);
 

@@ -10,16 +10,23 @@
 
 #include "scenarios/euroc_writer.h"
 #include "scenarios/scenarios.h"
+#include "scenarios/seed_list.h"
+#include "slam/base/error.h"
 #include "tools/commands.h"
 #include "tools/interactive.h"
+#include "tools/run_many.h"
 
 namespace vinebench {
 namespace {
 
 struct RunArguments {
-  std::string scenario;
+  std::vector<std::string> scenarios;
   std::optional<std::int64_t> seed;
+  std::string seeds;
   std::string out;
+  std::string junit;
+  int jobs = 1;
+  bool force = false;
   std::string record;
   std::vector<std::string> overrides;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -27,10 +34,14 @@ struct RunArguments {
   MapFiles maps;
 };
 
-ScenarioConfig scenario_of(const RunArguments& arguments) {
-  ScenarioConfig scenario = load_scenario(arguments.scenario, parse_overrides(arguments.overrides));
-  if (arguments.seed) scenario.seed = *arguments.seed;
-  return scenario;
+std::vector<ScenarioConfig> scenarios_of(const RunArguments& arguments) {
+  const std::vector<Override> overrides = parse_overrides(arguments.overrides);
+  std::vector<ScenarioConfig> scenarios;
+  for (const std::string& file : arguments.scenarios) {
+    scenarios.push_back(load_scenario(file, overrides));
+    if (arguments.seed) scenarios.back().seed = *arguments.seed;
+  }
+  return scenarios;
 }
 
 void print_verdict(const ScenarioConfig& scenario, const RunOutcome& outcome,
@@ -59,8 +70,28 @@ int verify_determinism(const ScenarioConfig& scenario, const RunArguments& argum
   return kExpectationFailed;
 }
 
-int run(const RunArguments& arguments) {
-  const ScenarioConfig scenario = scenario_of(arguments);
+/// A recording, a map and a second run belong to one run alone.
+int run_set(const RunArguments& arguments) {
+  const MapFiles& maps = arguments.maps;
+  for (const auto& [option, given] :
+       {std::pair("--record", !arguments.record.empty()),
+        std::pair("--verify-determinism", arguments.verify_determinism),
+        std::pair("--load-map", !maps.load.empty()), std::pair("--save-map", !maps.save.empty()),
+        std::pair("--save-cloud", !maps.cloud.empty())}) {
+    if (given) fail("{}: is for one scenario without --seeds", option);
+  }
+  return run_many({.scenarios = scenarios_of(arguments),
+                   .seeds = arguments.seeds.empty() ? std::vector<std::int64_t>()
+                                                    : parse_seeds(arguments.seeds),
+                   .out = arguments.out.empty() ? "out" : arguments.out,
+                   .junit = arguments.junit,
+                   .jobs = arguments.jobs,
+                   .threads = arguments.threads,
+                   .force = arguments.force});
+}
+
+int run_one(const RunArguments& arguments) {
+  const ScenarioConfig scenario = scenarios_of(arguments).front();
   const std::filesystem::path folder = arguments.out.empty()
                                            ? std::filesystem::path("out") / scenario.name
                                            : std::filesystem::path(arguments.out);
@@ -82,16 +113,41 @@ int run(const RunArguments& arguments) {
   return repeated != 0 ? repeated : all_hold(outcome.checks) ? 0 : kExpectationFailed;
 }
 
+int run(const RunArguments& arguments) {
+  const bool set = arguments.scenarios.size() > 1 || !arguments.seeds.empty();
+  if (!set && (!arguments.junit.empty() || arguments.jobs > 1 || arguments.force)) {
+    fail("--jobs, --junit, --force: expected several scenarios or --seeds, such as --seeds 1..5");
+  }
+  return set ? run_set(arguments) : run_one(arguments);
+}
+
+void add_set_options(CLI::App& run, RunArguments& arguments) {
+  run.add_option("--seeds", arguments.seeds,
+                 "Run each scenario with each of these seeds, e.g. 1..5 or 1,4,7")
+      ->type_name("LIST");
+  run.add_option("--jobs", arguments.jobs, "Runs side by side, which share the threads")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  run.add_flag("--force", arguments.force, "Also run what is there already, of the same inputs");
+  run.add_option("--junit", arguments.junit, "Also write the verdicts as JUnit XML")
+      ->type_name("FILE");
+}
+
 }  // namespace
 
 void add_run_command(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<RunArguments>();
-  CLI::App* run = app.add_subcommand("run", "Run a scenario and judge it");
-  run->add_option("SCENARIO", arguments->scenario, "Scenario file (YAML)")->required();
-  run->add_option("--seed", arguments->seed, "Seed in place of the scenario's")
-      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
+  CLI::App* run = app.add_subcommand("run", "Run scenarios and judge them");
+  run->add_option("SCENARIO", arguments->scenarios, "Scenario file (YAML), one or several")
+      ->required();
+  CLI::Option* seed =
+      run->add_option("--seed", arguments->seed, "Seed in place of the scenario's")
+          ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
+  add_set_options(*run, *arguments);
+  seed->excludes("--seeds");
   run->add_option("--out", arguments->out,
-                  "Folder for the results (default: out/<scenario's name>)");
+                  "Folder for the results (default: out/<scenario's name>; with several runs out, "
+                  "and there <scenario's name>/seed-<n>)");
   run->add_option("--record", arguments->record,
                   "Also write the sensors' data and the truth there, as an EuRoC/ASL folder");
   run->add_option(

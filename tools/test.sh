@@ -4,7 +4,7 @@
 #
 # Everything that must hold before a change is merged: sets up, builds (with warnings as errors where
 # CI is set), checks the format, runs all tests, and where CI is set those of the SLAM library again
-# with sanitizers. Further arguments go to ctest, e.g. -L unit.
+# with sanitizers. The outcome is in build/junit.xml too. Further arguments go to ctest, e.g. -L unit.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -15,5 +15,6 @@ cmake --build build
 echo "checking the format"
 git ls-files -z --cached --others --exclude-standard '*.h' '*.cpp' |
   xargs -0 clang-format --dry-run -Werror
-ctest --test-dir build --output-on-failure --no-tests=error -j "$(nproc)" "$@"
+ctest --test-dir build --output-on-failure --no-tests=error -j "$(nproc)" \
+  --output-junit "$root/build/junit.xml" "$@"
 if [[ -n ${CI:-} ]]; then tools/sanitize.sh; fi

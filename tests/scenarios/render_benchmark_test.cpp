@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "scenarios/child_process.h"
 #include "scenarios/measurement.h"
 #include "scenarios/render_report.h"
 #include "slam/base/error.h"
@@ -89,33 +88,6 @@ TEST(MeasureTest, CountsTheTimeOfTheWork) {
   // A million dependent additions through memory take at least a cycle each: 0.1 ms at 10 GHz.
   EXPECT_GT(timing.cpu_ms, 0.1);
   EXPECT_GT(timing.wall_ms, 0.1);
-}
-
-TEST(RunInChildTest, ReturnsTheTextAndLeavesThisProcessAlone) {
-  int here = 1;
-  const std::string text(100'000, 'x');  // more than a pipe holds at once
-  EXPECT_EQ(run_in_child("a job",
-                         [&] {
-                           here = 2;
-                           return text;
-                         }),
-            text);
-  EXPECT_EQ(here, 1);
-}
-
-TEST(RunInChildTest, ReportsWhatWentWrong) {
-  try {
-    run_in_child("a job", []() -> std::string { fail("no such file"); });
-    FAIL() << "expected an Error";
-  } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "no such file");
-  }
-  try {
-    run_in_child("a job", []() -> std::string { std::_Exit(7); });
-    FAIL() << "expected an Error";
-  } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "a job: exit code 7");
-  }
 }
 
 TEST(RenderTableTest, NamesEveryFigure) {

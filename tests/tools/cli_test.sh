@@ -123,6 +123,27 @@ expect 2 "replay with a missing rig" "rig.yaml: cannot be read" -- \
   replay "$work/kitti" --rig "$work/no/rig.yaml" --out "$work/out"
 expect 2 "recording into a full folder" "is not empty; expected a new or an empty folder" -- \
   run "$root/scenarios/quick-loop.yaml" --out "$work/out" --record "$work/kitti"
+expect 2 "one scenario twice" "two of the scenarios have the name 'quick-loop'" -- \
+  run "$root/scenarios/quick-loop.yaml" "$root/scenarios/quick-loop.yaml" --out "$work/out"
+expect 2 "seeds backwards" "5..1 runs backwards" -- \
+  run "$root/scenarios/quick-loop.yaml" --seeds 5..1 --out "$work/out"
+expect 2 "recording of a set" "--record: is for one scenario" -- \
+  run "$root/scenarios/quick-loop.yaml" --seeds 1..2 --record "$work/set" --out "$work/out"
+expect 2 "jobs of one run" "expected several scenarios or --seeds" -- \
+  run "$root/scenarios/quick-loop.yaml" --jobs 2 --out "$work/out"
+expect 2 "verdicts where no folder is" "none/verdicts.xml: cannot be written" -- \
+  run "$root/scenarios/quick-loop.yaml" --seeds 1..2 --out "$work/out" \
+  --junit "$work/none/verdicts.xml"
+expect 2 "comparison with nothing" "none: expected a folder of runs" -- \
+  compare "$work/none" "$work/none"
+expect 2 "comparison of no runs" "empty: has no run" -- compare "$work/empty" "$work/empty"
+mkdir -p "$work/a" "$work/b"
+echo '{"scenario": "row", "seed": 1, "ate_rmse_m": 0.01}' >"$work/a/metrics.json"
+echo '{"scenario": "row", "seed": 1, "ate_rmse_m": 0.02}' >"$work/b/metrics.json"
+expect 0 "comparison" "row: B is unknown" "one pair" -- compare "$work/a" "$work/b"
+sed -i 's/"seed": 1/"seed": 2/' "$work/b/metrics.json"
+expect 2 "comparison of strangers" "no scenario and seed is in both folders" -- \
+  compare "$work/a" "$work/b"
 expect 2 "bench of no data set" "is no recording" -- bench slam "$work/empty"
 
 echo junk >"$work/junk.map"

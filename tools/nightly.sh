@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: Vinebench authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# All scenarios in full over the seeds 1 to 5: builds, runs what has not been run by this build yet
+# (out/nightly keeps it), and puts the table into docs/results.md between its two markers. Further
+# arguments go to `vinebench run`, e.g. --jobs 4 or --force. Exit code 1 when an expectation fails;
+# the table is written all the same.
+#   SEEDS=1..5  OUT=out/nightly  RESULTS=docs/results.md  SCENARIOS="scenarios/*.yaml"
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+seeds=${SEEDS:-1..5}
+out=${OUT:-out/nightly}
+results=${RESULTS:-docs/results.md}
+read -ra scenarios <<<"${SCENARIOS:-$(echo scenarios/*.yaml)}"
+begin='<!-- results -->'
+end='<!-- /results -->'
+
+# Better before some hours of runs than after them.
+[[ -f $results ]] || { echo "nightly.sh: $results: is no file" >&2; exit 2; }
+if [[ $(grep -cFx -- "$begin" "$results") -ne 1 || $(grep -cFx -- "$end" "$results") -ne 1 ]]; then
+  echo "nightly.sh: $results: expected one line '$begin' and, after it, one '$end'" >&2
+  exit 2
+fi
+
+if [[ -z ${VINEBENCH:-} ]]; then
+  tools/setup.sh
+  cmake --preset release
+  cmake --build build --target vinebench
+  VINEBENCH=build/vinebench
+fi
+mkdir -p "$out"
+rm -f "$out/table.md"
+
+code=0
+"$VINEBENCH" run "${scenarios[@]}" --seeds "$seeds" --out "$out" --junit "$out/junit.xml" "$@" ||
+  code=$?
+[[ $code -le 2 && -s $out/table.md ]] || exit "$code" # interrupted: no table
+
+awk -v begin="$begin" -v end="$end" -v table="$out/table.md" '
+  $0 == end { inside = 0 }
+  !inside { print }
+  $0 == begin { inside = 1; while ((getline line < table) > 0) print line }
+' "$results" >"$results.partial"
+mv "$results.partial" "$results"
+echo "nightly.sh: the table is in $results"
+exit "$code"

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/run_many.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <system_error>
+
+#include "scenarios/junit.h"
+#include "scenarios/run_scenario.h"
+#include "scenarios/set_report.h"
+#include "slam/base/error.h"
+#include "slam/base/files.h"
+#include "tools/commands.h"
+#include "tools/interactive.h"
+
+namespace vinebench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Better before the runs than after them.
+void prepare(const ManyRuns& many) {
+  std::error_code error;
+  fs::create_directories(many.out, error);
+  if (error) fail("output folder {}: cannot be made: {}", many.out.string(), error.message());
+  for (const char* name : {"table.md", "summary.json"}) fs::remove(many.out / name, error);
+  if (!many.junit.empty()) write_file_atomically(many.junit, "");
+}
+
+int report(const ManyRuns& many, const std::vector<SeedsSummary>& scenarios) {
+  const std::string table = format_table(scenarios);
+  write_file_atomically(many.out / "table.md", table);
+  write_file_atomically(many.out / "summary.json", summary_json(scenarios).dump(2) + "\n");
+  if (!many.junit.empty()) write_file_atomically(many.junit, format_junit(scenarios));
+  fmt::print("\n{}\n{}results: {}\n", table, format_failures(scenarios),
+             fs::absolute(many.out).string());
+  const bool errors = std::ranges::any_of(scenarios, [](const SeedsSummary& summary) {
+    return std::ranges::any_of(summary.runs, [](const SetRun& run) { return !run.error.empty(); });
+  });
+  if (errors) return kBadInput;
+  return std::ranges::all_of(scenarios, &SeedsSummary::passed) ? 0 : kExpectationFailed;
+}
+
+}  // namespace
+
+int run_many(const ManyRuns& many) {
+  const std::vector<PlannedRun> plan = plan_set(many.scenarios, many.seeds, many.out);
+  prepare(many);
+  catch_interrupts();
+  SetOptions options;
+  options.jobs = many.jobs;
+  options.threads = many.threads;
+  options.force = many.force;
+  options.run = run_scenario;
+  options.stopped = interrupted;
+  options.progress = &std::cerr;
+  const SetOutcome outcome = run_set(plan, options);
+  if (outcome.interrupted) {
+    const auto whole = std::ranges::count_if(
+        outcome.runs, [](const SetRun& run) { return !run.metrics.is_null(); });
+    fmt::print(stderr,
+               "vinebench: stopped; {} of {} runs are whole in {}, and the same command goes on\n",
+               whole, plan.size(), many.out.string());
+    return interruption_code();
+  }
+  return report(many, summarise(plan, outcome));
+}
+
+}  // namespace vinebench

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scenarios/scenario.h"
+
+namespace vinebench {
+
+/// `run` with several scenarios or seeds.
+struct ManyRuns {
+  std::vector<ScenarioConfig> scenarios;
+  std::vector<std::int64_t> seeds;  ///< each scenario's own where empty
+  std::filesystem::path out;
+  std::filesystem::path junit;  ///< none where empty
+  int jobs = 1;
+  int threads = 1;
+  bool force = false;
+};
+
+/// Runs them, prints and writes the table, and returns the exit code.
+int run_many(const ManyRuns& many);
+
+}  // namespace vinebench
