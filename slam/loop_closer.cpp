@@ -8,6 +8,7 @@
 
 #include "slam/base/error.h"
 #include "slam/bundle_adjustment.h"
+#include "slam/loop_correction.h"
 
 namespace vinebench {
 namespace {
@@ -48,34 +49,6 @@ const TagSighting* last_sighting(const Map& map, int later, Predicate is_wanted,
     }
   }
   return nullptr;
-}
-
-/// Moves keyframes after `first` up to `last` by a growing part of the correction of the last one,
-/// by the way driven, and every landmark with the keyframe that made it.
-void spread_correction(Map& map, int first, int last, const Pose& corrected) {
-  std::vector<double> way{0};
-  for (int k = first + 1; k <= last; ++k) {
-    way.push_back(way.back() + (map.keyframe(k).T_map_body.translation -
-                                map.keyframe(k - 1).T_map_body.translation)
-                                   .norm());
-  }
-  // The correction turns about the place of the last keyframe, so that its lever arm stays short.
-  const Pose T_last_new = map.keyframe(last).T_map_body.inverse() * corrected;
-  std::vector<Pose> moves(map.keyframes().size());
-  for (int k = first + 1; k <= last; ++k) {
-    const double share = way.back() > 0 ? way[static_cast<std::size_t>(k - first)] / way.back() : 1;
-    const Pose T_last_part = interpolate(Pose{}, T_last_new, share);
-    const Pose& T_map_last = map.keyframe(last).T_map_body;
-    moves[static_cast<std::size_t>(k)] = T_map_last * T_last_part * T_map_last.inverse();
-  }
-  for (Landmark& landmark : map.landmarks()) {
-    landmark.position =
-        moves[static_cast<std::size_t>(landmark.first_keyframe)] * landmark.position;
-  }
-  for (int k = first + 1; k <= last; ++k) {
-    Pose& T_map_body = map.keyframe(k).T_map_body;
-    T_map_body = moves[static_cast<std::size_t>(k)] * T_map_body;
-  }
 }
 
 }  // namespace
@@ -187,6 +160,17 @@ Matrix6d LoopCloser::covariance(const TagSighting& sighting) const {
   const RegisteredTag* tag = registered(sighting);
   return tag_covariance(sighting, tag != nullptr ? tag->size : config_.tags.size, rig_,
                         config_.loop.corner_sigma);
+}
+
+Matrix6d LoopCloser::fix_covariance(const std::vector<TagSighting>& sightings) const {
+  std::optional<Matrix6d> surest;
+  for (const TagSighting& sighting : sightings) {
+    if (sighting.ambiguous) continue;
+    const Matrix6d of_body =
+        carry_covariance(covariance(sighting), T_body_tag(sighting, rig_).inverse());
+    if (!surest || of_body.trace() < surest->trace()) surest = of_body;
+  }
+  return surest.value_or(Matrix6d::Zero());
 }
 
 /// Of the way from `since` to `path_length`: the greatest drift along one axis is made the edge of

@@ -33,6 +33,10 @@ class LoopCloser {
   /// (moved, or there are two) is left out.
   std::optional<Pose> map_pose(const std::vector<TagSighting>& sightings, const Map& map) const;
 
+  /// Covariance of the body's pose by the surest of the sightings, in the step of step_pose: that
+  /// of the tag's corners. Zero where there is no sighting to go by.
+  Matrix6d fix_covariance(const std::vector<TagSighting>& sightings) const;
+
   /// Leaves the frame those sightings that are to be believed; call it with every tracked frame
   /// before what follows. A sighting is rejected that is ambiguous, one of two of the same name, or
   /// farther from the tag's place in the map than the way driven since a tag was seen allows. One

@@ -26,7 +26,7 @@ int count_stereo(const StereoView& view) {
                                         [](const StereoMatch& m) { return m.depth > 0; }));
 }
 
-/// Of a pose that a near tag gives: a tenth of a pixel at its corners, seen at half a metre.
+/// What a pose by a tag is uncertain by besides its corners: the tag's print, the lens.
 Matrix6d by_tag_covariance() {
   constexpr double kPosition = 1e-3;    // m
   constexpr double kRotation = 1.5e-3;  // rad
@@ -136,7 +136,7 @@ TrackedFrame Pipeline::initialise(const std::shared_ptr<FrameFeatures>& frame) {
   if (tracked.tracked) {
     tracked.motion.T_map_body = loop_closer_.world_pose(frame->tags).value_or(Pose{});
     tracker_.start(tracked.motion.T_map_body, frame->stamp);
-    uncertainty_.start(by_tag_covariance());
+    uncertainty_.start(by_tag_covariance() + loop_closer_.fix_covariance(frame->tags));
   }
   return tracked;
 }
@@ -259,7 +259,8 @@ void Pipeline::grow_uncertainty(const TrackedFrame& tracked) {
 void Pipeline::close_loop(int keyframe, Estimate& estimate) {
   const ScopedTimer timer(times_, "global adjustment");
   estimate.loop_closure = loop_closer_.close(keyframe, path_length_, map_);
-  uncertainty_.start(by_tag_covariance());
+  uncertainty_.start(by_tag_covariance() +
+                     loop_closer_.fix_covariance(map_.keyframe(keyframe).frame->tags));
   ++closures_;
   tags_since_adjustment_ = false;
 }
