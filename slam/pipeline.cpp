@@ -126,7 +126,10 @@ TrackedFrame Pipeline::initialise(const std::shared_ptr<FrameFeatures>& frame) {
   TrackedFrame tracked;
   tracked.frame = frame;
   tracked.associations = no_associations(*frame);
-  for (const StereoView& view : frame->views) {
+  for (std::size_t v = 0; v < frame->views.size(); ++v) {
+    StereoView& view = frame->views[v];
+    reach_farther(view.features, rig_.eyes[v].lens, rig_.eyes[v].baseline, rig_.stereo,
+                  view.stereo);
     const int points = count_stereo(view);
     tracked.motion.matches_per_view.push_back(points);
     tracked.motion.inliers_per_view.push_back(points);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include <algorithm>
 #include "slam/base/error.h"
 #include "slam/row_search.h"
 
@@ -69,6 +70,21 @@ std::vector<StereoMatch> match_stereo(const Extraction& left,
     if (depth < config.max_depth_baselines * baseline) matches[i].depth = static_cast<float>(depth);
   }
   return matches;
+}
+
+void reach_farther(const Features& left, const PinholeCamera& camera, double baseline,
+                   const StereoConfig& config, std::vector<StereoMatch>& matches) {
+  const auto near =
+      std::ranges::count_if(matches, [](const StereoMatch& m) { return m.depth > 0; });
+  if (near >= config.few) return;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (matches[i].depth > 0 || matches[i].x_right < 0) continue;
+    const float disparity = left.keypoints[i].x - matches[i].x_right;
+    const double depth = camera.fx * baseline / static_cast<double>(disparity);
+    if (depth < config.far_depth_baselines * baseline) {
+      matches[i].depth = static_cast<float>(depth);
+    }
+  }
 }
 
 }  // namespace vinebench

@@ -14,8 +14,12 @@ namespace vinebench {
 
 struct StereoConfig {
   double max_depth_baselines = 40;  ///< farther depths are not used (paper, Sect. III-A)
-  double min_depth = 0.15;          ///< m; nothing is nearer
-  double uniqueness = 1.15;         ///< the next best place must differ by this factor more
+  /// Where a map begins and fewer than this are near enough, on a road say, those beyond take part
+  /// too, up to far_depth_baselines.
+  int few = 200;
+  double far_depth_baselines = 150;
+  double min_depth = 0.15;   ///< m; nothing is nearer
+  double uniqueness = 1.15;  ///< the next best place must differ by this factor more
   /// Mean difference of the aligned windows, as a share of their contrast, that is still a match.
   /// Windows that show two depths, a stem before the ground, differ more: they would be biased
   /// towards the nearer one.
@@ -29,6 +33,8 @@ struct StereoConfig {
   template <class Archive>
   void serialize(Archive& archive) {
     archive("max_depth_baselines", max_depth_baselines, Range::positive());
+    archive("few", few, Range::non_negative());
+    archive("far_depth_baselines", far_depth_baselines, Range::positive());
     archive("min_depth", min_depth, Range::positive());
     archive("uniqueness", uniqueness, Range::between(1, 10));
     archive("max_residual", max_residual, Range::between(0.01, 2));
@@ -56,5 +62,12 @@ std::vector<StereoMatch> match_stereo(const Extraction& left,
                                       const std::vector<cv::Mat>& right_pyramid,
                                       const PinholeCamera& camera, double baseline,
                                       const OrbExtractor& extractor, const StereoConfig& config);
+
+/// Gives matches beyond the limit their depth where fewer than StereoConfig::few lie within it.
+/// They say little of the way but much of the heading, and are found again wherever the next frame
+/// looks, while what is near has left its place by more than a search without a known velocity
+/// reaches.
+void reach_farther(const Features& left, const PinholeCamera& camera, double baseline,
+                   const StereoConfig& config, std::vector<StereoMatch>& matches);
 
 }  // namespace vinebench

@@ -95,21 +95,26 @@ Pose Tracker::predict(const FrameFeatures& frame) const {
   return T_map_body_ * step_of(velocity_ * to_seconds(frame.stamp - stamp_));
 }
 
-void Tracker::match_near(const Map& map, const std::vector<int>& landmarks,
+/// The pose by landmarks near their projection. The radius grows while there are too few matches
+/// (paper, Sect. III-A), and while too few of them agree on a pose: where texture is alike all
+/// over, a small radius finds enough matches, all wrong.
+void Tracker::match_near(const Map& map, const std::vector<int>& landmarks, const Pose& predicted,
                          TrackedFrame& tracked) const {
   ProjectionSearch search{config_.radius, config_.max_hamming, config_.second_best};
-  for (int step = 0; step < config_.radius_steps; ++step) {
+  for (int step = 1; step <= config_.radius_steps; ++step) {
     tracked.associations = no_associations(*tracked.frame);
-    const int matches =
-        match_by_projection(map, landmarks, *tracked.frame, tracked.motion.T_map_body, rig_, search,
-                            tracked.associations);
-    if (matches >= config_.min_matches) return;
+    const int matches = match_by_projection(map, landmarks, *tracked.frame, predicted, rig_, search,
+                                            tracked.associations);
     search.radius *= config_.radius_growth;
+    if (matches < config_.min_matches && step < config_.radius_steps) continue;
+    tracked.motion = estimate_motion(map, *tracked.frame, predicted, rig_, config_.min_inlier_share,
+                                     tracked.associations);
+    // The farther from the prediction, the more evidence is asked for.
+    if (tracked.motion.inliers >= std::min(step, 2) * config_.min_inliers) return;
   }
 }
 
-void Tracker::match_anywhere(const Map& map, TrackedFrame& tracked) const {
-  const Pose& predicted = tracked.motion.T_map_body;
+void Tracker::match_anywhere(const Map& map, const Pose& predicted, TrackedFrame& tracked) const {
   const std::vector<int> landmarks =
       local_landmarks(map, last_landmarks_, predicted, config_.local_keyframes);
   Associations associations =
@@ -144,10 +149,8 @@ TrackedFrame Tracker::track(std::shared_ptr<FrameFeatures> frame, const Map& map
       from_map ? local_landmarks(map, last_landmarks_, tracked.motion.T_map_body,
                                  config_.local_keyframes)
                : last_landmarks_;
-  match_near(map, landmarks, tracked);
-  tracked.motion = estimate_motion(map, *tracked.frame, tracked.motion.T_map_body, rig_,
-                                   config_.min_inlier_share, tracked.associations);
-  if (tracked.motion.inliers < config_.min_inliers) match_anywhere(map, tracked);
+  match_near(map, landmarks, predicted, tracked);
+  if (tracked.motion.inliers < 2 * config_.min_inliers) match_anywhere(map, predicted, tracked);
   if (tracked.motion.inliers >= config_.min_inliers / 2) {
     const std::vector<int> local =
         local_landmarks(map, landmark_ids(tracked.associations), tracked.motion.T_map_body,

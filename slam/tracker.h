@@ -51,9 +51,10 @@ class Tracker {
 
  private:
   Pose predict(const FrameFeatures& frame) const;
-  void match_near(const Map& map, const std::vector<int>& landmarks, TrackedFrame& tracked) const;
+  void match_near(const Map& map, const std::vector<int>& landmarks, const Pose& predicted,
+                  TrackedFrame& tracked) const;
   /// Matches by looks alone where the prediction led nowhere: after a start, a jolt or a gap.
-  void match_anywhere(const Map& map, TrackedFrame& tracked) const;
+  void match_anywhere(const Map& map, const Pose& predicted, TrackedFrame& tracked) const;
   void match_local_map(const Map& map, const std::vector<int>& local, TrackedFrame& tracked) const;
   bool is_credible(const TrackedFrame& tracked, const Pose& predicted) const;
   void accept(const TrackedFrame& tracked);
