@@ -14,9 +14,9 @@ done
 mkdir -p docs/images/scenarios docs/images/routes
 for run in "$@"; do
   name=$(sed -nE 's/^name: "?([^"]*)"?$/\1/p' "$run/scenario.resolved.yaml" | head -1)
-  # A third of the way in, which is in the first aisle.
+  # A fifth of the way in, which is in the first aisle.
   mapfile -t lefts < <(ls "$run"/frames/*_front_left.png)
-  frame=${lefts[$((${#lefts[@]} / 3))]%_front_left.png}
+  frame=${lefts[$((${#lefts[@]} / 5))]%_front_left.png}
   tiles=()
   for camera in front_left back_left side; do
     [[ -f ${frame}_$camera.png ]] && tiles+=("${frame}_$camera.png")
