@@ -64,6 +64,9 @@ Recorder::Recorder(Rig rig, std::vector<WorldConfig::Tag> tags) {
 void Recorder::on_tick(const Sample& sample, const Estimate& estimate) {
   record_.ticks.push_back(
       {sample.frame.index, sample.frame.stamp, sample.truth, estimate, sample.events});
+  for (const cv::Mat& image : sample.frame.images) {
+    record_.ticks.back().delivered.push_back(!image.empty());
+  }
 }
 
 void Recorder::on_finish(const SlamSummary& summary) {

@@ -15,6 +15,7 @@ struct Tick {
   Truth truth;
   Estimate estimate;
   std::vector<SourceEvent> events;
+  std::vector<bool> delivered{};  ///< whether each camera gave a picture
 };
 
 /// A whole run, or as much of it as there was: the one input of judge, log, plot and metrics.
