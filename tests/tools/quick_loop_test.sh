@@ -79,7 +79,7 @@ case $step in
     done
     ;;
   external)
-    rm -rf "$work/external" "$work/stand.sh"
+    mkdir -p "$work"
     # Stands still, and has no pose of the last frame.
     cat >"$work/stand.sh" <<'END'
 #!/bin/sh
