@@ -11,14 +11,6 @@
 namespace vinebench {
 namespace {
 
-const StampedPose& nearest_in_time(const Trajectory& trajectory, Stamp stamp) {
-  auto after = std::ranges::lower_bound(trajectory, stamp, {}, &StampedPose::stamp);
-  if (after == trajectory.begin()) return *after;
-  const auto before = std::prev(after);
-  if (after == trajectory.end()) return *before;
-  return stamp - before->stamp <= after->stamp - stamp ? *before : *after;
-}
-
 /// The segment's end: of the poses after `from` the first whose way is nearest to `target`.
 std::size_t nearest_in_length(const std::vector<double>& lengths, std::size_t from, double target) {
   const auto begin = lengths.begin() + static_cast<std::ptrdiff_t>(from) + 1;
@@ -45,6 +37,14 @@ double segment_error(const PosePair& from, const PosePair& to) {
 }
 
 }  // namespace
+
+const StampedPose& nearest_in_time(const Trajectory& trajectory, Stamp stamp) {
+  auto after = std::ranges::lower_bound(trajectory, stamp, {}, &StampedPose::stamp);
+  if (after == trajectory.begin()) return *after;
+  const auto before = std::prev(after);
+  if (after == trajectory.end()) return *before;
+  return stamp - before->stamp <= after->stamp - stamp ? *before : *after;
+}
 
 std::vector<PosePair> associate(const Trajectory& truth, const Trajectory& estimate,
                                 Stamp tolerance) {

@@ -16,6 +16,9 @@ struct PosePair {
   Pose T_map_body;
 };
 
+/// The pose nearest in time, the earlier of two that are. Needs one pose.
+const StampedPose& nearest_in_time(const Trajectory& trajectory, Stamp stamp);
+
 /// Pairs each pose of the shorter trajectory with the nearest in time of the longer, where they
 /// are at most `tolerance` apart (evo's rule and its default, 0.01 s).
 std::vector<PosePair> associate(const Trajectory& truth, const Trajectory& estimate,

@@ -33,8 +33,12 @@ const char* name_of(TagRejection reason) {
 /// Walks the ticks and remembers what has begun and not ended yet.
 class EventLog {
  public:
-  EventLog(const RunRecord& record, const RunResults& results, double box_share)
-      : record_(record), results_(results), lengths_(true_path_lengths(record)) {
+  EventLog(const RunRecord& record, const RunResults& results,
+           const std::vector<Explanation>& explanations, double box_share)
+      : record_(record),
+        results_(results),
+        explanations_(explanations),
+        lengths_(true_path_lengths(record)) {
     for (std::size_t i = 0; i < record.ticks.size(); ++i) {
       tick_ = &record.ticks[i];
       at_ = i;
@@ -47,6 +51,7 @@ class EventLog {
       add_rejections();
       if (tick_->estimate.keyframe) add("keyframe");
       add_loop_closures();
+      add_explanations();
     }
   }
   std::string take() { return std::move(text_); }
@@ -170,8 +175,29 @@ class EventLog {
     }
   }
 
+  /// When the stretch has ended.
+  void add_explanations() {
+    for (const Explanation& explanation : explanations_) {
+      if (explanation.last != at_) continue;
+      Json more{{"from", exact_seconds(record_.ticks[explanation.first].stamp)},
+                {"until", exact_seconds(tick_->stamp)},
+                {"cause", name_of(explanation.cause)},
+                {"cameras", Json::array()},
+                {"share", explanation.share},
+                {"error_growth_m", explanation.error_growth},
+                {"untracked_frames", explanation.untracked},
+                {"inliers", explanation.inliers},
+                {"inliers_usual", explanation.usual_inliers}};
+      for (const std::size_t camera : explanation.cameras) {
+        more["cameras"].push_back(record_.rig.cameras[camera].name);
+      }
+      add("explained", more);
+    }
+  }
+
   const RunRecord& record_;
   const RunResults& results_;
+  const std::vector<Explanation>& explanations_;
   std::vector<double> lengths_;
   const Tick* tick_ = nullptr;
   std::size_t at_ = 0;
@@ -186,8 +212,9 @@ class EventLog {
 
 }  // namespace
 
-std::string format_events(const RunRecord& record, const RunResults& results, double box_share) {
-  return EventLog(record, results, box_share).take();
+std::string format_events(const RunRecord& record, const RunResults& results,
+                          const std::vector<Explanation>& explanations, double box_share) {
+  return EventLog(record, results, explanations, box_share).take();
 }
 
 }  // namespace vinebench

@@ -25,7 +25,7 @@ ScenarioConfig as_experiment(const Recording& recording, const SlamConfig& slam)
   ScenarioConfig experiment;
   experiment.name = recording.name;
   experiment.seed = 0;
-  experiment.slam = slam;
+  experiment.slam = {slam, {}, {}};
   return experiment;
 }
 

@@ -66,10 +66,16 @@ RunOutcome run_lockstep_and_judge(const ScenarioConfig& scenario, FrameSource& s
 
   const RunRecord& record = sinks.recorder.record();
   const RunResults results = measure(record, scenario);
-  if (!options.folder.empty()) write_run_files(options.folder, scenario, record, results);
+  const std::vector<Explanation> explanations = explain(record, results, scenario);
+  if (!options.folder.empty()) {
+    write_run_files(options.folder, scenario, record, results, explanations);
+  }
   RunOutcome outcome;
+  outcome.summary = format_explanations(record, explanations);
   outcome.frames = static_cast<std::int64_t>(record.ticks.size());
-  outcome.interrupted = options.stopped && options.stopped() && outcome.frames < source.size();
+  // A system that works at the end alone may be stopped there.
+  const bool whole = outcome.frames == source.size() && !record.summary.trajectory.empty();
+  outcome.interrupted = options.stopped && options.stopped() && !whole;
   if (outcome.interrupted) return outcome;
 
   const Json figures = result_metrics(scenario, record, results);

@@ -38,6 +38,7 @@ struct RunOutcome {
   std::vector<Check> checks;
   Json metrics;
   std::string hash;
+  std::string summary;  ///< for people: where the estimate suffered, and from what
 };
 
 /// Runs a SLAM system on a source in lockstep, judges it and writes the run's files. The folder

@@ -51,14 +51,17 @@ void prepare_run_folder(const std::filesystem::path& folder, const std::string& 
 }
 
 void write_run_files(const std::filesystem::path& folder, const ScenarioConfig& scenario,
-                     const RunRecord& record, const RunResults& results) {
+                     const RunRecord& record, const RunResults& results,
+                     const std::vector<Explanation>& explanations) {
   const auto& blind = scenario.expectations.blind;
   const double box_share = blind ? blind->box_share : Expectations::Blind{}.box_share;
   write_tum(true_trajectory(record), folder / "groundtruth.tum");
   write_tum(live_trajectory(record), folder / "estimate_live.tum");
   write_tum(record.summary.trajectory, folder / "estimate.tum");
   write_tum(record.summary.keyframes, folder / "keyframes.tum");
-  write_file_atomically(folder / "events.jsonl", format_events(record, results, box_share));
+  write_file_atomically(folder / "events.jsonl",
+                        format_events(record, results, explanations, box_share));
+  write_file_atomically(folder / "summary.txt", format_explanations(record, explanations));
   write_file_atomically(folder / "plot.svg", plot_svg(scenario, record, results));
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "scenarios/explain.h"
 #include "scenarios/metrics.h"
 
 namespace vinebench {
@@ -21,9 +22,10 @@ void prepare_run_folder(const std::filesystem::path& folder, const std::string& 
 /// The same with scenario.resolved.yaml.
 void prepare_run_folder(const std::filesystem::path& folder, const ScenarioConfig& scenario);
 
-/// Trajectories, events and plot: all but the metrics, which only a whole run has.
+/// Trajectories, events, plot and summary: all but the metrics, which only a whole run has.
 void write_run_files(const std::filesystem::path& folder, const ScenarioConfig& scenario,
-                     const RunRecord& record, const RunResults& results);
+                     const RunRecord& record, const RunResults& results,
+                     const std::vector<Explanation>& explanations);
 
 void write_metrics(const std::filesystem::path& folder, const Json& metrics);
 

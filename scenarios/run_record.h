@@ -15,6 +15,7 @@ struct Tick {
   Truth truth;
   Estimate estimate;
   std::vector<SourceEvent> events;
+  std::vector<bool> delivered{};  ///< whether each camera gave a picture
 };
 
 /// A whole run, or as much of it as there was: the one input of judge, log, plot and metrics.
@@ -40,12 +41,14 @@ Trajectory live_trajectory(const RunRecord& record);
 /// Length of the true way from the first tick to each, m. Unknown poses add nothing.
 std::vector<double> true_path_lengths(const RunRecord& record);
 
-/// Fills a record.
+/// Fills a record. A system that gave no pose while it ran worked at the end alone: then the poses
+/// of its trajectory are those of the frames with their stamps, and frames after the first one
+/// without a pose are lost.
 class Recorder : public Sink {
  public:
   Recorder(Rig rig, std::vector<WorldConfig::Tag> tags);
   void on_tick(const Sample& sample, const Estimate& estimate) override;
-  void on_finish(const SlamSummary& summary) override { record_.summary = summary; }
+  void on_finish(const SlamSummary& summary) override;
   const RunRecord& record() const { return record_; }
 
  private:

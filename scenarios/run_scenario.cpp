@@ -4,7 +4,9 @@
 
 #include <cstdlib>
 
+#include "scenarios/external_slam.h"
 #include "scenarios/look_ahead.h"
+#include "scenarios/plugin_slam.h"
 #include "slam/base/error.h"
 
 namespace vinebench {
@@ -21,6 +23,50 @@ void expect_folder(const std::filesystem::path& file) {
   if (!folder.empty() && !std::filesystem::is_directory(folder)) {
     fail("{}: there is no folder {}", file.string(), folder.string());
   }
+}
+
+void expect_no_maps(const MapFiles& maps) {
+  if (!maps.load.empty() || !maps.save.empty() || !maps.cloud.empty()) {
+    fail("--load-map, --save-map and --save-cloud are for the built-in SLAM core alone");
+  }
+}
+
+/// Where a run without a folder of its own works meanwhile.
+class ScratchFolder {
+ public:
+  explicit ScratchFolder(const std::filesystem::path& folder) : folder_(folder) {
+    if (!folder.empty()) return;
+    std::string name = (std::filesystem::temp_directory_path() / "vinebench-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) fail("{}: cannot be made", name);
+    folder_ = own_ = name;
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder() {
+    std::error_code ignored;
+    if (!own_.empty()) std::filesystem::remove_all(own_, ignored);
+  }
+  const std::filesystem::path& path() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+  std::filesystem::path own_;
+};
+
+/// With a SLAM system that is not ours.
+RunOutcome run_other_system(const ScenarioConfig& scenario, FrameSource& source, int threads,
+                            const RunOptions& options) {
+  const SlamChoice& choice = scenario.slam;
+  if (choice.plugin) {
+    const auto slam =
+        load_plugin_slam(*choice.plugin, source.rig(), registered_tags(scenario.simulation.world),
+                         choice.dead_reckoning.wheels, threads);
+    return run_lockstep_and_judge(scenario, source, *slam, options);
+  }
+  const ScratchFolder folder(options.folder);
+  const auto slam =
+      make_external_slam(*choice.external, notes_of(scenario), folder.path(), options.stopped);
+  return run_lockstep_and_judge(scenario, source, *slam, options);
 }
 
 }  // namespace
@@ -50,18 +96,22 @@ RunOutcome run_mapping_system(const ScenarioConfig& scenario, FrameSource& sourc
 RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options) {
   expect_folder(options.maps.save);  // before the vineyard is grown
   expect_folder(options.maps.cloud);
-  // A pool each, for both work at the same time.
+  const bool ours = !scenario.slam.external && !scenario.slam.plugin;
+  if (!ours) expect_no_maps(options.maps);
+  // A pool each, for drawing and estimating go on at the same time.
   WorkerPool drawing(threads);
   WorkerPool estimating(threads);
-  const auto source = make_simulation(
+  const auto simulation = make_simulation(
       scenario.simulation, static_cast<std::uint64_t>(scenario.seed), default_cache(), drawing);
-  const auto slam = make_slam(scenario.slam, source->rig(),
-                              registered_tags(scenario.simulation.world), estimating);
-  if (threads == 1 || scenario.simulation.route.steering == Steering::kEstimate) {
-    return run_mapping_system(scenario, *source, *slam, options);
+  std::optional<LookAhead> ahead;
+  if (threads > 1 && scenario.simulation.route.steering == Steering::kTruth) {
+    ahead.emplace(*simulation);
   }
-  LookAhead ahead(*source);
-  return run_mapping_system(scenario, ahead, *slam, options);
+  FrameSource& source = ahead ? *ahead : *simulation;
+  if (!ours) return run_other_system(scenario, source, threads, options);
+  const auto slam = make_slam(scenario.slam, source.rig(),
+                              registered_tags(scenario.simulation.world), estimating);
+  return run_mapping_system(scenario, source, *slam, options);
 }
 
 }  // namespace vinebench

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "scenarios/external_slam.h"
 #include "scenarios/occlusion.h"
 #include "slam/base/error.h"
 
@@ -55,6 +56,7 @@ ScenarioConfig load_scenario(const std::filesystem::path& file,
   const Rig rig = load_rig(scenario.simulation.rover.rig);
   check_sensors(scenario.simulation.sensors, rig);
   if (const auto& blind = scenario.expectations.blind) find_cameras(rig, blind->cameras);
+  if (const auto& external = scenario.slam.external) check_external_slam(*external, rig);
   move_into(scenario.boxes, scenario.simulation.world.boxes);
   move_into(scenario.tags, scenario.simulation.world.tags);
   scenario.simulation.world.place();

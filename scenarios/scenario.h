@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "scenarios/slam_choice.h"
 #include "sim/simulation.h"
 #include "slam/base/yaml.h"
 #include "slam/slam.h"
@@ -78,7 +79,7 @@ struct ScenarioConfig {
   SimulationConfig simulation;          ///< its fields stand at the top level of the file
   std::vector<WorldConfig::Box> boxes;  ///< put into the world beside its own
   std::vector<WorldConfig::Tag> tags;   ///< likewise
-  SlamConfig slam;
+  SlamChoice slam;
   Expectations expectations;
   template <class Archive>
   void serialize(Archive& archive) {

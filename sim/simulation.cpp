@@ -96,6 +96,10 @@ class Simulation : public FrameSource {
     std::vector<double> spent(cameras);
     sample.frame.images.resize(cameras);
     sample.truth.box_share.assign(cameras, 0);
+    const bool blurs = config_.sensors.camera.blur_subframes > 1;
+    for (std::size_t i = 0; i < cameras; ++i) {
+      sample.truth.blur_time.push_back(blurs ? exposure_.of(i).time : 0);
+    }
     std::vector<std::vector<int>> visible(cameras);
     std::atomic<std::size_t> next{0};
     const std::vector<std::size_t> order = largest_first();

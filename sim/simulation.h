@@ -29,6 +29,8 @@ struct Truth {
   /// Indices into WorldConfig::tags that are wholly in the picture of a tag camera, unoccluded at
   /// their centre and corners.
   std::vector<int> visible_tags;
+  /// Of each camera's picture, s, the time over which motion blurs it; empty where not known.
+  std::vector<double> blur_time{};
 };
 
 /// Something wrong with the data of a frame that its source survived, such as a picture that cannot

@@ -46,10 +46,11 @@ std::vector<ScenarioConfig> scenarios_of(const RunArguments& arguments) {
 
 void print_verdict(const ScenarioConfig& scenario, const RunOutcome& outcome,
                    const std::filesystem::path& folder) {
-  fmt::print("\n{}: {} ({} frames in {:.0f} s, hash {})\n{}results: {}\n", scenario.name,
+  fmt::print("\n{}: {} ({} frames in {:.0f} s, hash {})\n{}{}results: {}\n", scenario.name,
              all_hold(outcome.checks) ? "PASSED" : "FAILED", outcome.frames,
              outcome.metrics["wall_seconds"].get<double>(), outcome.hash,
-             format_checks(outcome.checks), std::filesystem::absolute(folder).string());
+             format_checks(outcome.checks), outcome.summary,
+             std::filesystem::absolute(folder).string());
 }
 
 /// Runs once more, without files, and compares.

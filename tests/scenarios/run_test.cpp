@@ -156,6 +156,11 @@ TEST_F(RunTest, EventsTellTheStory) {
     if (event["event"] == "lost") {
       EXPECT_TRUE(event["dead_reckoning"]);
     }
+    if (event["event"] == "explained") {  // lost behind the carton
+      EXPECT_EQ(event["cause"], "occlusion");
+      EXPECT_EQ(event["from"], 9);
+      EXPECT_EQ(event["until"], 10);
+    }
     if (event["event"] == "tag_rejected") {
       EXPECT_EQ(event["reason"], event["frame"] == 0 ? "ambiguous" : "misplaced");
     }
@@ -170,7 +175,8 @@ TEST_F(RunTest, EventsTellTheStory) {
                                             {"occlusion_end", 2},
                                             {"tag_seen", 1},
                                             {"tag_rejected", 2},
-                                            {"dead_reckoning_given_up", 1}};
+                                            {"dead_reckoning_given_up", 1},
+                                            {"explained", 1}};
   EXPECT_EQ(counts, expected);
 }
 

@@ -10,6 +10,7 @@
 #   map      a run in the map that verdict left finds its place there, by tag and by looks (needs
 #            verdict)
 #   replayed a replay of a recording of it gives the same estimate (0.8 s)
+#   external a program takes the core's place, and its poses are judged (0.3 s)
 #   front    with the front cameras alone it is lost or ten times worse (needs verdict)
 set -euo pipefail
 step=$1 vinebench=$2 root=$3 work=$4
@@ -76,6 +77,22 @@ case $step in
       [[ -s $work/short/$file ]] || { echo "$file is empty" >&2; exit 1; }
       cmp "$work/short/$file" "$work/replayed/$file"
     done
+    ;;
+  external)
+    mkdir -p "$work"
+    # Stands still, and has no pose of the last frame.
+    cat >"$work/stand.sh" <<'END'
+#!/bin/sh
+sed '1d; $d; s/$/ 0 0 0 0 0 0 1/' "$1/frames.csv" >"$2/trajectory.txt"
+END
+    chmod +x "$work/stand.sh"
+    code=0
+    "$vinebench" run "$scenario" --out "$work/external" --set duration=0.3 \
+      --set "slam.external.program=$work/stand.sh" || code=$?
+    [[ $code -eq 1 ]]
+    # 0.3 s at 15 Hz are frames 0 to 4; four of the five have a pose.
+    [[ $(metric external frames) -eq 5 && $(metric external coverage) == 0.8 ]]
+    [[ ! -e $work/external/recording ]]
     ;;
   *)
     echo "unknown step '$step'" >&2

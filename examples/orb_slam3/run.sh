@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: Vinebench authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Runs ORB-SLAM3's example program stereo_euroc (release 1.0) on a recording of Vinebench, as
+# slam.external asks. Usage: run.sh STEREO_EUROC VOCABULARY RECORDING OUTPUT
+#   STEREO_EUROC  the program, as built from its own sources
+#   VOCABULARY    ORBvoc.txt, unpacked
+# Takes the first two cameras, which must be a rectified pair; leaves f_vinebench.txt, the poses of
+# the left one.
+set -euo pipefail
+[[ $# -eq 4 ]] || { echo "usage: run.sh STEREO_EUROC VOCABULARY RECORDING OUTPUT" >&2; exit 2; }
+program=$1 vocabulary=$2 recording=$3 output=$4
+[[ -x $program ]] || { echo "run.sh: $program: no program" >&2; exit 2; }
+[[ -r $vocabulary ]] || { echo "run.sh: $vocabulary: cannot be read" >&2; exit 2; }
+left=$recording/mav0/cam0 right=$recording/mav0/cam1
+
+# numbers KEY FILE: those in the brackets after the key, which may go over several lines.
+numbers() {
+  tr '\n' ' ' <"$2" | sed -nE "s/.*[[:space:]]$1: \[([^]]*)\].*/\1/p" | tr ',' ' '
+}
+read -r fx fy cx cy <<<"$(numbers intrinsics "$left/sensor.yaml")"
+read -r width height <<<"$(numbers resolution "$left/sensor.yaml")"
+rate=$(sed -nE 's/^rate_hz: //p' "$left/sensor.yaml")
+# Distance of the eyes, from the last column of both T_BS.
+baseline=$(echo "$(numbers data "$left/sensor.yaml") $(numbers data "$right/sensor.yaml")" |
+  awk '{ x = $4 - $20; y = $8 - $24; z = $12 - $28; printf "%.9f", sqrt(x * x + y * y + z * z) }')
+
+cat >"$output/settings.yaml" <<END
+%YAML:1.0
+File.version: "1.0"
+Camera.type: "Rectified"
+Camera1.fx: $(printf %.9f "$fx")
+Camera1.fy: $(printf %.9f "$fy")
+Camera1.cx: $(printf %.9f "$cx")
+Camera1.cy: $(printf %.9f "$cy")
+Camera.width: $width
+Camera.height: $height
+Camera.fps: $(printf %.0f "$rate")
+Camera.RGB: 1
+Stereo.b: $baseline
+Stereo.ThDepth: 40.0
+ORBextractor.nFeatures: 1200
+ORBextractor.scaleFactor: 1.2
+ORBextractor.nLevels: 8
+ORBextractor.iniThFAST: 20
+ORBextractor.minThFAST: 7
+Viewer.KeyFrameSize: 0.05
+Viewer.KeyFrameLineWidth: 1.0
+Viewer.GraphLineWidth: 0.9
+Viewer.PointSize: 2.0
+Viewer.CameraSize: 0.08
+Viewer.CameraLineWidth: 3.0
+Viewer.ViewpointX: 0.0
+Viewer.ViewpointY: -0.7
+Viewer.ViewpointZ: -1.8
+Viewer.ViewpointF: 500.0
+END
+# Frames that both eyes have, by the stamps that name the pictures.
+comm -12 <(ls "$left/data" | sort) <(ls "$right/data" | sort) | sed 's/\.png$//' | sort -n \
+  >"$output/times.txt"
+
+cd "$output"
+code=0
+"$program" "$vocabulary" settings.yaml "$recording" times.txt vinebench || code=$?
+# It may crash in its own clean-up, after the trajectory is on the disk.
+if [[ $code -ne 0 && ! -s f_vinebench.txt ]]; then
+  echo "run.sh: $program: exit code $code, and no trajectory" >&2
+  exit "$code"
+fi

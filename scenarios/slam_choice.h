@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slam/config.h"
+
+namespace vinebench {
+
+/// A SLAM system that is a program: it is given a recording of the run and leaves a trajectory.
+struct ExternalSlamConfig {
+  std::filesystem::path program;
+  /// "{recording}" and "{output}" in them stand for the folders.
+  std::vector<std::string> arguments{"{recording}", "{output}"};
+  std::string trajectory = "trajectory.txt";  ///< file that it leaves, in its output folder
+  std::string poses_of = "body";              ///< "body", or the camera whose poses it writes
+  double timeout = 3600;                      ///< s, of wall time
+  bool keep_recording = false;
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("program", program);
+    archive("arguments", arguments);
+    archive("trajectory", trajectory);
+    archive("poses_of", poses_of);
+    archive("timeout", timeout, Range::positive());
+    archive("keep_recording", keep_recording);
+    archive.require(!program.empty(), "program", "expected a file that can be run");
+    archive.require(!trajectory.empty(), "trajectory", "expected a file's name");
+  }
+};
+
+/// A SLAM system in a shared object, as of slam/base/slam_plugin.h.
+struct PluginSlamConfig {
+  std::filesystem::path library;
+  std::optional<std::filesystem::path> settings;  ///< handed on to it
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("library", library);
+    archive("settings", settings);
+    archive.require(!library.empty(), "library", "expected a shared object");
+  }
+};
+
+/// A scenario's `slam`: settings of the core, or another system in its place.
+struct SlamChoice : SlamConfig {
+  std::optional<ExternalSlamConfig> external;
+  std::optional<PluginSlamConfig> plugin;
+  template <class Archive>
+  void serialize(Archive& archive) {
+    SlamConfig::serialize(archive);
+    archive("external", external);
+    archive("plugin", plugin);
+    archive.require(!external || !plugin, "plugin", "expected one of external and plugin");
+  }
+};
+
+}  // namespace vinebench

@@ -1,0 +1,76 @@
+/* SPDX-FileCopyrightText: Vinebench authors
+ * SPDX-License-Identifier: Apache-2.0
+ *
+ * A SLAM system in plain C that stands still, for plugin_slam_test. The settings' file name says
+ * what goes wrong: *.create, *.process, *.finish, *.pose; it is the position's x in millimetres
+ * that says how many bytes of pictures and samples it was given. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "slam/base/slam_plugin.h"
+
+#ifndef FAKE_PLUGIN_VERSION
+#define FAKE_PLUGIN_VERSION VINEBENCH_SLAM_PLUGIN_VERSION
+#endif
+
+struct fake {
+  size_t cameras;
+  size_t count;
+  const char* settings;
+  vinebench_stamped_pose poses[1000];
+};
+
+static int fails(const struct fake* fake, const char* where, vinebench_message message) {
+  if (strstr(fake->settings, where) == NULL) return 0;
+  snprintf(message.text, message.size, "told to fail in %s", where);
+  return 1;
+}
+
+static void* create(const vinebench_setup* setup, vinebench_message message) {
+  struct fake* fake = calloc(1, sizeof(struct fake));
+  fake->cameras = setup->camera_count;
+  fake->settings = setup->settings;
+  if (!fails(fake, "create", message)) return fake;
+  free(fake);
+  return NULL;
+}
+
+static int process(void* system, const vinebench_frame* frame, vinebench_estimate* estimate,
+                   vinebench_message message) {
+  struct fake* fake = system;
+  vinebench_stamped_pose* pose = &fake->poses[fake->count];
+  size_t i;
+  double bytes = 0;
+  if (fails(fake, "process", message)) return 7;
+  for (i = 0; i < fake->cameras; ++i) {
+    const vinebench_image* image = &frame->images[i];
+    if (image->data != NULL) bytes += (double)image->channels * image->width * image->height;
+    estimate->counts[i].inliers = (int32_t)i + 1;
+  }
+  pose->stamp = frame->stamp;
+  pose->T_map_body.position[0] = 1e-3 * (bytes + (double)frame->imu_count);
+  pose->T_map_body.quaternion[3] = strstr(fake->settings, "pose") != NULL ? 2 : 1;
+  estimate->status = VINEBENCH_TRACKING;
+  estimate->has_pose = 1;
+  estimate->T_map_body = pose->T_map_body;
+  estimate->keyframe = fake->count++ == 0;
+  return 0;
+}
+
+static int finish(void* system, vinebench_summary* summary, vinebench_message message) {
+  struct fake* fake = system;
+  if (fails(fake, "finish", message)) return 1;
+  summary->trajectory = fake->poses;
+  summary->trajectory_count = fake->count;
+  summary->keyframes = fake->poses;
+  summary->keyframe_count = 1;
+  summary->landmarks = 5;
+  return 0;
+}
+
+const vinebench_slam_functions* vinebench_slam(void) {
+  static const vinebench_slam_functions functions = {FAKE_PLUGIN_VERSION, "fake", create,
+                                                     process,             finish, free};
+  return &functions;
+}
