@@ -42,6 +42,13 @@ function(vinebench_shards program)
   endforeach()
 endfunction()
 
+# vinebench_library(NAME): a module that others install and link, into shared objects too.
+function(vinebench_library name)
+  set_target_properties(vinebench_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  # Nobody puts a function of his own in the place of one of ours.
+  target_compile_options(vinebench_${name} PRIVATE -fno-semantic-interposition)
+endfunction()
+
 # vinebench_tests(FOLDER dependencies...): one GoogleTest program of every *_test.cpp in tests/FOLDER.
 function(vinebench_tests folder)
   string(REPLACE "/" "_" name ${folder})

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# The quick-loop scenario from end to end. Usage: quick_loop_test.sh STEP VINEBENCH ROOT WORK
+# The quick-loop scenario from end to end. Usage: quick_loop_test.sh STEP VINEBENCH ROOT WORK [PLUGIN]
 # with STEP one of
 #   verdict  its expectations hold, and a second run is the same to the byte
 #   threads  one thread gives what two give (needs verdict)
@@ -10,6 +10,8 @@
 #   map      a run in the map that verdict left finds its place there, by tag and by looks (needs
 #            verdict)
 #   replayed a replay of a recording of it gives the same estimate (0.8 s)
+#   plugin   the SLAM core behind the door for others' gives the same estimate (0.8 s); PLUGIN is
+#            examples/slam_plugin
 #   external a program takes the core's place, and its poses are judged (0.3 s)
 #   front    with the front cameras alone it is lost or ten times worse (needs verdict)
 set -euo pipefail
@@ -76,6 +78,23 @@ case $step in
     for file in estimate.tum estimate_live.tum keyframes.tum; do
       [[ -s $work/short/$file ]] || { echo "$file is empty" >&2; exit 1; }
       cmp "$work/short/$file" "$work/replayed/$file"
+    done
+    ;;
+  plugin)
+    mkdir -p "$work"
+    for run in built_in plugged; do
+      library=()
+      [[ $run == built_in ]] || library=(--set "slam.plugin.library=$5")
+      code=0
+      "$vinebench" run "$scenario" --out "$work/$run" --set duration=0.8 "${library[@]}" || code=$?
+      [[ $code -le 1 ]] || exit $code  # too short for what the scenario expects
+    done
+    for file in estimate.tum estimate_live.tum keyframes.tum; do
+      [[ -s $work/built_in/$file ]] || { echo "$file is empty" >&2; exit 1; }
+      cmp "$work/built_in/$file" "$work/plugged/$file"
+    done
+    for figure in coverage landmarks ate_rmse_m; do
+      [[ $(metric built_in $figure) == "$(metric plugged $figure)" ]]
     done
     ;;
   external)
