@@ -20,6 +20,7 @@ using Command = std::function<int()>;
 // Each adds its sub-command to the program; parsing one of them sets `chosen`.
 void add_run_command(CLI::App& app, Command& chosen);
 void add_replay_command(CLI::App& app, Command& chosen);
+void add_record_command(CLI::App& app, Command& chosen);
 void add_eval_command(CLI::App& app, Command& chosen);
 void add_render_command(CLI::App& app, Command& chosen);
 void add_bench_command(CLI::App& app, Command& chosen);
