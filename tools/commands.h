@@ -21,6 +21,7 @@ using Command = std::function<int()>;
 void add_run_command(CLI::App& app, Command& chosen);
 void add_replay_command(CLI::App& app, Command& chosen);
 void add_record_command(CLI::App& app, Command& chosen);
+void add_check_command(CLI::App& app, Command& chosen);
 void add_eval_command(CLI::App& app, Command& chosen);
 void add_render_command(CLI::App& app, Command& chosen);
 void add_bench_command(CLI::App& app, Command& chosen);

@@ -20,6 +20,7 @@ int dispatch(int argc, char** argv) {
   add_run_command(app, chosen);
   add_replay_command(app, chosen);
   add_record_command(app, chosen);
+  add_check_command(app, chosen);
   add_eval_command(app, chosen);
   add_render_command(app, chosen);
   add_bench_command(app, chosen);
