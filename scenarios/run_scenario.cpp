@@ -4,6 +4,8 @@
 
 #include <cstdlib>
 
+#include "scenarios/dataset_folder.h"
+#include "scenarios/dataset_writer.h"
 #include "slam/base/error.h"
 
 namespace vinebench {
@@ -46,15 +48,24 @@ RunOutcome run_mapping_system(const ScenarioConfig& scenario, FrameSource& sourc
   return outcome;
 }
 
-RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options) {
+RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options,
+                        const std::optional<RunRecording>& recording) {
   expect_folder(options.maps.save);  // before the vineyard is grown
   expect_folder(options.maps.cloud);
+  if (recording) claim_folder(recording->folder);
   WorkerPool pool(threads);
+  const CapturePlan plan =
+      recording ? plan_of(recording->options, load_rig(scenario.simulation.rover.rig))
+                : CapturePlan();
   const auto source = make_simulation(
-      scenario.simulation, static_cast<std::uint64_t>(scenario.seed), default_cache(), pool);
+      scenario.simulation, static_cast<std::uint64_t>(scenario.seed), default_cache(), pool, plan);
   const auto slam =
       make_slam(scenario.slam, source->rig(), registered_tags(scenario.simulation.world), pool);
-  return run_mapping_system(scenario, *source, *slam, options);
+  if (!recording) return run_mapping_system(scenario, *source, *slam, options);
+  DatasetWriter writer(recording->folder, scenario, *source, recording->options, source->size());
+  RunOptions with_writer = options;
+  with_writer.sinks.push_back(&writer);
+  return run_mapping_system(scenario, *source, *slam, with_writer);
 }
 
 }  // namespace vinebench

@@ -38,7 +38,8 @@ TEST(RunLengthTest, CountsAreCompressedAsPycocotoolsDoes) {
   EXPECT_EQ(compress({{3, 6}}, 12), "336");
   // 100 = 0b00011'00100: the low group 4 + 32 (more follow) = 36, '0' + 36 = 'T', then 3: '3'.
   EXPECT_EQ(compress({{100, 200}}, 300), "T3T3T3");
-  // The fourth count less the second: 1 - 5 = -4, in five bits 28 with its sign set: '0' + 28 = 'L'.
+  // The fourth count less the second: 1 - 5 = -4, in five bits 28 with its sign set: '0' + 28 =
+  // 'L'.
   EXPECT_EQ(compress({{0, 5}, {7, 8}}, 8), "052L");
 }
 
