@@ -44,10 +44,6 @@ bool is_known(const cv::Vec2f& flow) {
 
 }  // namespace
 
-std::string encode_png(const cv::Mat& picture) {
-  return encode(".png", picture, {});
-}
-
 std::string encode_picture(const cv::Mat& picture, PictureKind kind) {
   switch (kind) {
     case PictureKind::kJpeg:

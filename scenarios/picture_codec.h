@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/png_writer.h"
+
 namespace vinebench {
 
 /// How pictures for people and networks are stored. Labels are always PNG.
@@ -13,9 +15,6 @@ enum class PictureKind { kPng, kJpeg, kWebp };
 inline std::vector<std::string> yaml_names(PictureKind) {
   return {"png", "jpg", "webp"};
 }
-
-/// The bytes of a PNG: 8 or 16 bits, grey, RGB (not BGR) or grey with alpha none.
-std::string encode_png(const cv::Mat& picture);
 
 /// RGB or grey, 8 bits: PNG and WebP without loss, JPEG of quality 95.
 std::string encode_picture(const cv::Mat& picture, PictureKind kind);
