@@ -27,7 +27,8 @@ void add_render_command(CLI::App& app, Command& chosen);
 void add_bench_command(CLI::App& app, Command& chosen);
 void add_world_command(CLI::App& app, Command& chosen);
 
-/// A sub-command of bench's own file.
+/// Sub-commands of bench in files of their own.
 void add_bench_slam(CLI::App& bench, Command& chosen);
+void add_bench_record(CLI::App& bench, Command& chosen);
 
 }  // namespace vinebench
