@@ -8,6 +8,7 @@
 #include <array>
 
 #include "scenarios/slam_settings.h"
+#include "scenarios/tags_in_view.h"
 #include "slam/base/error.h"
 #include "slam/base/files.h"
 
@@ -87,15 +88,6 @@ std::string settings(const Rig& rig, std::int64_t frames) {
   return text;
 }
 
-std::array<Eigen::Vector2d, 4> corners(const RigCamera& camera, const Pose& T_cam_tag,
-                                       double size) {
-  const double h = size / 2;
-  return {camera.model.project(T_cam_tag * Eigen::Vector3d(-h, h, 0)),
-          camera.model.project(T_cam_tag * Eigen::Vector3d(h, h, 0)),
-          camera.model.project(T_cam_tag * Eigen::Vector3d(h, -h, 0)),
-          camera.model.project(T_cam_tag * Eigen::Vector3d(-h, -h, 0))};
-}
-
 }  // namespace
 
 DcvslamFormat::DcvslamFormat(const fs::path& folder, const RecordingNotes& notes, bool colour)
@@ -132,25 +124,14 @@ void DcvslamFormat::commit(const DatasetFrame& frame) {
 
 void DcvslamFormat::append_tags(const DatasetFrame& frame) {
   std::string rows;
-  for (const int index : frame.truth.visible_tags) {
-    const WorldConfig::Tag& tag = notes_.world_tags.at(static_cast<std::size_t>(index));
-    for (const int number : rig_.tag_cameras) {
-      const RigCamera& camera = notes_.true_cameras.at(static_cast<std::size_t>(number));
-      const Pose T_cam_tag =
-          (frame.truth.T_world_body * camera.T_body_cam).inverse() * tag_pose(tag);
-      if (T_cam_tag.translation.z() <= 0) continue;
-      const auto at = corners(camera, T_cam_tag, tag.size);
-      if (!std::ranges::all_of(at, [&](const auto& c) { return camera.model.contains(c); })) {
-        continue;
-      }
-      const Eigen::Vector3d& p = T_cam_tag.translation;
-      const Eigen::Quaterniond& q = T_cam_tag.rotation;
-      rows += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", frame.frame.stamp, frame.number,
-                          camera.name, tag.family, tag.id, tag.size, p.x(), p.y(), p.z(), q.x(),
-                          q.y(), q.z(), q.w());
-      for (const Eigen::Vector2d& c : at) rows += fmt::format(",{},{}", c.x(), c.y());
-      rows += "\n";
-    }
+  for (const TagInView& found : tags_in_view(frame, notes_)) {
+    const Eigen::Vector3d& p = found.T_cam_tag.translation;
+    const Eigen::Quaterniond& q = found.T_cam_tag.rotation;
+    rows += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", frame.frame.stamp, frame.number,
+                        rig_.cameras[found.camera].name, found.tag.family, found.tag.id,
+                        found.tag.size, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
+    for (const Eigen::Vector2d& c : found.corners) rows += fmt::format(",{},{}", c.x(), c.y());
+    rows += "\n";
   }
   tags_.append(rows);
 }
