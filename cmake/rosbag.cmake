@@ -24,7 +24,6 @@ endforeach()
 if(ROSBAG_FOUND)
   add_library(rosbag::storage INTERFACE IMPORTED)
   target_link_libraries(rosbag::storage INTERFACE ${rosbag_libraries})
-  target_compile_definitions(rosbag::storage INTERFACE VINEBENCH_HAS_ROSBAG)
 else()
   message(STATUS "Without ROS bags: librosbag-storage-dev, libsensor-msgs-dev, libnav-msgs-dev or "
                  "libtf2-msgs-dev is not installed")

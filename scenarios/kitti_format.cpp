@@ -60,7 +60,12 @@ KittiFormat::KittiFormat(const fs::path& folder, const RecordingNotes& notes, bo
       times_(folder / "times.txt"),
       poses_(folder / "poses.txt") {
   for (int i = 0; i < (colour ? 4 : 2); ++i) make_folder(folder / fmt::format("image_{}", i));
-  write_file_atomically(folder / "calib.txt", calibration(notes.rig.make(), pair_));
+  const Rig rig = notes.rig.make();
+  write_file_atomically(folder / "calib.txt", calibration(rig, pair_));
+  const auto name = [&](int camera) { return rig.cameras[static_cast<std::size_t>(camera)].name; };
+  const RecordingNotes of_pair = with_cameras(notes, {name(pair_.left), name(pair_.right)});
+  write_file_atomically(folder / "rig.yaml", format_yaml(of_pair.rig));
+  write_file_atomically(folder / "slam.yaml", format_yaml(notes.slam));
 }
 
 std::vector<FileTask> KittiFormat::files(const std::shared_ptr<const DatasetFrame>& frame) {
