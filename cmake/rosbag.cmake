@@ -21,6 +21,16 @@ foreach(header rosbag/bag.h sensor_msgs/CameraInfo.h nav_msgs/Odometry.h tf2_msg
   endif()
 endforeach()
 
+# rosbag/bag.h names headers of these packages, which lie in folders of their own.
+set(ROSBAG_COMPILE_OPTIONS -DVINEBENCH_HAS_ROSBAG)
+foreach(package pluginlib class_loader rcpputils rcutils ament_index_cpp)
+  find_path(ROSBAG_${package}_include NAMES ${package} PATH_SUFFIXES ${package} NO_CACHE
+            PATHS /usr/include NO_DEFAULT_PATH)
+  if(ROSBAG_${package}_include)
+    list(APPEND ROSBAG_COMPILE_OPTIONS -isystem ${ROSBAG_${package}_include})
+  endif()
+endforeach()
+
 if(ROSBAG_FOUND)
   add_library(rosbag::storage INTERFACE IMPORTED)
   target_link_libraries(rosbag::storage INTERFACE ${rosbag_libraries})
