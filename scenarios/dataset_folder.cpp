@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <system_error>
+#include <vector>
 
 #include "scenarios/dataset_format.h"
 #include "slam/base/error.h"
@@ -25,6 +26,18 @@ std::filesystem::path claim_folder(const std::filesystem::path& folder) {
     fail("recording {}: cannot be written to: {}", folder.string(), std::strerror(errno));
   }
   return folder;
+}
+
+void clear_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::vector<std::filesystem::path> entries;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    entries.push_back(entry.path());
+  }
+  for (const std::filesystem::path& entry : entries) {
+    if (!error) std::filesystem::remove_all(entry, error);
+  }
+  if (error) fail("recording {}: cannot be cleared: {}", folder.string(), error.message());
 }
 
 }  // namespace vinebench

@@ -10,4 +10,7 @@ namespace vinebench {
 /// made, cannot be written to, or has something in it.
 std::filesystem::path claim_folder(const std::filesystem::path& folder);
 
+/// Removes what is in a folder, and leaves the folder. Throws Error.
+void clear_folder(const std::filesystem::path& folder);
+
 }  // namespace vinebench

@@ -86,14 +86,25 @@ DatasetWriter::DatasetWriter(const fs::path& folder, const ScenarioConfig& scena
       card_(card_of(scenario, options, source.rig(), planned)) {
   const RecordingNotes notes = with_cameras(notes_of(scenario), options.cameras);
   claim_folder(folder);
-  write_card(folder, card_);
-  write_file_atomically(folder / "scenario.resolved.yaml", format_yaml(scenario));
+  try {
+    begin(scenario, notes, source.scene());
+  } catch (const Error&) {  // a format that does not go with the rig: the folder stays as it was
+    clear_folder(folder);
+    throw;
+  }
+}
+
+void DatasetWriter::begin(const ScenarioConfig& scenario, const RecordingNotes& notes,
+                          const SceneIndex& scene) {
+  DatasetEncoder::Formats formats = make_formats(notes, scene);
+  write_card(folder_, card_);
+  write_file_atomically(folder_ / "scenario.resolved.yaml", format_yaml(scenario));
   Rig rig = notes.rig.make();
   rig.cameras = notes.true_cameras;
-  write_file_atomically(folder / "calibration.yaml", format_calibration(rig));
-  manifest_ = std::make_unique<FileManifest>(folder);
-  encoder_ = std::make_unique<DatasetEncoder>(make_formats(notes, source.scene()), options.threads,
-                                              folder, manifest_.get());
+  write_file_atomically(folder_ / "calibration.yaml", format_calibration(rig));
+  manifest_ = std::make_unique<FileManifest>(folder_);
+  encoder_ = std::make_unique<DatasetEncoder>(std::move(formats), options_.threads, folder_,
+                                              manifest_.get());
 }
 
 DatasetEncoder::Formats DatasetWriter::make_formats(const RecordingNotes& notes,

@@ -32,6 +32,7 @@ class DatasetWriter : public Sink {
   std::uint64_t bytes() const { return encoder_->bytes(); }
 
  private:
+  void begin(const ScenarioConfig& scenario, const RecordingNotes& notes, const SceneIndex& scene);
   DatasetEncoder::Formats make_formats(const RecordingNotes& notes, const SceneIndex& scene) const;
   DatasetFrame frame_of(const Sample& sample) const;
 

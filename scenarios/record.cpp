@@ -49,12 +49,7 @@ bool has_sequence(const fs::path& folder, const std::string& settings) {
          folder.string());
   }
   if (card.complete) return true;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    fs::remove_all(entry.path(), error);
-    if (error) break;
-  }
-  if (error) fail("recording {}: cannot be removed: {}", folder.string(), error.message());
+  clear_folder(folder);
   return false;
 }
 

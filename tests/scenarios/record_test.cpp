@@ -142,7 +142,11 @@ TEST_F(RecordTest, BadRequestsAreOneError) {
   request_.options.cameras = {"lefft"};
   EXPECT_THAT(error_of([&] { record({"rgb"}); }), HasSubstr("no camera named 'lefft'"));
   request_.options.cameras = {"left"};
-  EXPECT_THAT(error_of([&] { record({"kitti"}); }), HasSubstr("kitti: expected a stereo pair"));
+  EXPECT_THAT(error_of([&] {
+                record({"rgb", "kitti"});
+              }),
+              HasSubstr("kitti: expected a stereo pair"));
+  EXPECT_TRUE(std::filesystem::is_empty(request_.out));
   request_.options.cameras = {};
   request_.out = folder_ / "late";
   request_.options.first = 1000;
