@@ -31,6 +31,7 @@ foreach(package pluginlib class_loader rcpputils rcutils ament_index_cpp)
   endif()
 endforeach()
 
+set(ROSBAG_FOUND FALSE)
 if(ROSBAG_FOUND)
   add_library(rosbag::storage INTERFACE IMPORTED)
   target_link_libraries(rosbag::storage INTERFACE ${rosbag_libraries})

@@ -23,6 +23,7 @@ std::unique_ptr<DatasetFormat> make_ros_format(const std::filesystem::path&,
 
 #else
 
+#include <geometry_msgs/PoseStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <rosbag/bag.h>
 #include <rosgraph_msgs/Clock.h>
@@ -32,7 +33,9 @@ std::unique_ptr<DatasetFormat> make_ros_format(const std::filesystem::path&,
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
+#include <memory>
 #include <system_error>
+#include <utility>
 
 #include "scenarios/tags_in_view.h"
 
@@ -40,6 +43,27 @@ namespace vinebench {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// What ROS's messages ask of an allocator, which C++20's has no more.
+struct RosMemory {
+  template <class T>
+  struct rebind {
+    using other = std::allocator<T>;
+  };
+};
+using Header = std_msgs::Header_<RosMemory>;
+using Point = geometry_msgs::Point_<RosMemory>;
+using Vector3 = geometry_msgs::Vector3_<RosMemory>;
+using Quaternion = geometry_msgs::Quaternion_<RosMemory>;
+using PoseMessage = geometry_msgs::Pose_<RosMemory>;
+using PoseStamped = geometry_msgs::PoseStamped_<RosMemory>;
+using TransformStamped = geometry_msgs::TransformStamped_<RosMemory>;
+using Transforms = tf2_msgs::TFMessage_<RosMemory>;
+using Odometry = nav_msgs::Odometry_<RosMemory>;
+using Image = sensor_msgs::Image_<RosMemory>;
+using CameraInfo = sensor_msgs::CameraInfo_<RosMemory>;
+using Imu = sensor_msgs::Imu_<RosMemory>;
+using Clock = rosgraph_msgs::Clock_<RosMemory>;
 
 constexpr const char* kWorld = "world";
 constexpr const char* kBody = "base_link";
@@ -50,8 +74,8 @@ ros::Time time_of(Stamp stamp) {
   return time.fromNSec(static_cast<std::uint64_t>(std::max<Stamp>(1, stamp)));
 }
 
-geometry_msgs::Quaternion message(const Eigen::Quaterniond& q) {
-  geometry_msgs::Quaternion m;
+Quaternion message(const Eigen::Quaterniond& q) {
+  Quaternion m;
   m.x = q.x();
   m.y = q.y();
   m.z = q.z();
@@ -68,20 +92,20 @@ Message message(const Eigen::Vector3d& v) {
   return m;
 }
 
-geometry_msgs::Pose message(const Pose& T) {
-  geometry_msgs::Pose m;
-  m.position = message<geometry_msgs::Point>(T.translation);
+PoseMessage message(const Pose& T) {
+  PoseMessage m;
+  m.position = message<Point>(T.translation);
   m.orientation = message(T.rotation);
   return m;
 }
 
-geometry_msgs::TransformStamped transform(const std::string& parent, const std::string& child,
-                                          const Pose& T_parent_child, const ros::Time& time) {
-  geometry_msgs::TransformStamped m;
+TransformStamped transform(const std::string& parent, const std::string& child,
+                           const Pose& T_parent_child, const ros::Time& time) {
+  TransformStamped m;
   m.header.stamp = time;
   m.header.frame_id = parent;
   m.child_frame_id = child;
-  m.transform.translation = message<geometry_msgs::Vector3>(T_parent_child.translation);
+  m.transform.translation = message<Vector3>(T_parent_child.translation);
   m.transform.rotation = message(T_parent_child.rotation);
   return m;
 }
@@ -106,7 +130,7 @@ class RosFormat : public DatasetFormat {
     guarded([&] {
       const ros::Time now = time_of(frame.frame.stamp);
       write_readings(frame.frame);
-      rosgraph_msgs::Clock clock;
+      Clock clock;
       clock.clock = now;
       bag_.write("/clock", now, clock);
       write_poses(frame.truth.T_world_body, now);
@@ -137,28 +161,28 @@ class RosFormat : public DatasetFormat {
 
   void write_readings(const Frame& frame) {
     for (const ImuSample& reading : frame.imu) {
-      sensor_msgs::Imu m;
+      Imu m;
       m.header.stamp = time_of(reading.stamp);
       m.header.frame_id = kBody;
-      m.angular_velocity = message<geometry_msgs::Vector3>(reading.angular_velocity);
-      m.linear_acceleration = message<geometry_msgs::Vector3>(reading.specific_force);
+      m.angular_velocity = message<Vector3>(reading.angular_velocity);
+      m.linear_acceleration = message<Vector3>(reading.specific_force);
       m.orientation_covariance[0] = -1;  // there is no orientation
       bag_.write("/imu", m.header.stamp, m);
     }
   }
 
   void write_poses(const Pose& T_world_body, const ros::Time& now) {
-    nav_msgs::Odometry odometry;
+    Odometry odometry;
     odometry.header.stamp = now;
     odometry.header.frame_id = kWorld;
     odometry.child_frame_id = kBody;
     odometry.pose.pose = message(T_world_body);
     bag_.write("/odom", now, odometry);
-    tf2_msgs::TFMessage moving;
+    Transforms moving;
     moving.transforms.push_back(transform(kWorld, kBody, T_world_body, now));
     bag_.write("/tf", now, moving);
     if (std::exchange(told_mounts_, true)) return;
-    tf2_msgs::TFMessage fixed;
+    Transforms fixed;
     for (const RigCamera& camera : rig_.cameras) {
       fixed.transforms.push_back(transform(kBody, optical_frame(camera), camera.T_body_cam, now));
     }
@@ -167,7 +191,7 @@ class RosFormat : public DatasetFormat {
 
   void write_tags(const DatasetFrame& frame, const ros::Time& now) {
     for (const TagInView& tag : tags_in_view(frame, notes_)) {
-      geometry_msgs::PoseStamped m;
+      PoseStamped m;
       m.header.stamp = now;
       m.header.frame_id = optical_frame(rig_.cameras[tag.camera]);
       m.pose = message(tag.T_cam_tag);
@@ -177,7 +201,7 @@ class RosFormat : public DatasetFormat {
 
   void write_camera(std::size_t index, const cv::Mat& picture, const ros::Time& now) {
     const RigCamera& camera = rig_.cameras[index];
-    sensor_msgs::Image image;
+    Image image;
     image.header.stamp = now;
     image.header.frame_id = optical_frame(camera);
     image.width = static_cast<std::uint32_t>(picture.cols);
@@ -190,9 +214,9 @@ class RosFormat : public DatasetFormat {
     bag_.write("/" + camera.name + "/camera_info", now, info_of(index, image.header));
   }
 
-  sensor_msgs::CameraInfo info_of(std::size_t index, const std_msgs::Header& header) const {
+  CameraInfo info_of(std::size_t index, const Header& header) const {
     const PinholeCamera& c = rig_.cameras[index].model;
-    sensor_msgs::CameraInfo info;
+    CameraInfo info;
     info.header = header;
     info.width = static_cast<std::uint32_t>(c.width);
     info.height = static_cast<std::uint32_t>(c.height);
