@@ -11,7 +11,6 @@
 #include "scenarios/euroc_format.h"
 #include "scenarios/kitti_format.h"
 #include "scenarios/label_formats.h"
-#include "scenarios/ros_format.h"
 #include "scenarios/tum_format.h"
 #include "slam/base/error.h"
 #include "slam/base/files.h"
@@ -138,7 +137,6 @@ DatasetEncoder::Formats DatasetWriter::make_formats(const RecordingNotes& notes,
         CocoOptions{options_.pictures, options_.categories,
                     options_.sequence * kCocoImagesPerSequence + 1});
   });
-  add(kRos, [&](const fs::path& to) { return make_ros_format(to, notes); });
   if (options_.has(kFlow) || options_.has(kFlo)) {
     const auto folder = [&](RecordFormat format) {
       return options_.has(format) ? folder_ / name_of(format) : fs::path();

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <charconv>
 
-#include "scenarios/ros_format.h"
 #include "slam/base/error.h"
 
 namespace vinebench {
@@ -55,14 +54,6 @@ CapturePlan plan_of(const RecordOptions& options, const Rig& rig) {
     plan.cameras[static_cast<std::size_t>(camera)] = true;
   }
   return plan;
-}
-
-std::vector<std::string> all_formats() {
-  std::vector<std::string> names = yaml_names(RecordFormat{});
-  if (!can_write_ros()) {
-    std::erase(names, names[static_cast<std::size_t>(RecordFormat::kRos)]);
-  }
-  return names;
 }
 
 std::set<RecordFormat> parse_formats(const std::vector<std::string>& names) {

@@ -28,8 +28,7 @@ enum class RecordFormat {
   kNormals,
   kSemantic,
   kInstances,
-  kCoco,
-  kRos
+  kCoco
 };
 inline std::vector<std::string> yaml_names(RecordFormat) {
   return {"euroc", "kitti", "tum",     "dcvslam",  "rgb",       "depth", "depth32", "disparity",
@@ -56,9 +55,6 @@ struct RecordOptions {
 
 /// What the formats ask of the simulation. Throws Error for a camera that the rig has not.
 CapturePlan plan_of(const RecordOptions& options, const Rig& rig);
-
-/// Names of all formats that this program can write.
-std::vector<std::string> all_formats();
 
 /// "euroc,depth" and so on. Throws Error that lists what there is.
 std::set<RecordFormat> parse_formats(const std::vector<std::string>& names);

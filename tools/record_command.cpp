@@ -67,7 +67,7 @@ void add_what(CLI::App& command, RecordArguments& arguments) {
   command
       .add_option("--format", arguments.formats,
                   "Some of euroc, kitti, tum, dcvslam, rgb, depth, depth32, disparity, flow, flo, "
-                  "normals, semantic, instances, coco, ros; commas between them")
+                  "normals, semantic, instances, coco; commas between them")
       ->required()
       ->delimiter(',');
   command.add_option("--cameras", options.cameras, "Names of cameras of the rig (default: all)")
