@@ -2,239 +2,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/euroc_writer.h"
 
-#include <fmt/ranges.h>
-
-#include <deque>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
-#include <system_error>
-
-#include "scenarios/append_file.h"
-#include "scenarios/background_worker.h"
-#include "scenarios/tag_list.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
+#include "scenarios/dataset_folder.h"
+#include "scenarios/euroc_format.h"
 
 namespace vinebench {
 namespace {
 
-namespace fs = std::filesystem;
+constexpr int kThreads = 1;
 
-constexpr std::size_t kWaitingFrames = 4;
-
-constexpr const char* kImuHeader =
-    "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
-    "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\n";
-constexpr const char* kWheelHeader =
-    "#timestamp [ns],front left [rad],front right [rad],rear left [rad],rear right [rad],"
-    "front left [rad s^-1],front right [rad s^-1],rear left [rad s^-1],rear right [rad s^-1]\n";
-constexpr const char* kTruthHeader =
-    "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],"
-    "q_RS_z [],v_RS_R_x [m s^-1],v_RS_R_y [m s^-1],v_RS_R_z [m s^-1],b_w_RS_S_x [rad s^-1],"
-    "b_w_RS_S_y [rad s^-1],b_w_RS_S_z [rad s^-1],b_a_RS_S_x [m s^-2],b_a_RS_S_y [m s^-2],"
-    "b_a_RS_S_z [m s^-2]\n";
-
-/// A folder that is ours alone to fill.
-fs::path claim_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) fail("recording {}: cannot be made: {}", folder.string(), error.message());
-  const bool empty = fs::is_empty(folder, error);
-  if (error) fail("recording {}: cannot be read: {}", folder.string(), error.message());
-  if (!empty)
-    fail("recording {}: is not empty; expected a new or an empty folder", folder.string());
-  return folder;
-}
-
-fs::path make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) fail("recording {}: cannot be made: {}", folder.string(), error.message());
-  return folder;
-}
-
-std::string format_transform(const Pose& T_BS) {
-  const Eigen::Matrix4d T = T_BS.matrix();
-  std::string rows;
-  for (Eigen::Index row = 0; row < 4; ++row) {
-    rows += fmt::format("{}{}, {}, {}, {}", row == 0 ? "[" : ",\n         ", T(row, 0), T(row, 1),
-                        T(row, 2), T(row, 3));
-  }
-  return fmt::format("T_BS:\n  cols: 4\n  rows: 4\n  data: {}]\n", rows);
-}
-
-std::string describe_camera(const RigCamera& camera, double rate_hz) {
-  const PinholeCamera& lens = camera.model;
-  return fmt::format(
-      "sensor_type: camera\ncomment: {}\n{}rate_hz: {}\nresolution: [{}, {}]\n"
-      "camera_model: pinhole\nintrinsics: [{}, {}, {}, {}]\n"
-      "distortion_model: radial-tangential\ndistortion_coefficients: [{}]\n",
-      camera.name, format_transform(camera.T_body_cam), rate_hz, lens.width, lens.height, lens.fx,
-      lens.fy, lens.cx, lens.cy, fmt::join(lens.distortion, ", "));
-}
-
-std::string describe_imu(const RecordingNotes& notes) {
-  const auto& [gyroscope, accelerometer] = notes.imu;
-  return fmt::format(
-      "sensor_type: imu\ncomment: inertial unit\n{}rate_hz: {}\ngyroscope_noise_density: {}\n"
-      "gyroscope_random_walk: {}\naccelerometer_noise_density: {}\n"
-      "accelerometer_random_walk: {}\n",
-      format_transform(Pose{}), notes.imu_rate_hz, gyroscope.noise_density,
-      gyroscope.bias_random_walk, accelerometer.noise_density, accelerometer.bias_random_walk);
-}
-
-/// What the SLAM core sees of a picture, in memory of its own: a source may use the picture's again
-/// for the next frame.
-cv::Mat grey_copy(const cv::Mat& image) {
-  if (image.channels() == 1) return image.clone();
-  cv::Mat grey;
-  cv::cvtColor(image, grey, cv::COLOR_RGB2GRAY);
-  return grey;
-}
-
-std::string encode_png(const cv::Mat& grey) {
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", grey, bytes)) fail("a picture cannot be encoded as PNG");
-  return {bytes.begin(), bytes.end()};
+DatasetEncoder::Formats euroc_alone(const std::filesystem::path& folder,
+                                    const RecordingNotes& notes) {
+  DatasetEncoder::Formats formats;
+  formats.push_back(std::make_unique<EurocFormat>(claim_folder(folder), notes, false));
+  return formats;
 }
 
 }  // namespace
 
-RecordingNotes notes_of(const ScenarioConfig& scenario) {
-  RecordingNotes notes;
-  notes.rig = YamlDocument::load(scenario.simulation.rover.rig).read<RigConfig>();
-  notes.tags = registered_tags(scenario.simulation.world);
-  notes.slam = scenario.slam;
-  notes.imu_rate_hz = scenario.simulation.rover.imu_rate_hz;
-  notes.imu = scenario.simulation.sensors.inertial;
-  notes.comment = scenario.name;
-  return notes;
-}
-
-/// Touched by the worker's thread alone once the recording runs.
-class EurocWriter::Files {
- public:
-  Files(const fs::path& folder, const RecordingNotes& notes)
-      : mav_(make_folder(claim_folder(folder) / "mav0")),
-        frames_(folder / "frames.csv"),
-        imu_(make_folder(mav_ / "imu0") / "data.csv"),
-        wheels_(make_folder(mav_ / "wheels0") / "data.csv"),
-        truth_(make_folder(mav_ / "state_groundtruth_estimate0") / "data.csv") {
-    frames_.append("#timestamp [ns]\n");
-    imu_.append(kImuHeader);
-    wheels_.append(kWheelHeader);
-    truth_.append(kTruthHeader);
-    write_file_atomically(folder / "rig.yaml", format_yaml(notes.rig));
-    write_file_atomically(folder / "tags.yaml", format_tags(notes.tags));
-    write_file_atomically(folder / "slam.yaml", format_yaml(notes.slam));
-    write_file_atomically(mav_ / "body.yaml", fmt::format("comment: {}\n", notes.comment));
-    write_file_atomically(mav_ / "imu0/sensor.yaml", describe_imu(notes));
-    write_file_atomically(
-        mav_ / "state_groundtruth_estimate0/sensor.yaml",
-        "sensor_type: visual-inertial\ncomment: true poses\n" + format_transform(Pose{}));
-    const Rig rig = notes.rig.make();
-    for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
-      const fs::path camera = mav_ / fmt::format("cam{}", i);
-      make_folder(camera / "data");
-      write_file_atomically(camera / "sensor.yaml", describe_camera(rig.cameras[i], rig.rate_hz));
-      cameras_.emplace_back(camera / "data.csv").append("#timestamp [ns],filename\n");
-    }
-  }
-
-  /// Pictures first: what is in the lists is on the disk.
-  void write(const Frame& frame, const Truth& truth) {
-    const std::string name = fmt::format("{}.png", frame.stamp);
-    for (std::size_t i = 0; i < frame.images.size(); ++i) {
-      if (frame.images[i].empty()) continue;
-      write_file_atomically(mav_ / fmt::format("cam{}/data", i) / name,
-                            encode_png(frame.images[i]));
-    }
-    for (std::size_t i = 0; i < frame.images.size(); ++i) {
-      if (frame.images[i].empty()) continue;
-      cameras_[i].append(fmt::format("{},{}\n", frame.stamp, name));
-    }
-    write_readings(frame);
-    write_truth({frame.stamp, truth.T_world_body});
-    frames_.append(fmt::format("{}\n", frame.stamp));
-  }
-
-  /// The last true pose waits for the next one, which its speed is computed with.
-  void finish() {
-    if (poses_.empty()) return;
-    append_truth(poses_.back(), poses_.front(), poses_.back());
-    poses_.clear();
-  }
-
- private:
-  void write_readings(const Frame& frame) {
-    std::string rows;
-    for (const ImuSample& s : frame.imu) {
-      const Eigen::Vector3d& w = s.angular_velocity;
-      const Eigen::Vector3d& a = s.specific_force;
-      rows +=
-          fmt::format("{},{},{},{},{},{},{}\n", s.stamp, w.x(), w.y(), w.z(), a.x(), a.y(), a.z());
-    }
-    imu_.append(rows);
-    rows.clear();
-    for (const WheelSample& s : frame.wheels) {
-      rows +=
-          fmt::format("{},{},{}\n", s.stamp, fmt::join(s.angle, ","), fmt::join(s.velocity, ","));
-    }
-    wheels_.append(rows);
-  }
-
-  void write_truth(const StampedPose& now) {
-    poses_.push_back(now);
-    if (poses_.size() == 2) append_truth(poses_[0], poses_[0], poses_[1]);
-    if (poses_.size() < 3) return;
-    append_truth(poses_[1], poses_[0], poses_[2]);
-    poses_.pop_front();
-  }
-
-  /// With the mean velocity from one pose to another; biases are the sensor models' secret.
-  void append_truth(const StampedPose& at, const StampedPose& from, const StampedPose& to) {
-    const double seconds = to_seconds(to.stamp - from.stamp);
-    Eigen::Vector3d v = Eigen::Vector3d::Zero();
-    if (seconds > 0) v = (to.pose.translation - from.pose.translation) / seconds;
-    const Eigen::Vector3d& p = at.pose.translation;
-    const Eigen::Quaterniond& q = at.pose.rotation;
-    truth_.append(fmt::format("{},{},{},{},{},{},{},{},{},{},{},0,0,0,0,0,0\n", at.stamp, p.x(),
-                              p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), v.x(), v.y(), v.z()));
-  }
-
-  fs::path mav_;
-  AppendFile frames_;
-  AppendFile imu_;
-  AppendFile wheels_;
-  AppendFile truth_;
-  std::vector<AppendFile> cameras_;
-  std::deque<StampedPose> poses_;  ///< the last two
-};
-
-struct EurocWriter::State {
-  State(const fs::path& folder, const RecordingNotes& notes)
-      : files(folder, notes), worker(kWaitingFrames) {}
-  Files files;
-  BackgroundWorker worker;  // last: it must go first
-};
-
-EurocWriter::EurocWriter(const fs::path& folder, const RecordingNotes& notes)
-    : state_(std::make_unique<State>(folder, notes)) {}
-EurocWriter::~EurocWriter() = default;
+EurocWriter::EurocWriter(const std::filesystem::path& folder, const RecordingNotes& notes)
+    : encoder_(euroc_alone(folder, notes), kThreads) {}
 
 void EurocWriter::on_tick(const Sample& sample, const Estimate&) {
-  Frame frame = sample.frame;
-  for (cv::Mat& image : frame.images) {
-    if (!image.empty()) image = grey_copy(image);
-  }
-  state_->worker.submit([this, frame = std::move(frame), truth = sample.truth] {
-    state_->files.write(frame, truth);
-  });
+  encoder_.submit(own_frame(sample, sample.frame.index));
 }
 
 void EurocWriter::on_finish(const SlamSummary&) {
-  state_->worker.wait();
-  state_->files.finish();
+  encoder_.finish();
 }
 
 }  // namespace vinebench

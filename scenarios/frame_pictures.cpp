@@ -3,27 +3,12 @@
 #include "scenarios/frame_pictures.h"
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <string_view>
 
-#include "slam/base/error.h"
+#include "scenarios/picture_codec.h"
 #include "slam/base/files.h"
 
 namespace vinebench {
-namespace {
-
-std::string encode_png(const cv::Mat& image) {
-  cv::Mat
-      bgr;  // not a second name of the picture: that would turn its colours for those who follow
-  if (image.channels() == 3) cv::cvtColor(image, bgr, cv::COLOR_RGB2BGR);
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", bgr.empty() ? image : bgr, bytes))
-    fail("a picture cannot be encoded as PNG");
-  return {bytes.begin(), bytes.end()};
-}
-
-}  // namespace
 
 FramePictures::FramePictures(std::filesystem::path folder, const Rig& rig, std::int64_t total,
                              int count)

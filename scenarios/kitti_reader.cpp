@@ -181,6 +181,12 @@ fs::path find_poses(const fs::path& folder) {
   return {};
 }
 
+/// What our recordings have beside KITTI's own; nothing where it is not there.
+fs::path ours(const fs::path& file) {
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored) ? file : fs::path();
+}
+
 /// The pictures tell their size; calib.txt does not.
 void set_sizes(Recording& recording) {
   for (std::size_t camera = 0; camera < recording.rig.cameras.size(); ++camera) {
@@ -212,13 +218,14 @@ Recording read_kitti(const fs::path& folder, const RecordingOptions& options) {
   }
   Recording recording;
   recording.format = "KITTI odometry";
-  recording.rig =
-      options.rig.empty() ? read_rig(folder, *layout) : load_rig_for(options.rig, kEyes);
+  const fs::path rig = options.rig.empty() ? ours(folder / "rig.yaml") : options.rig;
+  recording.rig = rig.empty() ? read_rig(folder, *layout) : load_rig_for(rig, kEyes);
   recording.T_body_left =
-      options.rig.empty() ? first_camera_mount() : recording.rig.cameras.front().T_body_cam;
+      rig.empty() ? first_camera_mount() : recording.rig.cameras.front().T_body_cam;
+  recording.settings = ours(folder / "slam.yaml");
   recording.frames = read_frames(folder, *layout);
   read_times(folder, recording);
-  if (options.rig.empty()) set_sizes(recording);
+  if (rig.empty()) set_sizes(recording);
   const fs::path poses = find_poses(folder);
   if (options.groundtruth.empty() && !poses.empty()) {
     recording.truth = read_groundtruth(poses, recording);

@@ -33,8 +33,13 @@ const char* status_text(const Estimate& estimate) {
 
 }  // namespace
 
-Progress::Progress(std::ostream& out, bool terminal, std::string title, std::int64_t total)
-    : out_(out), terminal_(terminal), title_(std::move(title)), total_(total) {}
+Progress::Progress(std::ostream& out, bool terminal, std::string title, std::int64_t total,
+                   std::function<std::string()> note)
+    : out_(out),
+      terminal_(terminal),
+      title_(std::move(title)),
+      total_(total),
+      note_(std::move(note)) {}
 
 double Progress::seconds_per_frame() const {
   const std::chrono::duration<double> elapsed = Clock::now() - start_;
@@ -46,7 +51,7 @@ std::string Progress::line(const Estimate& estimate) const {
       seconds_per_frame() * static_cast<double>(std::max<std::int64_t>(0, total_ - done_));
   return fmt::format("frame {}/{}, {:.1f} frames/s, {} left, {}", done_, total_,
                      1 / std::max(1e-9, seconds_per_frame()), clock_text(left),
-                     status_text(estimate));
+                     note_ ? note_() : status_text(estimate));
 }
 
 void Progress::on_tick(const Sample&, const Estimate& estimate) {

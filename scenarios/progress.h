@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <ostream>
 #include <string>
 
@@ -14,7 +15,9 @@ namespace vinebench {
 /// every 5 %) elsewhere.
 class Progress : public Sink {
  public:
-  Progress(std::ostream& out, bool terminal, std::string title, std::int64_t total);
+  /// Says at the end of a line what `note` answers, or how tracking is where there is none.
+  Progress(std::ostream& out, bool terminal, std::string title, std::int64_t total,
+           std::function<std::string()> note = {});
   void on_tick(const Sample& sample, const Estimate& estimate) override;
   void on_finish(const SlamSummary& summary) override;
 
@@ -27,6 +30,7 @@ class Progress : public Sink {
   bool terminal_;
   std::string title_;
   std::int64_t total_;
+  std::function<std::string()> note_;
   std::int64_t done_ = 0;
   std::int64_t next_percent_ = 0;
   Clock::time_point start_ = Clock::now();

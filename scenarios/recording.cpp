@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "scenarios/dataset_card.h"
 #include "scenarios/recorded_pictures.h"
 #include "scenarios/recording_readers.h"
 #include "slam/base/error.h"
@@ -108,6 +109,16 @@ class RecordingSource : public FrameSource {
   StageTimes times_;
 };
 
+/// A data set of ours has its formats side by side, in folders of their names.
+fs::path readable_part(const fs::path& folder) {
+  if (is_euroc(folder) || is_kitti(folder) || !has_card(folder)) return folder;
+  std::error_code ignored;
+  for (const char* format : {"euroc", "kitti"}) {
+    if (fs::is_directory(folder / format, ignored)) return folder / format;
+  }
+  return folder;
+}
+
 }  // namespace
 
 std::optional<Pose> pose_at(const Trajectory& trajectory, Stamp stamp, Stamp max_gap) {
@@ -131,19 +142,20 @@ Rig load_rig_for(const fs::path& file, std::size_t cameras) {
   return rig;
 }
 
-Recording open_recording(const fs::path& folder, const RecordingOptions& options) {
+Recording open_recording(const fs::path& named, const RecordingOptions& options) {
   std::error_code ignored;
-  if (!fs::is_directory(folder, ignored)) {
-    fail("{}: expected a folder: {}", folder.string(), kFormats);
+  if (!fs::is_directory(named, ignored)) {
+    fail("{}: expected a folder: {}", named.string(), kFormats);
   }
+  const fs::path folder = readable_part(named);
   const bool euroc = is_euroc(folder);
   if (!euroc && !is_kitti(folder)) {
     fail("{}: is no recording: expected {}", folder.string(), kFormats);
   }
   Recording recording = euroc ? read_euroc(folder, options) : read_kitti(folder, options);
-  recording.name = fs::weakly_canonical(folder).filename().string();
+  recording.name = fs::weakly_canonical(named).filename().string();
   if (recording.name == "mav0") {
-    recording.name = fs::weakly_canonical(folder).parent_path().filename().string();
+    recording.name = fs::weakly_canonical(named).parent_path().filename().string();
   }
   if (recording.frames.empty()) fail("{}: has no pictures", folder.string());
   if (!options.groundtruth.empty()) {

@@ -43,8 +43,9 @@ struct RecordingOptions {
 };
 
 /// Reads the index of a recording, whose format it recognises by its folders: EuRoC/ASL or KITTI
-/// odometry. Faults of single frames become events of theirs; a calibration that cannot be used, a
-/// folder without pictures and pictures of another size than the calibration's throw Error.
+/// odometry, or a data set of ours that has one of them. Faults of single frames become events of
+/// theirs; a calibration that cannot be used, a folder without pictures and pictures of another
+/// size than the calibration's throw Error.
 Recording open_recording(const std::filesystem::path& folder, const RecordingOptions& options = {});
 
 /// Gives a recording frame by frame, the cameras' pictures in grey. A picture that is not there,

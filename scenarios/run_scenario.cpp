@@ -4,6 +4,8 @@
 
 #include <cstdlib>
 
+#include "scenarios/dataset_folder.h"
+#include "scenarios/dataset_writer.h"
 #include "scenarios/external_slam.h"
 #include "scenarios/look_ahead.h"
 #include "scenarios/plugin_slam.h"
@@ -93,25 +95,37 @@ RunOutcome run_mapping_system(const ScenarioConfig& scenario, FrameSource& sourc
   return outcome;
 }
 
-RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options) {
+RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options,
+                        const std::optional<RunRecording>& recording) {
   expect_folder(options.maps.save);  // before the vineyard is grown
   expect_folder(options.maps.cloud);
   const bool ours = !scenario.slam.external && !scenario.slam.plugin;
   if (!ours) expect_no_maps(options.maps);
+  if (recording) claim_folder(recording->folder);
   // A pool each, for drawing and estimating go on at the same time.
   WorkerPool drawing(threads);
   WorkerPool estimating(threads);
-  const auto simulation = make_simulation(
-      scenario.simulation, static_cast<std::uint64_t>(scenario.seed), default_cache(), drawing);
+  const CapturePlan plan =
+      recording ? plan_of(recording->options, load_rig(scenario.simulation.rover.rig))
+                : CapturePlan();
+  const auto simulation =
+      make_simulation(scenario.simulation, static_cast<std::uint64_t>(scenario.seed),
+                      default_cache(), drawing, plan);
   std::optional<LookAhead> ahead;
   if (threads > 1 && scenario.simulation.route.steering == Steering::kTruth) {
     ahead.emplace(*simulation);
   }
-  FrameSource& source = ahead ? *ahead : *simulation;
-  if (!ours) return run_other_system(scenario, source, threads, options);
+  FrameSource& source = ahead ? static_cast<FrameSource&>(*ahead) : *simulation;
+  RunOptions with_writer = options;
+  std::optional<DatasetWriter> writer;
+  if (recording) {
+    writer.emplace(recording->folder, scenario, *simulation, recording->options, source.size());
+    with_writer.sinks.push_back(&*writer);
+  }
+  if (!ours) return run_other_system(scenario, source, threads, with_writer);
   const auto slam = make_slam(scenario.slam, source.rig(),
                               registered_tags(scenario.simulation.world), estimating);
-  return run_mapping_system(scenario, source, *slam, options);
+  return run_mapping_system(scenario, source, *slam, with_writer);
 }
 
 }  // namespace vinebench

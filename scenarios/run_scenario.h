@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
+#include "scenarios/record_options.h"
 #include "scenarios/run.h"
 
 namespace vinebench {
@@ -15,8 +18,15 @@ std::filesystem::path default_cache();
 RunOutcome run_mapping_system(const ScenarioConfig& scenario, FrameSource& source,
                               MappingSystem& slam, const RunOptions& options);
 
-/// Builds the simulation and the SLAM system of a scenario and runs one on the other. `threads`
-/// counts all threads that share the work; it changes no result.
-RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options);
+/// A data set that a run leaves beside its results: its whole rig and all of its frames.
+struct RunRecording {
+  std::filesystem::path folder;
+  RecordOptions options;
+};
+
+/// Builds the simulation and the SLAM system of a scenario and runs one on the other, recording
+/// where that is asked for. `threads` counts all threads that share the work; it changes no result.
+RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options,
+                        const std::optional<RunRecording>& recording = std::nullopt);
 
 }  // namespace vinebench

@@ -10,6 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "scenarios/label_table.h"
 #include "scenarios/run_scenario.h"
 #include "sim/renderer.h"
 #include "slam/base/error.h"
@@ -95,15 +96,10 @@ void write_picture(const std::filesystem::path& file, const cv::Mat& picture) {
 }
 
 cv::Mat colour_labels(const cv::Mat& labels) {
-  static const std::vector<cv::Vec3b> kColours{
-      {135, 190, 235}, {150, 110, 70}, {120, 190, 80}, {95, 60, 30},  {190, 140, 60},
-      {30, 130, 40},   {120, 40, 140}, {200, 200, 90}, {90, 90, 110}, {255, 255, 255},
-      {220, 150, 80},  {220, 40, 40},  {250, 170, 190}};
   cv::Mat colours(labels.size(), CV_8UC3);
   for (int y = 0; y < labels.rows; ++y) {
     for (int x = 0; x < labels.cols; ++x) {
-      const std::size_t label = labels.at<std::uint8_t>(y, x);
-      colours.at<cv::Vec3b>(y, x) = label < kColours.size() ? kColours[label] : cv::Vec3b();
+      colours.at<cv::Vec3b>(y, x) = label_colour(labels.at<std::uint8_t>(y, x));
     }
   }
   return colours;

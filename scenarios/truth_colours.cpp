@@ -3,8 +3,6 @@
 #include "scenarios/truth_colours.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -12,27 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/picture_codec.h"
 #include "scenarios/snapshot.h"
 #include "slam/base/files.h"
 #include "slam/base/random.h"
 
 namespace vinebench {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, ".flo files are little-endian");
-
-constexpr float kFloUnknown = 1e10f;
-
-/// Bright enough to tell from black.
-cv::Vec3b colour_of(std::int32_t number) {
-  if (number == 0) return {0, 0, 0};
-  const RandomStream random(static_cast<std::uint64_t>(number), "instance colour");
-  cv::Vec3b colour;
-  for (int i = 0; i < 3; ++i) {
-    colour[i] = static_cast<std::uint8_t>(random.uniform(static_cast<std::uint64_t>(i), 50, 255));
-  }
-  return colour;
-}
 
 bool is_known(const cv::Vec2f& flow) {
   return std::isfinite(flow[0]) && std::isfinite(flow[1]);
@@ -53,28 +37,17 @@ double long_flow(const cv::Mat& flow) {
   return std::max(*at, 1e-6);
 }
 
-template <class T>
-void append(std::string& bytes, T value) {
-  const auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
-  bytes.append(raw.data(), raw.size());
-}
-
-/// Format of Baker et al., "A Database and Evaluation Methodology for Optical Flow" (2011).
-std::string flo_bytes(const cv::Mat& flow) {
-  std::string bytes = "PIEH";
-  append(bytes, static_cast<std::int32_t>(flow.cols));
-  append(bytes, static_cast<std::int32_t>(flow.rows));
-  for (int y = 0; y < flow.rows; ++y) {
-    for (int x = 0; x < flow.cols; ++x) {
-      const auto& f = flow.at<cv::Vec2f>(y, x);
-      append(bytes, is_known(f) ? f[0] : kFloUnknown);
-      append(bytes, is_known(f) ? f[1] : kFloUnknown);
-    }
-  }
-  return bytes;
-}
-
 }  // namespace
+
+cv::Vec3b instance_colour(std::int32_t number) {
+  if (number == 0) return {0, 0, 0};
+  const RandomStream random(static_cast<std::uint64_t>(number), "instance colour");
+  cv::Vec3b colour;
+  for (int i = 0; i < 3; ++i) {
+    colour[i] = static_cast<std::uint8_t>(random.uniform(static_cast<std::uint64_t>(i), 50, 255));
+  }
+  return colour;
+}
 
 cv::Mat colour_instances(const cv::Mat& instances) {
   cv::Mat colours(instances.size(), CV_8UC3);
@@ -83,7 +56,7 @@ cv::Mat colour_instances(const cv::Mat& instances) {
   for (int y = 0; y < instances.rows; ++y) {
     for (int x = 0; x < instances.cols; ++x) {
       const std::int32_t number = instances.at<std::int32_t>(y, x);
-      if (number != last) colour = colour_of(last = number);
+      if (number != last) colour = instance_colour(last = number);
       colours.at<cv::Vec3b>(y, x) = colour;
     }
   }
@@ -124,7 +97,7 @@ cv::Mat colour_flow(const cv::Mat& flow) {
 
 void write_flow(const std::filesystem::path& file, const cv::Mat& flow) {
   if (file.extension() == ".flo") {
-    write_file_atomically(file, flo_bytes(flow));
+    write_file_atomically(file, encode_flo(flow));
   } else {
     write_picture(file, colour_flow(flow));
   }

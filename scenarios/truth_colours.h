@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
 
 namespace vinebench {
+
+/// The colour of one of Picture::instances' numbers, RGB: black for none, else not dark.
+cv::Vec3b instance_colour(std::int32_t number);
 
 /// Picture::instances in colours for the eye, CV_8UC3: one for each instance and part, black for
 /// none.

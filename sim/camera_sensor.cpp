@@ -54,6 +54,11 @@ CameraSensor::CameraSensor(const CameraSensorConfig& config, const RigCamera& ca
   }
 }
 
+Stamp CameraSensor::truth_instant(const Shot& shot) const {
+  const int count = config_.blur_subframes;
+  return shot.instant + subframe_offset(count / 2, count, shot.exposure.time);
+}
+
 Picture CameraSensor::capture(const Shot& shot, const PoseAt& T_world_body, const Render& render) {
   Picture picture = expose(shot, T_world_body, render);
   develop(picture.rgb, shot);
@@ -91,6 +96,7 @@ Picture CameraSensor::expose_band(std::size_t index, const Shot& shot, const Pos
     const Pose T_world_rover = T_world_body(stamp);
     Renderer::Request& request = i == count / 2 ? everything : colours;
     request.T_world_rover = T_world_rover;
+    request.time = to_seconds(stamp);
     Picture drawn = render(band.view, T_world_rover * camera_.T_body_cam, request);
     if (count > 1) add_light(drawn.rgb, 1.0f / static_cast<float>(count), light);
     if (i == count / 2) result = std::move(drawn);

@@ -72,7 +72,7 @@ class CameraSensor {
     std::int64_t frame = 0;
     Stamp instant = 0;  ///< the middle of the middle row's exposure
     Exposure exposure;
-    Renderer::Request request;  ///< beside the colours; its exposure is set here
+    Renderer::Request request;  ///< beside the colours; exposure, time and rover are set here
   };
   /// The body's pose at an instant within half_window() of the shot's.
   using PoseAt = std::function<Pose(Stamp)>;
@@ -81,6 +81,9 @@ class CameraSensor {
 
   /// All but the colours is that of the middle sub-frame, through the same lens.
   Picture capture(const Shot& shot, const PoseAt& T_world_body, const Render& render);
+
+  /// When that sub-frame of the middle row is: of an even number the one after the middle.
+  Stamp truth_instant(const Shot& shot) const;
 
  private:
   Picture expose(const Shot& shot, const PoseAt& T_world_body, const Render& render) const;

@@ -12,6 +12,7 @@
 #include "sim/gl_objects.h"
 #include "sim/glare.h"
 #include "sim/painter.h"
+#include "sim/rover_motion.h"
 #include "slam/base/error.h"
 
 namespace vinebench {
@@ -41,23 +42,6 @@ void linearise(cv::Mat& depth) {
     auto* row = depth.ptr<float>(y);
     for (int x = 0; x < depth.cols; ++x) {
       row[x] = row[x] >= 1.0f ? 0.0f : static_cast<float>(kProduct / (kFarPlane - row[x] * kSpan));
-    }
-  }
-}
-
-/// The rover's pixels go where it goes, with their points on it.
-void move_rover(const PinholeCamera& camera, const Pose& T_world_cam,
-                const Renderer::Request& request, const cv::Mat& depth, Picture& picture) {
-  const Pose other_from_this = *request.T_world_rover_other * request.T_world_rover->inverse();
-  for (int y = 0; y < depth.rows; ++y) {
-    const auto* labels = picture.labels.ptr<std::uint8_t>(y);
-    auto* motion = picture.motion.ptr<cv::Vec3f>(y);
-    for (int x = 0; x < depth.cols; ++x) {
-      if (labels[x] != static_cast<std::uint8_t>(Label::kRover)) continue;
-      const double z = static_cast<double>(depth.at<float>(y, x));
-      const Eigen::Vector3d p = T_world_cam * (z * camera.unproject({x, y}));
-      const Eigen::Vector3f moved = (other_from_this * p - p).cast<float>();
-      motion[x] = {moved.x(), moved.y(), moved.z()};
     }
   }
 }
@@ -103,7 +87,8 @@ class Renderer::Impl {
     Picture picture = read(camera, request);
     if (request.motion && request.T_world_rover && request.T_world_rover_other) {
       const cv::Mat depth = request.depth ? picture.depth : read_depth(camera);
-      move_rover(camera, T_world_cam, request, depth, picture);
+      move_rover(camera, T_world_cam, *request.T_world_rover, *request.T_world_rover_other,
+                 picture.labels, depth, picture.motion);
     }
     check_gl("drawing a picture");
     const Eigen::Vector3d sun = light_.towards_sun.cast<double>();

@@ -20,14 +20,15 @@ Rig checked_rig(const SimulationConfig& config) {
   return rig;
 }
 
-class Simulation : public FrameSource {
+class Simulation : public SimulatedSource {
  public:
   Simulation(const SimulationConfig& config, std::uint64_t seed, const std::filesystem::path& cache,
-             WorkerPool& pool)
+             WorkerPool& pool, const CapturePlan& plan)
       : config_(config),
         pool_(pool),
+        plan_(plan),
         told_rig_(checked_rig(config)),
-        rig_(true_rig(told_rig_, config.sensors.calibration, seed)),
+        rig_(vinebench::true_rig(told_rig_, config.sensors.calibration, seed)),
         rover_(config.rover, config.world, config.route, seed),
         timing_(config.sensors.timing, config.sensors.drops, rig_, seed),
         exposure_(config.sensors.camera.exposure, rig_),
@@ -39,6 +40,7 @@ class Simulation : public FrameSource {
     window_ = from_seconds(config.sensors.camera.half_window()) + timing_.longest_delay();
     Scene scene = build_scene(config.world, seed, cache);
     add_rover(scene, config.rover.model);
+    index_of_scene_ = SceneIndex(scene);
     for (int i = 0; i < pool.threads(); ++i) renderers_.emplace_back(scene, config.renderer);
     const double route_seconds = to_seconds(rover_.route().duration());
     const double seconds = std::min(config.duration.value_or(route_seconds), route_seconds);
@@ -46,16 +48,22 @@ class Simulation : public FrameSource {
   }
 
   std::optional<Sample> next() override {
-    if (index_ >= frames_) return std::nullopt;
     Sample sample;
-    sample.frame.index = index_;
-    sample.frame.stamp = timing_.stamp(index_);
-    drive(sample.frame);
-    sample.truth.T_world_body = rover_.T_world_body(timing_.instant(index_));
-    render(sample);
-    exposure_.observe(sample.frame.images);
-    ++index_;
-    return sample;
+    for (; index_ < frames_ && index_ <= plan_.last; ++index_) {
+      sample.frame.index = index_;
+      sample.frame.stamp = timing_.stamp(index_);
+      drive(sample.frame);
+      const bool wanted = plan_.has_frame(index_);
+      if (!wanted && !takes_all()) continue;
+      sample.truth.T_world_body = rover_.T_world_body(timing_.instant(index_));
+      render(sample);
+      exposure_.observe(sample.frame.images);
+      if (!wanted) continue;
+      keep_planned_cameras(sample.frame);
+      ++index_;
+      return sample;
+    }
+    return std::nullopt;
   }
 
   void answer(const Estimate& estimate) override {
@@ -67,7 +75,9 @@ class Simulation : public FrameSource {
     rover_.steer_by(instant, *T_world_map_ * *estimate.T_map_body);
   }
 
-  std::int64_t size() const override { return frames_; }
+  std::int64_t size() const override { return plan_.count(frames_); }
+  const SceneIndex& scene() const override { return index_of_scene_; }
+  const Rig& true_rig() const override { return rig_; }
   const Rig& rig() const override { return told_rig_; }
   const StageTimes& times() const override { return times_; }
 
@@ -85,28 +95,48 @@ class Simulation : public FrameSource {
       rover_.advance_to(instant);
     }
     if (frame.stamp > instant + window_) rover_.advance_and_remember(frame.stamp);
+    const auto inertial = static_cast<std::ptrdiff_t>(frame.imu.size());
+    const auto wheels = static_cast<std::ptrdiff_t>(frame.wheels.size());
     rover_.hand_out(frame.stamp, frame.imu, frame.wheels);
-    for (ImuSample& reading : frame.imu) inertial_.measure(reading);
-    for (WheelSample& reading : frame.wheels) wheels_.measure(reading);
+    std::for_each(frame.imu.begin() + inertial, frame.imu.end(),
+                  [&](ImuSample& reading) { inertial_.measure(reading); });
+    std::for_each(frame.wheels.begin() + wheels, frame.wheels.end(),
+                  [&](WheelSample& reading) { wheels_.measure(reading); });
+  }
+
+  /// Every picture has its part in what an automatic exposure does next.
+  bool takes_all() const { return config_.sensors.camera.exposure.automatic; }
+  bool takes(std::size_t camera) const { return takes_all() || plan_.has_camera(camera); }
+
+  void keep_planned_cameras(Frame& frame) const {
+    for (std::size_t i = 0; i < frame.images.size(); ++i) {
+      if (!plan_.has_camera(i)) frame.images[i].release();
+    }
+  }
+
+  bool plans_truth() const {
+    return plan_.labels || plan_.depth || plan_.instances || plan_.normals || plan_.motion;
   }
 
   /// Each renderer draws every so-manieth camera; who draws what changes no pixel.
   void render(Sample& sample) {
     const std::size_t cameras = rig_.cameras.size();
     std::vector<double> spent(cameras);
-    sample.frame.images.resize(cameras);
+    sample.frame.images.assign(cameras, {});
     sample.truth.box_share.assign(cameras, 0);
     const bool blurs = config_.sensors.camera.blur_subframes > 1;
     for (std::size_t i = 0; i < cameras; ++i) {
       sample.truth.blur_time.push_back(blurs ? exposure_.of(i).time : 0);
     }
+    sample.truth.visible_tags.clear();
+    if (plans_truth()) sample.truth.views.assign(cameras, {});
     std::vector<std::vector<int>> visible(cameras);
     std::atomic<std::size_t> next{0};
     const std::vector<std::size_t> order = largest_first();
     pool_.for_each(renderers_.size(), [&](std::size_t lane) {
       for (std::size_t i = next++; i < cameras; i = next++) {
         const std::size_t camera = order[i];
-        if (timing_.is_dropped(index_, camera)) continue;
+        if (timing_.is_dropped(index_, camera) || !takes(camera)) continue;
         const auto start = std::chrono::steady_clock::now();
         render_camera(renderers_[lane], camera, sample, visible[camera]);
         spent[camera] =
@@ -115,6 +145,7 @@ class Simulation : public FrameSource {
       }
     });
     for (std::size_t camera = 0; camera < cameras; ++camera) {
+      if (!takes(camera)) continue;
       times_.add("render " + rig_.cameras[camera].name, spent[camera]);
       for (const int tag : visible[camera]) sample.truth.visible_tags.push_back(tag);
     }
@@ -130,17 +161,33 @@ class Simulation : public FrameSource {
     shot.frame = index_;
     shot.instant = timing_.instant(index_, camera);
     shot.exposure = exposure_.of(camera);
-    shot.request.labels = reads_tags || !config_.world.boxes.empty();
+    const bool wants_labels = reads_tags || !config_.world.boxes.empty();
+    if (plan_.has_camera(camera)) ask_for_truth(shot.request);
+    shot.request.labels |= wants_labels;
     Picture picture = cameras_[camera].capture(
         shot, [&](Stamp stamp) { return rover_.T_world_body(stamp); },
         [&](const PinholeCamera& view, const Pose& T_world_cam, const Renderer::Request& request) {
           return renderer.render(view, T_world_cam, request);
         });
-    if (shot.request.labels) {
+    if (wants_labels) {
       sample.truth.box_share[camera] = label_share(picture.labels, Label::kBox);
     }
     if (reads_tags) visible = tags_seen(camera, shot.instant, picture.labels);
     sample.frame.images[camera] = std::move(picture.rgb);
+    if (!plans_truth() || !plan_.has_camera(camera)) return;
+    const RigCamera& mounted = rig_.cameras[camera];
+    const Pose T_world_body = rover_.T_world_body(cameras_[camera].truth_instant(shot));
+    sample.truth.views[camera] = {mounted.model, T_world_body * mounted.T_body_cam,
+                                  std::move(picture)};
+  }
+
+  void ask_for_truth(Renderer::Request& request) const {
+    request.labels = plan_.labels;
+    request.depth = plan_.depth;
+    request.instances = plan_.instances;
+    request.normals = plan_.normals;
+    request.motion = plan_.motion && config_.world.wind.speed > 0;
+    request.other_time = to_seconds(timing_.instant(index_ + plan_.every));
   }
 
   std::vector<int> tags_seen(std::size_t camera, Stamp instant, const cv::Mat& labels) const {
@@ -168,6 +215,8 @@ class Simulation : public FrameSource {
 
   SimulationConfig config_;
   WorkerPool& pool_;
+  CapturePlan plan_;
+  SceneIndex index_of_scene_;
   Rig told_rig_;
   Rig rig_;  ///< the true one
   DrivenRover rover_;
@@ -186,10 +235,11 @@ class Simulation : public FrameSource {
 
 }  // namespace
 
-std::unique_ptr<FrameSource> make_simulation(const SimulationConfig& config, std::uint64_t seed,
-                                             const std::filesystem::path& cache, WorkerPool& pool) {
+std::unique_ptr<SimulatedSource> make_simulation(const SimulationConfig& config, std::uint64_t seed,
+                                                 const std::filesystem::path& cache,
+                                                 WorkerPool& pool, const CapturePlan& plan) {
   validate(config);
-  return std::make_unique<Simulation>(config, seed, cache, pool);
+  return std::make_unique<Simulation>(config, seed, cache, pool, plan);
 }
 
 }  // namespace vinebench

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,7 +13,9 @@
 #include "sim/renderer.h"
 #include "sim/route.h"
 #include "sim/rover.h"
+#include "sim/scene_index.h"
 #include "sim/sensors.h"
+#include "sim/truth_images.h"
 #include "sim/world.h"
 #include "slam/base/frame.h"
 #include "slam/base/rig.h"
@@ -31,6 +35,10 @@ struct Truth {
   std::vector<int> visible_tags;
   /// Of each camera's picture, s, the time over which motion blurs it; empty where not known.
   std::vector<double> blur_time{};
+  /// Of each camera the truth pictures that a CapturePlan asks for, without colours, with the true
+  /// camera and its place; their motion is the wind's, to the next frame of the plan. Empty where
+  /// no plan asks for any.
+  std::vector<TruthView> views;
 };
 
 /// Something wrong with the data of a frame that its source survived, such as a picture that cannot
@@ -64,6 +72,38 @@ class FrameSource {
   virtual const StageTimes& times() const = 0;
 };
 
+/// A simulation, with what its truth pictures mean.
+class SimulatedSource : public FrameSource {
+ public:
+  virtual const SceneIndex& scene() const = 0;
+  /// The cameras that take the pictures.
+  virtual const Rig& true_rig() const = 0;
+};
+
+/// What a recording asks of a simulation: more than a SLAM system needs, or less.
+struct CapturePlan {
+  // Which truth pictures come with each picture (Picture says what they are).
+  bool labels = false;
+  bool depth = false;
+  bool instances = false;
+  bool normals = false;
+  bool motion = false;
+  std::vector<bool> cameras;  ///< of the rig, which ones deliver pictures; all where empty
+  std::int64_t first = 0;     ///< the first frame that is delivered
+  std::int64_t last = std::numeric_limits<std::int64_t>::max();
+  std::int64_t every = 1;  ///< from the first on, every so-manieth frame is delivered
+
+  bool has_frame(std::int64_t index) const {
+    return index >= first && index <= last && (index - first) % every == 0;
+  }
+  /// Of a run of so many frames.
+  std::int64_t count(std::int64_t frames) const {
+    const std::int64_t end = std::min(last, frames - 1);
+    return end < first ? 0 : (end - first) / every + 1;
+  }
+  bool has_camera(std::size_t camera) const { return cameras.empty() || cameras.at(camera); }
+};
+
 struct SimulationConfig {
   WorldConfig world;
   RoverConfig rover;
@@ -89,7 +129,12 @@ struct SimulationConfig {
 /// visible. Where the route says so the rover is steered by the estimates that it is answered:
 /// the first one of a pose is taken to be where the rover stands, and while there is none it goes
 /// on as commanded.
-std::unique_ptr<FrameSource> make_simulation(const SimulationConfig& config, std::uint64_t seed,
-                                             const std::filesystem::path& cache, WorkerPool& pool);
+///
+/// A frame that the plan leaves out is driven through and not delivered; its readings come with the
+/// next one. No picture that is delivered depends on the plan: where exposure is automatic, the
+/// others are taken too.
+std::unique_ptr<SimulatedSource> make_simulation(const SimulationConfig& config, std::uint64_t seed,
+                                                 const std::filesystem::path& cache,
+                                                 WorkerPool& pool, const CapturePlan& plan = {});
 
 }  // namespace vinebench

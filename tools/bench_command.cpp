@@ -133,6 +133,7 @@ void add_bench_command(CLI::App& app, Command& chosen) {
   bench->require_subcommand(1);
   add_bench_render(*bench, chosen);
   add_bench_slam(*bench, chosen);
+  add_bench_record(*bench, chosen);
 }
 
 }  // namespace vinebench

@@ -20,13 +20,16 @@ using Command = std::function<int()>;
 // Each adds its sub-command to the program; parsing one of them sets `chosen`.
 void add_run_command(CLI::App& app, Command& chosen);
 void add_replay_command(CLI::App& app, Command& chosen);
+void add_record_command(CLI::App& app, Command& chosen);
+void add_check_command(CLI::App& app, Command& chosen);
 void add_eval_command(CLI::App& app, Command& chosen);
 void add_compare_command(CLI::App& app, Command& chosen);
 void add_render_command(CLI::App& app, Command& chosen);
 void add_bench_command(CLI::App& app, Command& chosen);
 void add_world_command(CLI::App& app, Command& chosen);
 
-/// A sub-command of bench's own file.
+/// Sub-commands of bench in files of their own.
 void add_bench_slam(CLI::App& bench, Command& chosen);
+void add_bench_record(CLI::App& bench, Command& chosen);
 
 }  // namespace vinebench

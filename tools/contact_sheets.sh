@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Makes the pictures of docs/images anew: worlds, growth stages, lights and sensor effects, each on
-# one sheet. Needs ImageMagick's montage. Usage: tools/contact_sheets.sh [VINEBENCH]
+# Makes the pictures of docs/images anew: worlds, growth stages, lights, sensor effects and labels,
+# each on one sheet. Needs ImageMagick's montage. Usage: tools/contact_sheets.sh [VINEBENCH]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 vinebench=${1:-build/vinebench}
@@ -114,3 +114,14 @@ effect fixed_pattern --set $c.fixed_pattern.response=0.08 \
   --set $c.exposure.time=0.0005
 effect automatic_exposure_at_dusk --set $c.exposure.automatic=true --set world.sun.elevation_deg=-1
 sheet sensors 4 376x
+
+# Every kind of label, of one view; depth and disparity stretched over all greys.
+labels=$work/labels
+mkdir -p "$labels"
+"$vinebench" render "$csl" --camera $small --pose=-0.3,0,0.5,8 --out "$labels/01_rgb.png" \
+  --labels "$labels/02_semantic.png" --instances "$labels/03_instances.png" \
+  --normals "$labels/04_normals.png" --depth "$labels/05_depth.png" \
+  --disparity "$labels/06_disparity.png" --flow-to=-0.25,0.01,0.5,9 \
+  --flow "$labels/07_flow.png" --flow-visible "$labels/08_flow_visible.png"
+mogrify -auto-level -depth 8 "$labels"/05_depth.png "$labels"/06_disparity.png
+sheet labels 4 380x

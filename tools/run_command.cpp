@@ -8,7 +8,6 @@
 #include <memory>
 #include <thread>
 
-#include "scenarios/euroc_writer.h"
 #include "scenarios/scenarios.h"
 #include "scenarios/seed_list.h"
 #include "slam/base/error.h"
@@ -28,6 +27,7 @@ struct RunArguments {
   int jobs = 1;
   bool force = false;
   std::string record;
+  std::vector<std::string> record_formats{"euroc"};
   std::vector<std::string> overrides;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   bool verify_determinism = false;
@@ -42,6 +42,14 @@ std::vector<ScenarioConfig> scenarios_of(const RunArguments& arguments) {
     if (arguments.seed) scenarios.back().seed = *arguments.seed;
   }
   return scenarios;
+}
+
+std::optional<RunRecording> recording_of(const RunArguments& arguments) {
+  if (arguments.record.empty()) return std::nullopt;
+  RunRecording recording{arguments.record, {}};
+  recording.options.formats = parse_formats(arguments.record_formats);
+  recording.options.threads = arguments.threads;
+  return recording;
 }
 
 void print_verdict(const ScenarioConfig& scenario, const RunOutcome& outcome,
@@ -100,12 +108,9 @@ int run_one(const RunArguments& arguments) {
   catch_interrupts();
   RunOptions options = interactive_options(scenario.name);
   options.folder = folder;
-  std::optional<EurocWriter> recording;
-  if (!arguments.record.empty()) {
-    options.sinks.push_back(&recording.emplace(arguments.record, notes_of(scenario)));
-  }
   options.maps = arguments.maps;
-  const RunOutcome outcome = run_scenario(scenario, arguments.threads, options);
+  const RunOutcome outcome =
+      run_scenario(scenario, arguments.threads, options, recording_of(arguments));
   if (outcome.interrupted) return report_interruption(outcome, folder);
   print_verdict(scenario, outcome, folder);
   std::fflush(stdout);
@@ -150,7 +155,10 @@ void add_run_command(CLI::App& app, Command& chosen) {
                   "Folder for the results (default: out/<scenario's name>; with several runs out, "
                   "and there <scenario's name>/seed-<n>)");
   run->add_option("--record", arguments->record,
-                  "Also write the sensors' data and the truth there, as an EuRoC/ASL folder");
+                  "Also write the sensors' data and the truth there, as a data set of record");
+  run->add_option("--record-format", arguments->record_formats,
+                  "Formats of it, as --format of record, commas between them (default: euroc)")
+      ->delimiter(',');
   run->add_option(
          "--set", arguments->overrides,
          "Set a key of the scenario, e.g. world.sun.elevation_deg=20; may stand many times")

@@ -14,7 +14,7 @@ packages=(
   # vision and optimisation
   libopencv-dev libeigen3-dev libceres-dev libapriltag-dev
   # files, text, command line
-  libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libxxhash-dev
+  libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libxxhash-dev libdeflate-dev
   # tests
   libgtest-dev libgmock-dev
 )

@@ -19,6 +19,8 @@ int dispatch(int argc, char** argv) {
   Command chosen;
   add_run_command(app, chosen);
   add_replay_command(app, chosen);
+  add_record_command(app, chosen);
+  add_check_command(app, chosen);
   add_eval_command(app, chosen);
   add_compare_command(app, chosen);
   add_render_command(app, chosen);

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "slam/base/rig.h"
+
+namespace vinebench {
+
+/// Cameras as they truly are, which labels agree with: `cameras`, a list of name, size, intrinsics,
+/// position (m) and rotation (qx qy qz qw) in the body, and `stereo_pairs` as in a rig. Reading
+/// what was written gives the same bits.
+std::string format_calibration(const Rig& rig);
+
+/// Throws Error that names file, line and key.
+Rig read_calibration(const std::filesystem::path& file);
+
+}  // namespace vinebench

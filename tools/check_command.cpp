@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "scenarios/dataset_check.h"
+#include "tools/commands.h"
+
+namespace vinebench {
+namespace {
+
+constexpr std::size_t kShown = 20;
+
+int check(const std::string& folder) {
+  const DatasetReport report = check_dataset(folder);
+  for (const std::string& note : report.notes) fmt::print("note: {}\n", note);
+  for (std::size_t i = 0; i < std::min(kShown, report.faults.size()); ++i) {
+    fmt::print("{}: {}\n", report.faults[i].file, report.faults[i].problem);
+  }
+  if (report.faults.size() > kShown) {
+    fmt::print("and {} more\n", report.faults.size() - kShown);
+  }
+  fmt::print("{}: {} ({} sequences, {} frames, {} files, {} label pictures compared)\n", folder,
+             report.faults.empty() ? "SOUND" : fmt::format("{} FAULTS", report.faults.size()),
+             report.sequences, report.frames, report.files, report.label_pictures);
+  return report.faults.empty() ? 0 : kExpectationFailed;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, Command& chosen) {
+  const auto folder = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand(
+      "check", "Check a data set of record: hashes, counts, stamps, and that labels agree");
+  command->add_option("DATASET", *folder, "Folder with dataset.yaml")->required();
+  command->footer("Exit code: 0 for a sound data set, 1 for one with faults, 2 for bad input.");
+  command->callback([&chosen, folder] { chosen = [folder] { return check(*folder); }; });
+}
+
+}  // namespace vinebench

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "scenarios/record.h"
+#include "scenarios/run.h"
+#include "tools/commands.h"
+#include "tools/interactive.h"
+
+namespace vinebench {
+namespace {
+
+struct RecordArguments {
+  RecordRequest request;
+  std::vector<std::string> overrides;
+  std::vector<std::string> formats;
+  std::vector<std::string> labels;
+  std::string seeds;
+  std::string frames;
+  std::string pictures = "png";
+};
+
+RecordRequest request_of(const RecordArguments& arguments) {
+  RecordRequest request = arguments.request;
+  request.overrides = parse_overrides(arguments.overrides);
+  request.options.formats = parse_formats(arguments.formats);
+  request.options.categories = parse_categories(arguments.labels);
+  if (!arguments.seeds.empty()) request.seeds = parse_span(arguments.seeds, "--seeds");
+  if (!arguments.frames.empty()) {
+    std::tie(request.options.first, request.options.last) =
+        parse_span(arguments.frames, "--frames");
+  }
+  const std::vector<std::string> kinds = yaml_names(PictureKind{});
+  request.options.pictures =
+      static_cast<PictureKind>(std::ranges::find(kinds, arguments.pictures) - kinds.begin());
+  return request;
+}
+
+int record(const RecordArguments& arguments) {
+  const RecordRequest request = request_of(arguments);
+  catch_interrupts();
+  const RunOptions watch = interactive_options("record");
+  const RecordOutcome outcome =
+      record_dataset(request, {watch.progress, watch.terminal, watch.stopped});
+  const std::string there =
+      fmt::format("{} frames, {:.1f} MB", outcome.frames, static_cast<double>(outcome.bytes) / 1e6);
+  if (outcome.interrupted) {
+    fmt::print(stderr,
+               "vinebench: stopped after {}; what there is of them is in {}, and --resume "
+               "goes on\n",
+               there, request.out.string());
+    return interruption_code();
+  }
+  fmt::print("{}: {}", request.out.string(), there);
+  if (outcome.skipped > 0) fmt::print("; {} sequences were complete", outcome.skipped);
+  fmt::print("\n");
+  return 0;
+}
+
+void add_what(CLI::App& command, RecordArguments& arguments) {
+  RecordOptions& options = arguments.request.options;
+  command
+      .add_option("--format", arguments.formats,
+                  "Some of euroc, kitti, tum, dcvslam, rgb, depth, depth32, disparity, flow, flo, "
+                  "normals, semantic, instances, coco; commas between them")
+      ->required()
+      ->delimiter(',');
+  command.add_option("--cameras", options.cameras, "Names of cameras of the rig (default: all)")
+      ->delimiter(',');
+  command
+      .add_option("--labels", arguments.labels,
+                  "Kinds of things in COCO's instances.json, such as bunch,post (default: all)")
+      ->delimiter(',');
+  command.add_option("--frames", arguments.frames, "Frames of the run, from 0 on (default: all)")
+      ->type_name("A..B");
+  command.add_option("--every", options.every, "Only every so-manieth of them")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}))
+      ->capture_default_str();
+  command.add_option("--image", arguments.pictures, "Pictures of rgb and coco: png, jpg, webp")
+      ->check(CLI::IsMember(yaml_names(PictureKind{})))
+      ->capture_default_str();
+  command.add_flag("--colour", options.colour,
+                   "Pictures of euroc and dcvslam in colour; kitti's also in colour");
+}
+
+}  // namespace
+
+void add_record_command(CLI::App& app, Command& chosen) {
+  const auto arguments = std::make_shared<RecordArguments>();
+  RecordRequest& request = arguments->request;
+  request.options.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  CLI::App* command =
+      app.add_subcommand("record", "Simulate a scenario, without SLAM, into a data set");
+  command->add_option("SCENARIO", request.scenario, "Scenario file (YAML)")->required();
+  command->add_option("--out", request.out, "New or empty folder for the data set")->required();
+  add_what(*command, *arguments);
+  command
+      ->add_option("--seeds", arguments->seeds,
+                   "Seeds, each a sequence in a folder of its own (default: the scenario's alone)")
+      ->type_name("A..B");
+  command->add_option("--randomise", request.randomisation,
+                      "File of distributions from which each seed draws keys of the scenario");
+  command
+      ->add_option("--set", arguments->overrides,
+                   "Set a key of the scenario, e.g. duration=2; may stand many times")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--jobs", request.options.threads, "Threads that draw, and that encode")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command->add_flag("--resume", request.resume,
+                    "Go on with an interrupted recording: what is complete is kept");
+  command->footer("Exit code: 0 when all is recorded, 2 for bad input, 130 when interrupted.");
+  command->callback([&chosen, arguments] { chosen = [arguments] { return record(*arguments); }; });
+}
+
+}  // namespace vinebench
