@@ -51,7 +51,7 @@ class Checker {
         windy_(has_wind(sequence / "scenario.resolved.yaml")) {}
 
   LabelCheck run() {
-    const std::size_t step = frames_.size() / kFramesLookedAt + 1;
+    const std::size_t step = (frames_.size() + kFramesLookedAt - 1) / kFramesLookedAt;
     for (std::size_t frame = 0; frame < frames_.size(); frame += step) {
       for (std::size_t camera = 0; camera < rig_.cameras.size(); ++camera) {
         check(frame, camera);
