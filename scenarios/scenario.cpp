@@ -56,7 +56,15 @@ ScenarioConfig load_scenario(const std::filesystem::path& file,
   const Rig rig = load_rig(scenario.simulation.rover.rig);
   check_sensors(scenario.simulation.sensors, rig);
   if (const auto& blind = scenario.expectations.blind) find_cameras(rig, blind->cameras);
-  if (const auto& external = scenario.slam.external) check_external_slam(*external, rig);
+  if (const auto& external = scenario.slam.external) {
+    check_external_slam(*external, rig);
+    if (scenario.simulation.route.steering == Steering::kEstimate) {
+      fail(
+          "{}: route.steering: estimate: expected a SLAM system that answers at each frame; "
+          "slam.external answers in the end",
+          file.string());
+    }
+  }
   move_into(scenario.boxes, scenario.simulation.world.boxes);
   move_into(scenario.tags, scenario.simulation.world.tags);
   scenario.simulation.world.place();

@@ -54,7 +54,9 @@ int run_many(const ManyRuns& many) {
   options.jobs = many.jobs;
   options.threads = many.threads;
   options.force = many.force;
-  options.run = run_scenario;
+  options.run = [](const ScenarioConfig& scenario, int threads, const RunOptions& run) {
+    return run_scenario(scenario, threads, run);
+  };
   options.stopped = interrupted;
   options.progress = &std::cerr;
   const SetOutcome outcome = run_set(plan, options);
