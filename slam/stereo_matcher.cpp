@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/stereo_matcher.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include <algorithm>
 #include "slam/base/error.h"
 #include "slam/row_search.h"
 

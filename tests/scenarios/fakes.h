@@ -49,7 +49,7 @@ class Source : public FrameSource {
     }
     const double t = to_seconds(sample.frame.stamp);
     const double share = t >= 8 && t <= 12 ? 0.95 : 0.0;
-    sample.truth = {circle(sample.frame.stamp), true, {share, share, 0.0}, {}};
+    sample.truth = {circle(sample.frame.stamp), true, {share, share, 0.0}, {}, {}, {}};
     if (t <= 2 || t >= 18) sample.truth.visible_tags = {0};
     ++index_;
     return sample;

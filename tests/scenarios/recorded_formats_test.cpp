@@ -202,7 +202,9 @@ TEST_F(RecordedFormatsTest, AReplayGivesTheFramesOfTheRun) {
       cv::Mat grey;
       cv::cvtColor(run.images[camera], grey, cv::COLOR_RGB2GRAY);
       EXPECT_EQ(cv::norm(grey, euroc[i].frame.images[camera], cv::NORM_INF), 0);
-      if (camera < 2) EXPECT_EQ(cv::norm(grey, kitti[i].frame.images[camera], cv::NORM_INF), 0);
+      if (camera < 2) {
+        EXPECT_EQ(cv::norm(grey, kitti[i].frame.images[camera], cv::NORM_INF), 0);
+      }
     }
     ASSERT_EQ(euroc[i].frame.imu.size(), run.imu.size());
     for (std::size_t k = 0; k < run.imu.size(); ++k) {

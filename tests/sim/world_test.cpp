@@ -115,8 +115,8 @@ TEST(RegisteredTagsTest, AreThoseThatTheWorldRegisters) {
   EXPECT_EQ(tags[1].T_world_tag.translation, Eigen::Vector3d(1, 2, 3));
 }
 
-// Facing along x and told to be turned by 90 degrees to the left, the tag seems to face along y: the
-// z axis, into the tag, is then -y.
+// Facing along x and told to be turned by 90 degrees to the left, the tag seems to face along y:
+// the z axis, into the tag, is then -y.
 TEST(RegisteredTagsTest, CarryTheErrorOfTheirSurvey) {
   WorldConfig world = one_row({0, 0}, {4, 0});
   world.tags.resize(1);
