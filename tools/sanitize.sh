@@ -4,7 +4,7 @@
 #
 # Builds the SLAM library and its tests with sanitizers, each in a build of its own, and runs them,
 # from single functions to pictures driven past and mapped. Usage: sanitize.sh [PRESET]..., by
-# default `address` (with undefined behaviour; without the long statistics) and `thread` (what has
+# default `address` (with undefined behaviour; without the long drives) and `thread` (what has
 # threads).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
