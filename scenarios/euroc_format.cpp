@@ -121,7 +121,7 @@ void EurocFormat::commit(const DatasetFrame& written) {
     times_.append(fmt::format("{}\n", frame.stamp));
   }
   write_readings(frame);
-  write_truth({frame.stamp, written.truth.T_world_body});
+  if (written.truth.known) write_truth({frame.stamp, written.truth.T_world_body});
   frames_.append(fmt::format("{}\n", frame.stamp));
 }
 

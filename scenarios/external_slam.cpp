@@ -51,7 +51,9 @@ class ExternalSlam : public SlamSystem {
   Estimate process(const Frame& frame) override {
     Estimate estimate;
     estimate.stamp = frame.stamp;
-    writer_->on_tick({frame, {}, {}}, estimate);
+    Truth none;
+    none.known = false;
+    writer_->on_tick({frame, none, {}}, estimate);
     stamps_.push_back(frame.stamp);
     return estimate;
   }
@@ -61,7 +63,7 @@ class ExternalSlam : public SlamSystem {
     writer_->on_finish(summary);
     writer_.reset();
     std::error_code ignored;
-    fs::remove_all(recording_ / "mav0/state_groundtruth_estimate0", ignored);  // knows nothing
+    fs::remove_all(recording_ / "mav0/state_groundtruth_estimate0", ignored);  // is empty
     if (!run()) return summary;
     summary.trajectory = read_trajectory();
     if (!config_.keep_recording) fs::remove_all(recording_, ignored);

@@ -6,34 +6,10 @@
 
 #include <algorithm>
 
+#include "slam/base/xml_text.h"
+
 namespace vinebench {
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\n':
-        result += "&#10;";
-        break;
-      default:
-        if (static_cast<unsigned char>(c) >= ' ' || c == '\t') result += c;
-    }
-  }
-  return result;
-}
 
 double seconds_of(const SetRun& run) {
   return run.metrics.is_null() ? 0 : run.metrics["wall_seconds"].get<double>();
@@ -47,15 +23,15 @@ std::string failure_of(const std::vector<Check>& checks) {
     message += fmt::format("{}{}: {}, expected {}", message.empty() ? "" : "; ", check.what,
                            check.measured, check.expected);
   }
-  return fmt::format("      <failure message=\"{}\">{}</failure>\n", escaped(message),
-                     escaped(format_checks(failed)));
+  return fmt::format("      <failure message=\"{}\">{}</failure>\n", xml_escaped(message),
+                     xml_escaped(format_checks(failed)));
 }
 
 std::string test_case(const std::string& scenario, const std::string& name, double seconds,
                       const std::string& outcome) {
   return fmt::format(
       "    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\">\n{}    </testcase>\n",
-      escaped(scenario), escaped(name), seconds, outcome);
+      xml_escaped(scenario), xml_escaped(name), seconds, outcome);
 }
 
 std::string test_suite(const SeedsSummary& summary) {
@@ -64,7 +40,7 @@ std::string test_suite(const SeedsSummary& summary) {
   for (const SetRun& run : summary.runs) {
     const std::string outcome =
         run.error.empty() ? failure_of(run.checks)
-                          : fmt::format("      <error message=\"{}\"/>\n", escaped(run.error));
+                          : fmt::format("      <error message=\"{}\"/>\n", xml_escaped(run.error));
     cases +=
         test_case(summary.scenario, fmt::format("seed-{}", run.seed), seconds_of(run), outcome);
     seconds += seconds_of(run);
@@ -79,8 +55,8 @@ std::string test_suite(const SeedsSummary& summary) {
   return fmt::format(
       "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.3f}\">\n{}"
       "  </testsuite>\n",
-      escaped(summary.scenario), summary.runs.size() + (summary.checks.empty() ? 0 : 1), failures,
-      errors, seconds, cases);
+      xml_escaped(summary.scenario), summary.runs.size() + (summary.checks.empty() ? 0 : 1),
+      failures, errors, seconds, cases);
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "slam/base/xml_text.h"
+
 namespace vinebench {
 namespace {
 
@@ -41,7 +43,8 @@ class Drawing {
 
   void add(const std::string& element) { body_ += element + "\n"; }
   void text(double px, double py, const std::string& words, const char* style = "") {
-    add(fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>", px, py, style, escape(words)));
+    add(fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>", px, py, style,
+                    xml_escaped(words)));
   }
   void line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const std::string& style) {
     add(fmt::format("<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" {}/>", x(a.x()),
@@ -70,14 +73,6 @@ class Drawing {
   }
 
  private:
-  static std::string escape(const std::string& words) {
-    std::string safe;
-    for (const char c : words) {
-      safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-    }
-    return safe;
-  }
-
   Eigen::AlignedBox2d bounds_;
   double scale_ = 1, width_ = 0, height_ = 0;
   std::string body_;

@@ -16,6 +16,7 @@
 #include "sim/trellis.h"
 #include "slam/base/error.h"
 #include "slam/base/files.h"
+#include "slam/base/xml_text.h"
 
 namespace vinebench {
 namespace {
@@ -56,26 +57,6 @@ std::filesystem::path temporary_folder() {
 void silence_warnings() {
   static std::once_flag once;
   std::call_once(once, [] { mju_user_warning = [](const char*) {}; });
-}
-
-std::string xml_escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
 }
 
 std::string upright(const std::string& name, const Eigen::Vector3d& foot,

@@ -125,8 +125,9 @@ class Simulation : public SimulatedSource {
     sample.frame.images.assign(cameras, {});
     sample.truth.box_share.assign(cameras, 0);
     const bool blurs = config_.sensors.camera.blur_subframes > 1;
-    for (std::size_t i = 0; i < cameras; ++i) {
-      sample.truth.blur_time.push_back(blurs ? exposure_.of(i).time : 0);
+    sample.truth.blur_time.assign(cameras, 0);
+    for (std::size_t i = 0; blurs && i < cameras; ++i) {
+      sample.truth.blur_time[i] = exposure_.of(i).time;
     }
     sample.truth.visible_tags.clear();
     if (plans_truth()) sample.truth.views.assign(cameras, {});

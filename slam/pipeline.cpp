@@ -137,9 +137,12 @@ TrackedFrame Pipeline::initialise(const std::shared_ptr<FrameFeatures>& frame) {
   }
   tracked.tracked = tracked.motion.inliers >= kMinFirstPoints;
   if (tracked.tracked) {
-    tracked.motion.T_map_body = loop_closer_.world_pose(frame->tags).value_or(Pose{});
+    const std::optional<Pose> by_tag = loop_closer_.world_pose(frame->tags);
+    tracked.motion.T_map_body = by_tag.value_or(Pose{});
     tracker_.start(tracked.motion.T_map_body, frame->stamp);
-    uncertainty_.start(by_tag_covariance() + loop_closer_.fix_covariance(frame->tags));
+    Matrix6d covariance = by_tag_covariance();
+    if (by_tag) covariance += loop_closer_.fix_covariance(frame->tags);
+    uncertainty_.start(covariance);
   }
   return tracked;
 }
