@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "slam/base/error.h"
+#include "slam/base/yaml.h"
+#include "slam/base/yaml_writer.h"
 
 namespace vinebench {
 namespace {

@@ -5,6 +5,8 @@
 #include <system_error>
 
 #include "slam/base/files.h"
+#include "slam/base/yaml.h"
+#include "slam/base/yaml_writer.h"
 
 namespace vinebench {
 

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "slam/base/yaml.h"
+#include "slam/base/config_field.h"
 
 namespace vinebench {
 

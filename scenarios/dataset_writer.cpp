@@ -14,6 +14,7 @@
 #include "scenarios/tum_format.h"
 #include "slam/base/error.h"
 #include "slam/base/files.h"
+#include "slam/base/yaml_writer.h"
 #include "vinebench/version.h"
 
 namespace vinebench {

@@ -8,6 +8,7 @@
 #include "scenarios/slam_settings.h"
 #include "scenarios/tag_list.h"
 #include "slam/base/files.h"
+#include "slam/base/yaml_writer.h"
 
 namespace vinebench {
 namespace {

@@ -7,6 +7,7 @@
 #include "scenarios/slam_settings.h"
 #include "slam/base/error.h"
 #include "slam/base/files.h"
+#include "slam/base/yaml_writer.h"
 
 namespace vinebench {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "slam/base/random.h"
+#include "slam/base/yaml.h"
 
 namespace vinebench {
 namespace {

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "slam/base/error.h"
+#include "slam/base/yaml.h"
 
 namespace vinebench {
 

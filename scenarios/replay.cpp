@@ -6,6 +6,8 @@
 #include "scenarios/run_scenario.h"
 #include "slam/base/error.h"
 #include "slam/base/files.h"
+#include "slam/base/yaml.h"
+#include "slam/base/yaml_writer.h"
 
 namespace vinebench {
 namespace {

@@ -9,6 +9,7 @@
 #include "scenarios/plot.h"
 #include "slam/base/error.h"
 #include "slam/base/files.h"
+#include "slam/base/yaml_writer.h"
 
 namespace vinebench {
 namespace {

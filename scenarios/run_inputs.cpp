@@ -8,6 +8,7 @@
 
 #include "scenarios/run_hash.h"
 #include "slam/base/files.h"
+#include "slam/base/yaml_writer.h"
 
 namespace vinebench {
 namespace {

@@ -7,6 +7,7 @@
 #include "scenarios/external_slam.h"
 #include "scenarios/occlusion.h"
 #include "slam/base/error.h"
+#include "slam/base/yaml.h"
 
 namespace vinebench {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "scenarios/slam_choice.h"
 #include "sim/simulation.h"
-#include "slam/base/yaml.h"
+#include "slam/base/config_field.h"
 #include "slam/slam.h"
 
 namespace vinebench {

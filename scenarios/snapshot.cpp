@@ -16,6 +16,7 @@
 #include "slam/base/error.h"
 #include "slam/base/files.h"
 #include "slam/base/rig.h"
+#include "slam/base/yaml.h"
 
 namespace vinebench {
 namespace {

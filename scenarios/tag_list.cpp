@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "slam/base/yaml.h"
+#include "slam/base/yaml_writer.h"
 
 namespace vinebench {
 namespace {

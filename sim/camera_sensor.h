@@ -15,9 +15,9 @@
 #include "sim/photon_transfer.h"
 #include "sim/renderer.h"
 #include "sim/vignette.h"
+#include "slam/base/config_field.h"
 #include "slam/base/rig.h"
 #include "slam/base/time.h"
-#include "slam/base/yaml.h"
 
 namespace vinebench {
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/cultivar.h"
 
+#include "slam/base/yaml.h"
+
 namespace vinebench {
 
 Cultivar load_cultivar(const std::filesystem::path& file) {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "slam/base/config_field.h"
 #include "slam/base/time.h"
-#include "slam/base/yaml.h"
 
 namespace vinebench {
 

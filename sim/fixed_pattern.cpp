@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/fixed_pattern.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "sim/fault_scope.h"
+#include "slam/base/config_field.h"
 #include "slam/base/rig.h"
 #include "slam/base/time.h"
-#include "slam/base/yaml.h"
 
 namespace vinebench {
 

@@ -8,7 +8,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "sim/fault_scope.h"
-#include "slam/base/yaml.h"
+#include "slam/base/config_field.h"
 
 namespace vinebench {
 

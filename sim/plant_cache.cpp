@@ -10,6 +10,7 @@
 #include "slam/base/error.h"
 #include "slam/base/files.h"
 #include "slam/base/random.h"
+#include "slam/base/yaml_writer.h"
 
 namespace vinebench {
 namespace {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/props.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>

@@ -10,8 +10,8 @@
 
 #include "sim/scene.h"
 #include "slam/base/camera.h"
+#include "slam/base/config_field.h"
 #include "slam/base/pose.h"
-#include "slam/base/yaml.h"
 
 namespace vinebench {
 

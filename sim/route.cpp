@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "slam/base/validate.h"
+
 namespace vinebench {
 namespace {
 

@@ -3,12 +3,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "slam/base/config_field.h"
 #include "slam/base/pose.h"
 #include "slam/base/time.h"
-#include "slam/base/yaml.h"
 
 namespace vinebench {
 

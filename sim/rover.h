@@ -3,14 +3,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <vector>
 
 #include "sim/world.h"
+#include "slam/base/config_field.h"
 #include "slam/base/frame.h"
 #include "slam/base/pose.h"
-#include "slam/base/yaml.h"
 
 namespace vinebench {
 

@@ -7,8 +7,8 @@
 #include "sim/frame_timing.h"
 #include "sim/inertial_sensor.h"
 #include "sim/wheel_sensor.h"
+#include "slam/base/config_field.h"
 #include "slam/base/rig.h"
-#include "slam/base/yaml.h"
 
 namespace vinebench {
 

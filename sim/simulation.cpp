@@ -10,6 +10,7 @@
 #include "sim/driven_rover.h"
 #include "sim/rover_asset.h"
 #include "sim/truth.h"
+#include "slam/base/validate.h"
 
 namespace vinebench {
 namespace {

@@ -6,7 +6,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "slam/base/camera.h"
-#include "slam/base/yaml.h"
+#include "slam/base/config_field.h"
 
 namespace vinebench {
 

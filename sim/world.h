@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,9 +13,9 @@
 #include "sim/daylight.h"
 #include "sim/scene.h"
 #include "sim/vines.h"
+#include "slam/base/config_field.h"
 #include "slam/base/pose.h"
 #include "slam/base/slam_system.h"
-#include "slam/base/yaml.h"
 
 namespace vinebench {
 

@@ -10,6 +10,8 @@
 #include "sim/tag_family.h"
 #include "slam/base/error.h"
 #include "slam/base/random.h"
+#include "slam/base/validate.h"
+#include "slam/base/yaml_writer.h"
 
 namespace vinebench {
 namespace {

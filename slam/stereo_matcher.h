@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "slam/base/camera.h"
-#include "slam/base/yaml.h"
+#include "slam/base/config_field.h"
 #include "slam/orb_extractor.h"
 #include "slam/patch_alignment.h"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "slam/base/camera.h"
+#include "slam/base/config_field.h"
 #include "slam/base/slam_system.h"
-#include "slam/base/yaml.h"
 
 namespace vinebench {
 

@@ -15,6 +15,7 @@
 #include "sim/truth_images.h"
 #include "slam/base/error.h"
 #include "slam/base/rig.h"
+#include "slam/base/yaml.h"
 #include "tools/commands.h"
 
 namespace vinebench {

@@ -10,6 +10,7 @@
 #include "sim/world_generator.h"
 #include "slam/base/error.h"
 #include "slam/base/files.h"
+#include "slam/base/yaml.h"
 #include "tools/commands.h"
 
 namespace vinebench {

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "slam/base/yaml.h"
+
 namespace {
 
 using namespace vinebench;

@@ -16,4 +16,3 @@
 #include "slam/base/time.h"
 #include "slam/base/trajectory.h"
 #include "slam/base/worker_pool.h"
-#include "slam/base/yaml.h"

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "slam/base/error.h"
+#include "slam/base/yaml.h"
 
 namespace vinebench {
 

@@ -2,13 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "slam/base/camera.h"
+#include "slam/base/config_field.h"
 #include "slam/base/pose.h"
-#include "slam/base/yaml.h"
 
 namespace vinebench {
 

@@ -75,20 +75,6 @@ void assign(YAML::Node node, const std::vector<std::string>& parts, std::size_t 
 
 }  // namespace
 
-std::string Range::text() const {
-  const bool has_min = std::isfinite(min);
-  const bool has_max = std::isfinite(max);
-  if (has_min && has_max) {
-    return fmt::format("a number {} {} and at most {}", above_min ? "above" : "of at least", min,
-                       max);
-  }
-  if (has_min) {
-    return above_min ? fmt::format("a number above {}", min)
-                     : fmt::format("a number of at least {}", min);
-  }
-  return has_max ? fmt::format("a number of at most {}", max) : "a finite number";
-}
-
 YamlDocument YamlDocument::load(const std::filesystem::path& file) {
   YamlDocument document;
   document.root_ = parse(file);
@@ -297,30 +283,6 @@ void YamlReader::read_name(const YAML::Node& node, const std::string& key,
     list += (i ? ", " : "") + names[i];
   }
   violation(key, node, "expected one of: " + list);
-}
-
-void throw_violations(const std::vector<std::string>& violations) {
-  if (violations.empty()) return;
-  std::string text;
-  for (const std::string& violation : violations) text += (text.empty() ? "" : "\n") + violation;
-  throw Error(text);
-}
-
-void YamlWriter::line(const std::string& content) {
-  text_ += std::string(static_cast<std::size_t>(2 * depth_), ' ') + content + "\n";
-}
-
-std::string YamlWriter::quote(const std::string& value) {
-  std::string quoted = "\"";
-  for (const char c : value) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c == '\n' ? "\\n" : std::string(1, c);
-  }
-  return quoted + "\"";
-}
-
-std::string YamlWriter::scalar(double value) {
-  return fmt::format("{}", value);
 }
 
 }  // namespace vinebench

@@ -5,52 +5,20 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
-#include <Eigen/Core>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
-#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "slam/base/config_field.h"
+#include "slam/base/field_types.h"
+
 namespace vinebench {
-
-// A configuration is a plain struct with defaults and one member function that lists its fields:
-//
-//     template <class Archive>
-//     void serialize(Archive& archive) {
-//       archive("radius", radius, Range::positive());
-//       archive.require(low <= high, "low", "expected at most high");
-//     }
-//
-// That one list reads it strictly (YamlDocument::read), writes it with all defaults resolved
-// (format_yaml) and documents its keys. Fields may be bool, int, std::int64_t, std::uint64_t,
-// double, std::string, std::filesystem::path, Eigen vectors, std::array, std::vector,
-// std::optional, other such structs, and enums with a `yaml_names(Enum)` that gives their names in
-// order. A path names a file that must exist, relative to the YAML file it stands in.
-
-/// The numbers a field may take; also the text of the error when it does not.
-struct Range {
-  double min = -std::numeric_limits<double>::infinity();
-  double max = std::numeric_limits<double>::infinity();
-  bool above_min = false;  ///< min itself is excluded
-
-  static constexpr Range positive() { return {0, std::numeric_limits<double>::infinity(), true}; }
-  static constexpr Range non_negative() { return {0}; }
-  static constexpr Range between(double min, double max) { return {min, max}; }
-
-  bool contains(double value) const {
-    return (above_min ? value > min : value >= min) && value <= max;
-  }
-  std::string text() const;
-};
 
 class YamlReader;
 
@@ -95,28 +63,7 @@ class YamlDocument {
   std::map<std::string, std::string> overrides_;        ///< dotted key to the value given
 };
 
-namespace yaml_detail {
-
-template <class T>
-struct IsVector : std::false_type {};
-template <class T>
-struct IsVector<std::vector<T>> : std::true_type {};
-template <class T>
-struct IsOptional : std::false_type {};
-template <class T>
-struct IsOptional<std::optional<T>> : std::true_type {};
-template <class T>
-struct IsArray : std::false_type {};
-template <class T, std::size_t N>
-struct IsArray<std::array<T, N>> : std::true_type {};
-template <class T>
-struct IsEigen : std::false_type {};
-template <class S, int R>
-struct IsEigen<Eigen::Matrix<S, R, 1>> : std::bool_constant<(R > 0)> {};
-
-}  // namespace yaml_detail
-
-/// Reads a struct out of a document and gathers every violation. See the comment on top.
+/// Reads a struct out of a document and gathers every violation. See config_field.h.
 class YamlReader {
  public:
   YamlReader(const YamlDocument& document, YAML::Node node, std::string prefix,
@@ -173,13 +120,13 @@ class YamlReader {
       int index = static_cast<int>(value);
       read_name(node, key, yaml_names(T{}), index);
       value = static_cast<T>(index);
-    } else if constexpr (yaml_detail::IsOptional<T>::value) {
+    } else if constexpr (field_types::IsOptional<T>::value) {
       if (node.IsNull()) {
         value.reset();
       } else {
         read(node, key, value.emplace(), range);
       }
-    } else if constexpr (yaml_detail::IsVector<T>::value) {
+    } else if constexpr (field_types::IsVector<T>::value) {
       value.clear();
       if (node.IsScalar() && !std::is_class_v<typename T::value_type>) {
         read(node, key, value.emplace_back(), range);  // one number stands for a list of one
@@ -191,7 +138,7 @@ class YamlReader {
           read(node[i], fmt::format("{}.{}", key, i), value[i], range);
         }
       }
-    } else if constexpr (yaml_detail::IsArray<T>::value || yaml_detail::IsEigen<T>::value) {
+    } else if constexpr (field_types::IsArray<T>::value || field_types::IsEigen<T>::value) {
       const auto size = static_cast<std::size_t>(value.size());
       if (!expect_sequence(node, key, size)) return;
       for (std::size_t i = 0; i < size; ++i) {
@@ -215,9 +162,6 @@ class YamlReader {
   std::set<std::string> known_;
 };
 
-/// Throws the Error that `read` promises, when there is any violation.
-void throw_violations(const std::vector<std::string>& violations);
-
 template <class T>
 T YamlDocument::read() const {
   T value{};
@@ -227,150 +171,6 @@ T YamlDocument::read() const {
   reader.finish();
   throw_violations(violations);
   return value;
-}
-
-/// Writes a struct as YAML, every field with its value. See the comment on top.
-class YamlWriter {
- public:
-  template <class T>
-  void operator()(const std::string& key, T& value, const Range& = {}) {
-    if constexpr (yaml_detail::IsOptional<T>::value) {
-      if (value) (*this)(key, *value);
-    } else {
-      line(key + ":");
-      write(value);
-    }
-  }
-  void require(bool, const std::string&, const std::string&) {}
-
-  const std::string& text() const { return text_; }
-
- private:
-  void line(const std::string& content);
-  static std::string quote(const std::string& value);
-  static std::string scalar(bool value) { return value ? "true" : "false"; }
-  static std::string scalar(double value);
-  static std::string scalar(const std::string& value) { return quote(value); }
-  static std::string scalar(const std::filesystem::path& value) { return quote(value.string()); }
-  template <class T>
-  static std::string scalar(const T& value) {
-    if constexpr (std::is_enum_v<T>) {
-      return yaml_names(T{}).at(static_cast<std::size_t>(value));
-    } else {
-      return std::to_string(value);
-    }
-  }
-  template <class T>
-  static constexpr bool is_scalar() {
-    return std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, std::string> ||
-           std::is_same_v<T, std::filesystem::path>;
-  }
-
-  template <class T>
-  void write(T& value) {
-    if constexpr (is_scalar<T>()) {
-      text_.back() = ' ';
-      text_ += scalar(value) + "\n";
-    } else if constexpr (yaml_detail::IsArray<T>::value || yaml_detail::IsEigen<T>::value ||
-                         yaml_detail::IsVector<T>::value) {
-      write_sequence(value);
-    } else {
-      ++depth_;
-      const std::size_t before = text_.size();
-      value.serialize(*this);
-      --depth_;
-      if (text_.size() == before) {
-        text_.back() = ' ';
-        text_ += "{}\n";
-      }
-    }
-  }
-
-  template <class T>
-  void write_sequence(T& value) {
-    using Item = std::remove_reference_t<decltype(value[0])>;
-    const auto size = static_cast<std::size_t>(value.size());
-    if (is_scalar<Item>() || size == 0) {
-      std::string items;
-      if constexpr (is_scalar<Item>()) {
-        for (std::size_t i = 0; i < size; ++i) items += (i ? ", " : "") + scalar(value[i]);
-      }
-      text_.back() = ' ';
-      text_ += "[" + items + "]\n";
-      return;
-    }
-    if constexpr (!is_scalar<Item>()) {
-      ++depth_;
-      for (std::size_t i = 0; i < size; ++i) {
-        line("-");
-        write(value[i]);
-      }
-      --depth_;
-    }
-  }
-
-  std::string text_;
-  int depth_ = 0;
-};
-
-/// The YAML text of a struct with all its defaults resolved.
-template <class T>
-std::string format_yaml(T value) {
-  YamlWriter writer;
-  value.serialize(writer);
-  return writer.text();
-}
-
-/// Checks the requirements and ranges of a struct that did not come from a file; throws one Error
-/// that lists every violation.
-template <class T>
-void validate(T value);
-
-/// Archive behind validate().
-class Validator {
- public:
-  template <class T>
-  void operator()(const std::string& key, T& value, const Range& range = {}) {
-    check(prefix_.empty() ? key : prefix_ + "." + key, value, range);
-  }
-  void require(bool ok, const std::string& key, const std::string& expectation) {
-    if (!ok)
-      violations_.push_back(prefix_ + (prefix_.empty() ? "" : ".") + key + ": " + expectation);
-  }
-  const std::vector<std::string>& violations() const { return violations_; }
-
- private:
-  template <class T>
-  void check(const std::string& key, T& value, const Range& range) {
-    if constexpr (std::is_arithmetic_v<T>) {
-      const auto number = static_cast<double>(value);
-      if (!std::isfinite(number) || !range.contains(number)) {
-        violations_.push_back(fmt::format("{}: expected {}, found {}", key, range.text(), value));
-      }
-    } else if constexpr (yaml_detail::IsOptional<T>::value) {
-      if (value) check(key, *value, range);
-    } else if constexpr (yaml_detail::IsArray<T>::value || yaml_detail::IsEigen<T>::value ||
-                         yaml_detail::IsVector<T>::value) {
-      for (std::size_t i = 0; i < static_cast<std::size_t>(value.size()); ++i) {
-        check(fmt::format("{}.{}", key, i), value[i], range);
-      }
-    } else if constexpr (!std::is_enum_v<T> && !std::is_same_v<T, std::string> &&
-                         !std::is_same_v<T, std::filesystem::path>) {
-      const std::string outer = std::exchange(prefix_, key);
-      value.serialize(*this);
-      prefix_ = outer;
-    }
-  }
-
-  std::string prefix_;
-  std::vector<std::string> violations_;
-};
-
-template <class T>
-void validate(T value) {
-  Validator validator;
-  value.serialize(validator);
-  throw_violations(validator.violations());
 }
 
 }  // namespace vinebench

@@ -7,6 +7,7 @@
 
 #include "slam/base/error.h"
 #include "slam/base/files.h"
+#include "slam/base/yaml_writer.h"
 #include "tests/test_folder.h"
 
 namespace vinebench {

@@ -12,6 +12,7 @@
 #include "sim/renderer.h"
 #include "sim/world.h"
 #include "slam/base/rig.h"
+#include "slam/base/yaml.h"
 #include "slam/tag_detector.h"
 
 namespace vinebench {

@@ -6,6 +6,8 @@
 #include "sim/cultivar.h"
 #include "sim/terrain.h"
 #include "sim/world.h"
+#include "slam/base/validate.h"
+#include "slam/base/yaml.h"
 #include "tests/test_folder.h"
 
 namespace vinebench {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "slam/base/yaml.h"
+
 namespace vinebench {
 namespace {
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "slam/base/error.h"
+#include "slam/base/validate.h"
 #include "tests/sim/test_plant.h"
 #include "tests/test_folder.h"
 

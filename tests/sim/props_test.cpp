@@ -14,6 +14,7 @@
 #include "sim/rover.h"
 #include "sim/textures.h"
 #include "sim/trellis.h"
+#include "slam/base/yaml.h"
 
 namespace vinebench {
 namespace {

@@ -13,6 +13,7 @@
 #include "slam/base/error.h"
 #include "slam/base/files.h"
 #include "slam/base/rig.h"
+#include "slam/base/yaml.h"
 #include "tests/test_folder.h"
 
 namespace vinebench {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "slam/base/yaml.h"
+#include "slam/base/yaml_writer.h"
 #include "tests/test_folder.h"
 
 namespace vinebench {

@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include "slam/base/error.h"
+#include "slam/base/yaml.h"
 #include "tests/test_folder.h"
 
 namespace vinebench {

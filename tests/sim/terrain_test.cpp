@@ -12,6 +12,7 @@
 #include "sim/physics_world.h"
 #include "sim/rover.h"
 #include "slam/base/error.h"
+#include "slam/base/yaml.h"
 
 namespace vinebench {
 namespace {

@@ -13,6 +13,7 @@
 #include "sim/terrain.h"
 #include "sim/truth_images.h"
 #include "slam/base/rig.h"
+#include "slam/base/yaml.h"
 #include "tests/sim/picture_warp.h"
 #include "tests/sim/test_scene.h"
 #include "tests/test_folder.h"

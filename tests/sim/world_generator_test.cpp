@@ -9,6 +9,8 @@
 
 #include "sim/row_frame.h"
 #include "sim/row_index.h"
+#include "slam/base/yaml.h"
+#include "slam/base/yaml_writer.h"
 #include "tests/test_folder.h"
 
 namespace vinebench {

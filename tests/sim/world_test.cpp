@@ -12,6 +12,9 @@
 #include "sim/row_frame.h"
 #include "sim/row_index.h"
 #include "sim/tag_family.h"
+#include "slam/base/validate.h"
+#include "slam/base/yaml.h"
+#include "slam/base/yaml_writer.h"
 #include "tests/test_folder.h"
 
 namespace vinebench {

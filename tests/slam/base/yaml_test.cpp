@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
+
 #include "slam/base/yaml.h"
 
 #include <gmock/gmock.h>
@@ -8,48 +9,13 @@
 #include <fstream>
 
 #include "slam/base/error.h"
+#include "tests/slam/base/example_config.h"
 #include "tests/test_folder.h"
 
 namespace vinebench {
 namespace {
 
-enum class Colour { kRed, kGreen };
-std::vector<std::string> yaml_names(Colour) {
-  return {"red", "green"};
-}
-
-struct Inner {
-  double radius = 1;
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive("radius", radius, Range::positive());
-  }
-};
-
-struct Outer {
-  int count = 3;
-  bool on = false;
-  Colour colour = Colour::kRed;
-  std::string name = "x";
-  std::vector<std::string> names;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  std::optional<double> maybe;
-  Inner inner;
-  std::vector<Inner> list;
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive("count", count, Range::between(0, 10));
-    archive("on", on);
-    archive("colour", colour);
-    archive("name", name);
-    archive("names", names);
-    archive("position", position);
-    archive("maybe", maybe);
-    archive("inner", inner);
-    archive("list", list);
-    archive.require(count != 7, "count", "expected anything but 7");
-  }
-};
+using test::Outer;
 
 class YamlTest : public testing::Test {
  protected:
@@ -80,7 +46,7 @@ list:
                           .read<Outer>();
   EXPECT_EQ(outer.count, 4);
   EXPECT_TRUE(outer.on);
-  EXPECT_EQ(outer.colour, Colour::kGreen);
+  EXPECT_EQ(outer.colour, test::Colour::kGreen);
   EXPECT_EQ(outer.names, std::vector<std::string>{"one"});
   EXPECT_EQ(outer.position, Eigen::Vector3d(1, 2.5, -3));
   EXPECT_EQ(outer.maybe, 0.5);
@@ -150,29 +116,6 @@ TEST_F(YamlTest, IncludedFilesKeepTheirOwnPlaces) {
   EXPECT_THAT(
       [&] { document.include("inner"); },
       testing::ThrowsMessage<Error>(testing::HasSubstr("outer.yaml:2: inner: expected a file")));
-}
-
-TEST_F(YamlTest, WrittenTextReadsBackTheSame) {
-  Outer outer;
-  outer.count = 9;
-  outer.name = "a \"quoted\" \\ name";
-  outer.names = {"b", "c"};
-  outer.position = {0.1, 1e-9, 3};
-  outer.list = {Inner{2}, Inner{0.3}};
-  const std::string text = format_yaml(outer);
-  const Outer back = YamlDocument::load(write("back.yaml", text)).read<Outer>();
-  EXPECT_EQ(format_yaml(back), text);
-  EXPECT_EQ(back.position, outer.position);
-  EXPECT_EQ(back.name, outer.name);
-}
-
-TEST_F(YamlTest, ValidateListsViolationsOfAStruct) {
-  Outer outer;
-  outer.count = 11;
-  outer.list = {Inner{-1}};
-  EXPECT_THAT([&] { validate(outer); },
-              testing::ThrowsMessage<Error>(testing::AllOf(testing::HasSubstr("count: expected"),
-                                                           testing::HasSubstr("list.0.radius"))));
 }
 
 }  // namespace
