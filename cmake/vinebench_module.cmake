@@ -51,7 +51,7 @@ function(vinebench_shards program)
   endforeach()
 endfunction()
 
-# vinebench_library(NAME): a module that others install and link, into shared objects too.
+# vinebench_library(NAME): a module that is linked into shared objects too.
 function(vinebench_library name)
   set_target_properties(vinebench_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   # Nobody puts a function of his own in the place of one of ours.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "slam/base/random.h"
 #include "slam/base/yaml.h"
@@ -117,6 +118,19 @@ std::vector<Override> draw_overrides(const std::filesystem::path& file, std::int
     overrides.emplace_back(draw.key, value_of(draw, stream));
   }
   return overrides;
+}
+
+ScenarioConfig load_drawn_scenario(const std::filesystem::path& file,
+                                   std::vector<Override> overrides,
+                                   const std::filesystem::path& randomisation,
+                                   std::optional<std::int64_t> seed) {
+  if (!randomisation.empty()) {
+    const std::int64_t drawn_by = seed ? *seed : load_scenario(file, overrides).seed;
+    for (Override& o : draw_overrides(randomisation, drawn_by)) overrides.push_back(std::move(o));
+  }
+  ScenarioConfig scenario = load_scenario(file, overrides);
+  if (seed) scenario.seed = *seed;
+  return scenario;
 }
 
 }  // namespace vinebench

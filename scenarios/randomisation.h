@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "scenarios/scenario.h"
@@ -21,5 +23,12 @@ namespace vinebench {
 /// A draw is a function of the seed and the key alone. Throws Error that names file, line and key;
 /// what a key may be is found out when the scenario is read with it.
 std::vector<Override> draw_overrides(const std::filesystem::path& file, std::int64_t seed);
+
+/// load_scenario() with the draws of its seed (the scenario's own where none is given); no
+/// randomisation where that file's name is empty.
+ScenarioConfig load_drawn_scenario(const std::filesystem::path& file,
+                                   std::vector<Override> overrides,
+                                   const std::filesystem::path& randomisation,
+                                   std::optional<std::int64_t> seed);
 
 }  // namespace vinebench

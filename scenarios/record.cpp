@@ -27,17 +27,7 @@ std::string name_of_sequence(std::int64_t seed) {
 }
 
 ScenarioConfig scenario_of(const RecordRequest& request, std::optional<std::int64_t> seed) {
-  std::vector<Override> overrides = request.overrides;
-  if (!request.randomisation.empty()) {
-    const std::int64_t drawn_by =
-        seed ? *seed : load_scenario(request.scenario, request.overrides).seed;
-    for (Override& o : draw_overrides(request.randomisation, drawn_by)) {
-      overrides.push_back(std::move(o));
-    }
-  }
-  ScenarioConfig scenario = load_scenario(request.scenario, overrides);
-  if (seed) scenario.seed = *seed;
-  return scenario;
+  return load_drawn_scenario(request.scenario, request.overrides, request.randomisation, seed);
 }
 
 /// Whether the folder has this very sequence already. Removes what there is of an interrupted one.

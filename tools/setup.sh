@@ -15,6 +15,8 @@ packages=(
   libopencv-dev libeigen3-dev libceres-dev libapriltag-dev
   # files, text, command line
   libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libxxhash-dev libdeflate-dev
+  # the Python module
+  python3-dev python3-numpy pybind11-dev
   # tests
   libgtest-dev libgmock-dev
 )
