@@ -115,7 +115,7 @@ effect fixed_pattern --set $c.fixed_pattern.response=0.08 \
 effect automatic_exposure_at_dusk --set $c.exposure.automatic=true --set world.sun.elevation_deg=-1
 sheet sensors 4 376x
 
-# Every kind of label, of one view; depth and disparity stretched over all greys.
+# Every kind of label; depth from black to white at 10 m, disparity over all greys.
 labels=$work/labels
 mkdir -p "$labels"
 "$vinebench" render "$csl" --camera $small --pose=-0.3,0,0.5,8 --out "$labels/01_rgb.png" \
@@ -123,5 +123,26 @@ mkdir -p "$labels"
   --normals "$labels/04_normals.png" --depth "$labels/05_depth.png" \
   --disparity "$labels/06_disparity.png" --flow-to=-0.25,0.01,0.5,9 \
   --flow "$labels/07_flow.png" --flow-visible "$labels/08_flow_visible.png"
-mogrify -auto-level -depth 8 "$labels"/05_depth.png "$labels"/06_disparity.png
-sheet labels 4 380x
+mogrify -level 0,10000 -depth 8 "$labels"/05_depth.png
+mogrify -auto-level -depth 8 "$labels"/06_disparity.png
+# COCO's things as the Python module gives them: masks tinted, boxes drawn.
+PYTHONPATH=build/python /usr/bin/python3 - "$labels/09_coco,_bunches_and_posts.ppm" <<'END'
+import sys
+import vinebench
+scenario = vinebench.Scenario("scenarios/aisle-loop.yaml", cameras=["front_left"], truth=["things"],
+                              frames=(0, 0))
+frame = next(scenario)
+image = frame.images["front_left"].copy()
+for thing in frame.things("front_left"):
+    if thing["category"] not in ("bunch", "post") or thing["box"][3] < 6:
+        continue
+    colour = (255, 60, 200) if thing["category"] == "bunch" else (60, 160, 255)
+    x, y, width, height = thing["box"]
+    image[thing["mask"]] = image[thing["mask"]] // 2 + [c // 2 for c in colour]
+    image[y:y + height, [x, x + width - 1]] = colour
+    image[[y, y + height - 1], x:x + width] = colour
+with open(sys.argv[1], "wb") as file:
+    file.write(b"P6 %d %d 255\n" % (image.shape[1], image.shape[0]) + image.tobytes())
+END
+mogrify -format png "$labels"/*.ppm && rm "$labels"/*.ppm
+sheet labels 3 420x
