@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/dataset_encoder.h"
 
-#include <map>
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <numeric>
 #include <utility>
 
 #include "slam/base/files.h"
@@ -54,13 +57,19 @@ void DatasetEncoder::write(const std::shared_ptr<const DatasetFrame>& frame) {
     for (FileTask& task : format->files(frame)) tasks.push_back(std::move(task));
   }
   const auto groups = grouped(std::move(tasks));
+  const std::vector<std::size_t> order = longest_first(groups);
   std::vector<std::string> hashes(groups.size());
-  pool_.for_each(groups.size(), [&](std::size_t i) {
+  std::vector<double> seconds(groups.size());
+  pool_.for_each(groups.size(), [&](std::size_t place) {
+    const std::size_t i = order[place];
+    const auto start = std::chrono::steady_clock::now();
     const std::string bytes = groups[i].front().bytes();
     if (manifest_ != nullptr) hashes[i] = xxh128(bytes);
     for (const FileTask& task : groups[i]) write_file_atomically(task.file, bytes);
     bytes_ += bytes.size() * groups[i].size();
+    seconds[i] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   });
+  for (std::size_t i = 0; i < groups.size(); ++i) seconds_[groups[i].front().key] = seconds[i];
   for (const auto& format : formats_) format->commit(*frame);
   if (manifest_ == nullptr) return;
   std::vector<ListedFile> listed;
@@ -70,6 +79,17 @@ void DatasetEncoder::write(const std::shared_ptr<const DatasetFrame>& frame) {
     }
   }
   manifest_->add(listed);
+}
+
+/// So that no thread is left alone with a long one at the end; going by the frame before.
+std::vector<std::size_t> DatasetEncoder::longest_first(const std::vector<TaskGroup>& groups) const {
+  std::vector<std::size_t> order(groups.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) {
+    const auto known = seconds_.find(groups[i].front().key);
+    return known == seconds_.end() ? 0.0 : known->second;
+  });
+  return order;
 }
 
 void DatasetEncoder::finish() {

@@ -5,7 +5,9 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "scenarios/background_worker.h"
@@ -36,14 +38,18 @@ class DatasetEncoder {
   std::uint64_t bytes() const { return bytes_; }
 
  private:
+  using TaskGroup = std::vector<FileTask>;  ///< of the same bytes
+
   void write(const std::shared_ptr<const DatasetFrame>& frame);
+  std::vector<std::size_t> longest_first(const std::vector<TaskGroup>& groups) const;
 
   Formats formats_;
   WorkerPool pool_;
   std::filesystem::path root_;
   FileManifest* manifest_;
   std::atomic<std::uint64_t> bytes_{0};
-  BackgroundWorker worker_;  // last: it must go first
+  std::map<std::string, double> seconds_;  ///< that a task of this key took last
+  BackgroundWorker worker_;                // last: it must go first
 };
 
 /// The pictures of a frame in memory of their own: a source may use its own for the next frame.

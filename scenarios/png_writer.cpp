@@ -4,6 +4,7 @@
 
 #include <libdeflate.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -57,13 +58,16 @@ void copy_row(const std::uint8_t* from, std::size_t size, bool wide, std::uint8_
   }
 }
 
-/// Each row behind the number of its filter.
-std::vector<std::uint8_t> filtered(const cv::Mat& picture) {
+/// Each row behind the number of its filter; good until the thread's next call. Memory of a whole
+/// picture is kept, since fresh pages cost as much as the filter.
+const std::vector<std::uint8_t>& filtered(const cv::Mat& picture) {
   const std::size_t pixel = picture.elemSize();
   const std::size_t row = static_cast<std::size_t>(picture.cols) * pixel;
   const bool wide = picture.elemSize1() == 2;
-  std::vector<std::uint8_t> bytes((row + 1) * static_cast<std::size_t>(picture.rows));
-  std::vector<std::uint8_t> plain(row);
+  thread_local std::vector<std::uint8_t> bytes;
+  thread_local std::vector<std::uint8_t> plain;
+  bytes.resize((row + 1) * static_cast<std::size_t>(picture.rows));
+  plain.resize(row);
   std::uint8_t* to = bytes.data();
   for (int y = 0; y < picture.rows; ++y) {
     copy_row(picture.ptr(y), row, wide, plain.data());
@@ -77,14 +81,16 @@ std::vector<std::uint8_t> filtered(const cv::Mat& picture) {
   return bytes;
 }
 
-std::string compressed(const std::vector<std::uint8_t>& bytes) {
+/// Likewise good until the thread's next call.
+std::string_view compressed(const std::vector<std::uint8_t>& bytes) {
   const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
       libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
   if (!compressor) fail("a picture cannot be compressed: not enough memory");
-  std::string result(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
-  result.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(),
-                                         result.data(), result.size()));
-  return result;
+  thread_local std::vector<char> result;
+  result.resize(
+      std::max(result.size(), libdeflate_zlib_compress_bound(compressor.get(), bytes.size())));
+  return {result.data(), libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(),
+                                                  result.data(), result.size())};
 }
 
 }  // namespace

@@ -18,10 +18,11 @@ struct RecordBenchmark {
   std::filesystem::path folder;  ///< for recordings, which are removed again
 };
 
-/// Wall time of the frames, simulated alone (`base_wall_s`) and recorded: `rgb`, every camera's
-/// pictures in colour as PNG; `all`, every format; `training`, the stereo pairs' pictures with
-/// depth, semantic, instances and COCO. For each `wall_s`, `cpu_s` (all threads), `ratio` to the
-/// base, `megabytes` and `images_per_hour`. Growing the vineyard is in no figure.
+/// Wall and CPU time of the frames (`wall_s`, `cpu_s` of all threads), the ratio of wall time to
+/// that without recording, `megabytes` and `images_per_hour`, in `rows`: simulated alone (`record`)
+/// and with the SLAM core (`run`), each without recording, with every camera's colour pictures as
+/// PNG (`rgb`) and with every kind of label besides (`labels`); `record training` is the stereo
+/// pairs' pictures with depth, semantic, instances and COCO. Growing the vineyard is in no figure.
 nlohmann::ordered_json measure_recording(const RecordBenchmark& benchmark);
 
 /// The result as a table for people.

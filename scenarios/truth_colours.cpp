@@ -65,12 +65,13 @@ cv::Mat colour_instances(const cv::Mat& instances) {
 
 cv::Mat colour_normals(const cv::Mat& normals) {
   cv::Mat colours(normals.size(), CV_8UC3, cv::Scalar::all(0));
+  const auto code = [](float v) { return cv::saturate_cast<std::uint8_t>(127.5f * (1 + v)); };
   for (int y = 0; y < normals.rows; ++y) {
+    const auto* n = normals.ptr<cv::Vec3f>(y);
+    auto* colour = colours.ptr<cv::Vec3b>(y);
     for (int x = 0; x < normals.cols; ++x) {
-      const auto& n = normals.at<cv::Vec3f>(y, x);
-      if (n == cv::Vec3f(0, 0, 0)) continue;
-      const auto code = [](float v) { return cv::saturate_cast<std::uint8_t>(127.5f * (1 + v)); };
-      colours.at<cv::Vec3b>(y, x) = {code(n[0]), code(-n[1]), code(-n[2])};
+      if (n[x][0] == 0 && n[x][1] == 0 && n[x][2] == 0) continue;
+      colour[x] = {code(n[x][0]), code(-n[x][1]), code(-n[x][2])};
     }
   }
   return colours;

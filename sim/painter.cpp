@@ -9,10 +9,16 @@
 namespace vinebench {
 namespace {
 
-constexpr std::array<GLenum, 4> kTargets{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
-                                         GL_COLOR_ATTACHMENT2, GL_COLOR_ATTACHMENT3};
-constexpr std::array<GLenum, 4> kTruthTargets{GL_NONE, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2,
-                                              GL_COLOR_ATTACHMENT3};
+/// Draws into the picture, or not, and into what is asked for of the truth.
+void draw_into(bool picture, const TruthParts& truth) {
+  const auto target = [](bool wanted, GLenum attachment) -> GLenum {
+    return wanted ? attachment : GL_NONE;
+  };
+  const std::array targets{
+      target(picture, GL_COLOR_ATTACHMENT0), target(truth.instances, GL_COLOR_ATTACHMENT1),
+      target(truth.normals, GL_COLOR_ATTACHMENT2), target(truth.motion, GL_COLOR_ATTACHMENT3)};
+  gl.DrawBuffers(truth.any() ? static_cast<GLsizei>(targets.size()) : 1, targets.data());
+}
 
 }  // namespace
 
@@ -39,8 +45,8 @@ MeshShader Painter::shader_of(const Material& material, bool truth) const {
   return shader;
 }
 
-void Painter::clear(bool truth) const {
-  gl.DrawBuffers(truth ? 4 : 1, kTargets.data());
+void Painter::clear(const TruthParts& truth) const {
+  draw_into(true, truth);
   gl.ClearColor(0, 0, 0, 0);
   gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
@@ -101,7 +107,8 @@ void Painter::draw_wire_pieces(const GlProgram& program,
   }
 }
 
-void Painter::draw_wires(const PinholeCamera& camera, const Pose& T_world_cam, bool truth) const {
+void Painter::draw_wires(const PinholeCamera& camera, const Pose& T_world_cam,
+                         const TruthParts& truth) const {
   const std::vector<VisibleWires> wires = visible_wires(scene_, camera, T_world_cam);
   gl.DepthMask(GL_FALSE);
   gl.Enable(GL_BLEND);
@@ -110,9 +117,9 @@ void Painter::draw_wires(const PinholeCamera& camera, const Pose& T_world_cam, b
   gl.Disable(GL_BLEND);
   gl.BlendFunc(GL_ONE, GL_ZERO);  // two sources forbid several targets even where nothing blends
   gl.DepthMask(GL_TRUE);
-  if (!truth) return;
+  if (!truth.any()) return;
   // Blending by two sources has but one target, so the wires' truth is drawn by itself.
-  gl.DrawBuffers(static_cast<GLsizei>(kTruthTargets.size()), kTruthTargets.data());
+  draw_into(false, truth);
   draw_wire_pieces(wire_truth_program_, wires);
 }
 
@@ -136,7 +143,7 @@ void Painter::bind_maps() const {
 
 void Painter::draw(const GlTarget& target, const PinholeCamera& camera, const Pose& T_world_cam,
                    const std::optional<Pose>& T_world_rover, double lod_scale,
-                   const ViewSettings& settings, bool truth) {
+                   const ViewSettings& settings, const TruthParts& truth) {
   const RoverInView rover = cast_shadow(camera, T_world_cam, T_world_rover);
   target.bind();
   ViewBlock view = make_view_block(camera, T_world_cam, scene_.light, scene_.wind, settings);
@@ -158,9 +165,9 @@ void Painter::draw(const GlTarget& target, const PinholeCamera& camera, const Po
   gl.Disable(GL_BLEND);
   clear(truth);
   bind_maps();
-  draw_meshes(list, false, truth);
-  draw_meshes(list, true, truth);
-  gl.DrawBuffers(1, kTargets.data());
+  draw_meshes(list, false, truth.any());
+  draw_meshes(list, true, truth.any());
+  draw_into(true, {});
   draw_sky(view);
   draw_wires(camera, T_world_cam, truth);
   gl.BindVertexArray(0);

@@ -13,21 +13,31 @@
 
 namespace vinebench {
 
+/// What a view draws beside its picture. Depth of wires comes with any of it.
+struct TruthParts {
+  bool depth = false;
+  bool instances = false;
+  bool normals = false;
+  bool motion = false;
+  bool any() const { return depth || instances || normals || motion; }
+};
+
 /// Draws a scene: what stands in it from near to far, then ground, sky and
 /// wires. Alpha becomes the label of what a pixel shows. Lives and dies in a current context.
 class Painter {
  public:
   Painter(const Scene& scene, int shadow_map_size);
-  /// Binds the target and draws into it. `truth`: it takes the truth too.
+  /// Binds the target and draws into it; where `truth` asks for any, it must take the truth too.
   void draw(const GlTarget& target, const PinholeCamera& camera, const Pose& T_world_cam,
             const std::optional<Pose>& T_world_rover, double lod_scale,
-            const ViewSettings& settings, bool truth);
+            const ViewSettings& settings, const TruthParts& truth);
 
  private:
-  void clear(bool truth) const;
+  void clear(const TruthParts& truth) const;
   void draw_meshes(const DrawList& list, bool terrain, bool truth);
   void draw_sky(const ViewBlock& view) const;
-  void draw_wires(const PinholeCamera& camera, const Pose& T_world_cam, bool truth) const;
+  void draw_wires(const PinholeCamera& camera, const Pose& T_world_cam,
+                  const TruthParts& truth) const;
   void draw_wire_pieces(const GlProgram& program, const std::vector<VisibleWires>& wires) const;
   RoverInView cast_shadow(const PinholeCamera& camera, const Pose& T_world_cam,
                           const std::optional<Pose>& T_world_rover);

@@ -79,9 +79,9 @@ class Renderer::Impl {
 
   Picture render(const PinholeCamera& camera, const Pose& T_world_cam, const Request& request) {
     check_camera(camera);
-    const bool truth = request.depth || request.instances || request.normals || request.motion;
+    const TruthParts truth{request.depth, request.instances, request.normals, request.motion};
     const CurrentContext current(*context_);
-    painter_->draw(target(camera.width, camera.height, truth), camera, T_world_cam,
+    painter_->draw(target(camera.width, camera.height, truth.any()), camera, T_world_cam,
                    request.T_world_rover, config_.lod_scale,
                    {request.exposure, request.time, request.other_time}, truth);
     Picture picture = read(camera, request);

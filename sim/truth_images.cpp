@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/core.hpp>
+#include <vector>
 
 #include "slam/base/error.h"
 
@@ -33,60 +34,84 @@ void check(const TruthView& view, const char* which) {
   }
 }
 
+/// Where rays of z = 1 through the centres of pixels go, along one axis of the picture.
+std::vector<double> rays(int size, double focal, double centre) {
+  std::vector<double> at(static_cast<std::size_t>(size));
+  for (int i = 0; i < size; ++i) at[static_cast<std::size_t>(i)] = (i - centre) / focal;
+  return at;
+}
+
 /// The place in b of what a pixel of a shows.
 class Warp {
  public:
-  Warp(const TruthView& a, const TruthView& b)
-      : a_(a), b_(b), T_b_a_(b.T_world_cam.inverse() * a.T_world_cam) {
+  Warp(const TruthView& a, const TruthView& b) : a_(a), b_(b) {
     check(a, "the first");
     check(b, "the second");
+    const Pose T_b_a = b.T_world_cam.inverse() * a.T_world_cam;
+    R_b_a_ = T_b_a.rotation.toRotationMatrix();
+    t_b_a_ = T_b_a.translation;
   }
 
   /// Point in camera b's frame; of sky the direction.
   Eigen::Vector3d point(int x, int y) const {
-    const Eigen::Vector3d ray = a_.camera.unproject({x, y});
     const double depth = a_.picture.depth.at<float>(y, x);
-    if (depth == 0) return T_b_a_.rotation * ray;
-    return T_b_a_ * (depth * ray) + motion(x, y);
+    const Eigen::Vector3d ray =
+        R_b_a_.col(0) * a_columns_[static_cast<std::size_t>(x)] +
+        (R_b_a_.col(1) * a_rows_[static_cast<std::size_t>(y)] + R_b_a_.col(2));
+    if (depth == 0) return ray;
+    const Eigen::Vector3d p = depth * ray + t_b_a_;
+    return a_.picture.motion.empty() ? p : Eigen::Vector3d(p + motion(x, y));
+  }
+
+  /// Pixel of b.
+  Eigen::Vector2d place(const Eigen::Vector3d& point) const {
+    const PinholeCamera& lens = b_.camera;
+    return {lens.fx * point.x() / point.z() + lens.cx, lens.fy * point.y() / point.z() + lens.cy};
   }
 
   bool is_sky(int x, int y) const { return a_.picture.depth.at<float>(y, x) == 0; }
 
   /// Whether b shows the point, or the sky, at a place of its picture.
-  bool shows(const Eigen::Vector2d& place, double depth, bool sky) const {
+  bool shows(const Eigen::Vector2d& place, const Eigen::Vector3d& point, bool sky) const {
     if (!b_.camera.contains(place)) return false;
-    const int x = std::min(static_cast<int>(std::lround(place.x())), b_.camera.width - 1);
-    const int y = std::min(static_cast<int>(std::lround(place.y())), b_.camera.height - 1);
+    // The nearest pixel; places begin at -0.5.
+    const int x = std::min(static_cast<int>(place.x() + 0.5), b_.camera.width - 1);
+    const int y = std::min(static_cast<int>(place.y() + 0.5), b_.camera.height - 1);
     const double seen = b_.picture.depth.at<float>(y, x);
     if (sky || seen == 0) return sky && seen == 0;
-    return agrees(x, y, seen, place, depth);
+    return agrees(x, y, seen, point);
   }
 
  private:
   /// By the wind, in camera b's frame.
   Eigen::Vector3d motion(int x, int y) const {
-    if (a_.picture.motion.empty()) return Eigen::Vector3d::Zero();
     const auto& m = a_.picture.motion.at<cv::Vec3f>(y, x);
     return b_.T_world_cam.rotation.conjugate() * Eigen::Vector3d(m[0], m[1], m[2]);
   }
 
   /// The plane seen at pixel (x, y) is n . p = n . (seen * ray); a ray of z = 1 meets it at the
   /// depth n . (seen * ray) / n . ray'.
-  bool agrees(int x, int y, double seen, const Eigen::Vector2d& place, double depth) const {
+  bool agrees(int x, int y, double seen, const Eigen::Vector3d& point) const {
     const auto& normal = b_.picture.normals.at<cv::Vec3f>(y, x);
     const Eigen::Vector3d n(normal[0], normal[1], normal[2]);
-    const double facing = n.dot(b_.camera.unproject({x, y}));
-    const double slope =
-        seen * std::hypot(n.x() / b_.camera.fx, n.y() / b_.camera.fy) / std::abs(facing);
-    const double expected = seen * facing / n.dot(b_.camera.unproject(place));
-    const double tolerance = kShare * seen + kResolution * seen * seen +
-                             std::min(kSlopeShare * slope, kMostBySlope * seen);
-    return std::abs(depth - expected) <= tolerance;
+    const double facing = n.x() * b_columns_[static_cast<std::size_t>(x)] +
+                          n.y() * b_rows_[static_cast<std::size_t>(y)] + n.z();
+    const double expected = seen * facing * point.z() / n.dot(point);
+    const double off = std::abs(point.z() - expected) - kShare * seen - kResolution * seen * seen;
+    if (!(off > 0)) return off <= 0;  // nearly all, and what is not a number
+    const double slope = seen * Eigen::Vector2d(n.x() / b_.camera.fx, n.y() / b_.camera.fy).norm() /
+                         std::abs(facing);
+    return off <= std::min(kSlopeShare * slope, kMostBySlope * seen);
   }
 
   const TruthView& a_;
   const TruthView& b_;
-  Pose T_b_a_;
+  Eigen::Matrix3d R_b_a_;
+  Eigen::Vector3d t_b_a_;
+  std::vector<double> a_columns_ = rays(a_.camera.width, a_.camera.fx, a_.camera.cx);
+  std::vector<double> a_rows_ = rays(a_.camera.height, a_.camera.fy, a_.camera.cy);
+  std::vector<double> b_columns_ = rays(b_.camera.width, b_.camera.fx, b_.camera.cx);
+  std::vector<double> b_rows_ = rays(b_.camera.height, b_.camera.fy, b_.camera.cy);
 };
 
 void check_rectified(const TruthView& left, const TruthView& right) {
@@ -125,11 +150,11 @@ FlowTruth optical_flow(const TruthView& a, const TruthView& b) {
     for (int x = 0; x < size.width; ++x) {
       const Eigen::Vector3d point = warp.point(x, y);
       const bool ahead = point.z() > kNearest;
-      const Eigen::Vector2d place = ahead ? b.camera.project(point) : Eigen::Vector2d::Zero();
+      const Eigen::Vector2d place = ahead ? warp.place(point) : Eigen::Vector2d::Zero();
       flow[x] =
           ahead ? cv::Vec2f(static_cast<float>(place.x() - x), static_cast<float>(place.y() - y))
                 : cv::Vec2f(kNone, kNone);
-      visible[x] = ahead && warp.shows(place, point.z(), warp.is_sky(x, y)) ? 255 : 0;
+      visible[x] = ahead && warp.shows(place, point, warp.is_sky(x, y)) ? 255 : 0;
     }
   }
   return truth;

@@ -33,7 +33,7 @@ class LoopCloser {
   /// (moved, or there are two) is left out.
   std::optional<Pose> map_pose(const std::vector<TagSighting>& sightings, const Map& map) const;
 
-  /// Covariance of the body's pose by the surest of the sightings, in the step of step_pose: that
+  /// Covariance of the body's pose by the surest of the sightings, in the step of step_of: that
   /// of the tag's corners. Zero where there is no sighting to go by.
   Matrix6d fix_covariance(const std::vector<TagSighting>& sightings) const;
 

@@ -60,15 +60,11 @@ int count_keyframes(const Landmark& landmark) {
   return count;
 }
 
-MapTag* Map::find_tag(const std::string& family, int id) {
-  for (MapTag& tag : tags_) {
+const MapTag* Map::find_tag(const std::string& family, int id) const {
+  for (const MapTag& tag : tags_) {
     if (tag.family == family && tag.id == id) return &tag;
   }
   return nullptr;
-}
-
-const MapTag* Map::find_tag(const std::string& family, int id) const {
-  return const_cast<Map*>(this)->find_tag(family, id);
 }
 
 int Map::add_keyframe(std::shared_ptr<const FrameFeatures> frame, const Pose& T_map_body,

@@ -58,7 +58,7 @@ Associations no_associations(const FrameFeatures& frame);
 struct OdometryLink {
   int from = 0;  ///< keyframe
   Pose T_from_to;
-  Matrix6d covariance = Matrix6d::Identity();  ///< in the step of step_pose
+  Matrix6d covariance = Matrix6d::Identity();  ///< in the step of step_of
 };
 
 struct Keyframe {
@@ -116,7 +116,6 @@ class Map {
   const std::vector<Landmark>& landmarks() const { return landmarks_; }
   std::vector<MapTag>& tags() { return tags_; }
   const std::vector<MapTag>& tags() const { return tags_; }
-  MapTag* find_tag(const std::string& family, int id);
   const MapTag* find_tag(const std::string& family, int id) const;
 
   /// Adds a keyframe; its associations become observations. Returns its id.

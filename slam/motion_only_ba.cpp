@@ -82,7 +82,7 @@ Pose adjust(const Matches& matches, Pose pose, const RobustLoss& loss, Matrix6d&
     Matrix6d damped = normal.H;
     damped.diagonal() *= 1 + damping;
     damped.diagonal().array() += 1e-9;
-    const Pose tried = step_pose(pose, damped.ldlt().solve(-normal.g));
+    const Pose tried = pose * step_of(damped.ldlt().solve(-normal.g));
     const double then = cost(matches, tried, loss);
     if (then <= now) {
       pose = tried;

@@ -6,7 +6,7 @@
 
 namespace vinebench {
 
-/// The covariance of the body's pose in the map, in the step of step_pose (body frame: m, then
+/// The covariance of the body's pose in the map, in the step of step_of (body frame: m, then
 /// rad).
 ///
 /// From keyframe to keyframe errors add up; from a keyframe to the frames after it the motion-only

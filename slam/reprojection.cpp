@@ -61,13 +61,8 @@ Pose from_block(const double* b) {
   return {Eigen::Quaterniond(b[3], b[0], b[1], b[2]).normalized(), {b[4], b[5], b[6]}};
 }
 
-Pose step_pose(const Pose& pose, const Vector6d& step) {
-  return {(pose.rotation * exp_so3(step.tail<3>())).normalized(),
-          pose.translation + pose.rotation * step.head<3>()};
-}
-
 bool PoseManifold::Plus(const double* x, const double* delta, double* x_plus_delta) const {
-  const Pose stepped = step_pose(from_block(x), Eigen::Map<const Vector6d>(delta));
+  const Pose stepped = from_block(x) * step_of(Eigen::Map<const Vector6d>(delta));
   std::ranges::copy(to_block(stepped), x_plus_delta);
   return true;
 }

@@ -18,12 +18,9 @@ using PoseBlock = std::array<double, 7>;
 PoseBlock to_block(const Pose& pose);
 Pose from_block(const double* block);
 
-/// The pose after a step (rho, theta) in the body's own frame: p + R rho, R exp(theta).
-Pose step_pose(const Pose& pose, const Vector6d& step);
-
-/// Steps a PoseBlock as step_pose does. Cost functions give their Jacobian for that step in the
-/// first six columns of the block and zero in the seventh, which the plus-Jacobian of this manifold
-/// takes over as they are.
+/// Steps a pose in the body's own frame: T * step_of(step). Cost functions give their Jacobian for
+/// that step in the first six columns of the block and zero in the seventh, which the plus-Jacobian
+/// of this manifold takes over as they are.
 class PoseManifold : public ceres::Manifold {
  public:
   int AmbientSize() const override { return 7; }
@@ -62,8 +59,8 @@ class Reprojection {
   Reprojection(const EyeModel& eye, const PixelMeasurement& measurement)
       : eye_(&eye), measurement_(measurement) {}
 
-  /// Residuals (zero where there is no third) and their derivatives by the step of step_pose, for
-  /// a point in the map.
+  /// Residuals (zero where there is no third) and their derivatives by the step of PoseManifold,
+  /// for a point in the map.
   struct Linearised {
     Eigen::Vector3d residual;
     Eigen::Matrix<double, 3, 6> by_pose;

@@ -86,7 +86,7 @@ Pose refine(Pose T_ref_body, const std::vector<PlacedSighting>& seen, const Esti
       H += at.by_body.transpose() * at.by_body;
       g += at.by_body.transpose() * at.residual;
     }
-    T_ref_body = step_pose(T_ref_body, H.ldlt().solve(-g));
+    T_ref_body = T_ref_body * step_of(H.ldlt().solve(-g));
   }
   return T_ref_body;
 }

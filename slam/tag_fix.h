@@ -12,7 +12,7 @@
 namespace vinebench {
 
 /// What sightings of tags say of poses, and how surely. A covariance of a pose is that of the steps
-/// of step_pose about it (m and rad in the pose's own axes).
+/// of step_of about it (m and rad in the pose's own axes).
 
 /// A sighting of a tag whose place in some frame is known.
 struct PlacedSighting {

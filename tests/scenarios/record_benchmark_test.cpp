@@ -17,13 +17,20 @@ TEST_F(RecordBenchmarkTest, TellsWhatEachKindOfRecordingCosts) {
   benchmark.frames = 3;
   benchmark.folder = folder_ / "bench";
   const auto result = measure_recording(benchmark);
-  for (const char* kind : {"rgb", "all", "training"}) {
-    EXPECT_GT(result[kind]["wall_s"], 0) << kind;
-    EXPECT_GT(result[kind]["images_per_hour"], 0) << kind;
+  const auto& rows = result["rows"];
+  for (const char* kind :
+       {"record rgb", "record labels", "record training", "run rgb", "run labels"}) {
+    EXPECT_GT(rows[kind]["wall_s"], 0) << kind;
+    EXPECT_GT(rows[kind]["images_per_hour"], 0) << kind;
   }
-  EXPECT_GT(result["all"]["megabytes"], result["rgb"]["megabytes"]);
+  for (const char* base : {"record", "run"}) {
+    EXPECT_EQ(rows[base]["ratio"], 1);
+    EXPECT_EQ(rows[base]["megabytes"], 0);
+  }
+  EXPECT_GT(rows["record labels"]["megabytes"], rows["record rgb"]["megabytes"]);
+  EXPECT_EQ(rows["run rgb"]["megabytes"], rows["record rgb"]["megabytes"]);
   EXPECT_FALSE(std::filesystem::exists(benchmark.folder / "recording"));
-  EXPECT_THAT(record_table(result), testing::HasSubstr("training"));
+  EXPECT_THAT(record_table(result), testing::HasSubstr("record training"));
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ Pose prediction() {
   return truth() * Pose{exp_so3({0.02, 0.01, -0.03}), {0.03, -0.02, 0.01}};
 }
 
-/// The step of step_pose from the truth to a pose.
+/// The step of step_of from the truth to a pose.
 Vector6d error_of(const Pose& pose) {
   Vector6d error;
   error << truth().rotation.conjugate() * (pose.translation - truth().translation),

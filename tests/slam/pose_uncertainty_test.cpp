@@ -21,7 +21,7 @@ TEST(PoseUncertaintyTest, IsCarriedAlongAMotionAsStepsAre) {
     constexpr double kSmall = 1e-6;
     Vector6d step = Vector6d::Zero();
     step[i] = kSmall;
-    const Pose moved = (T_map_a * T_a_b).inverse() * (step_pose(T_map_a, step) * T_a_b);
+    const Pose moved = (T_map_a * T_a_b).inverse() * (T_map_a * step_of(step) * T_a_b);
     Vector6d there;
     there << moved.translation, log_so3(moved.rotation);
     there /= kSmall;

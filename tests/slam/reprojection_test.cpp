@@ -106,8 +106,8 @@ TEST(ReprojectionTest, StepsThePoseAsTheManifoldDoes) {
   for (int i = 0; i < 6; ++i) {
     Vector6d step = Vector6d::Zero();
     step[i] = kStep;
-    const Eigen::Vector3d ahead = reprojection.linearise(step_pose(body(), step), point()).residual;
-    const Eigen::Vector3d back = reprojection.linearise(step_pose(body(), -step), point()).residual;
+    const Eigen::Vector3d ahead = reprojection.linearise(body() * step_of(step), point()).residual;
+    const Eigen::Vector3d back = reprojection.linearise(body() * step_of(-step), point()).residual;
     const Eigen::Vector3d numeric = (ahead - back) / (2 * kStep);
     EXPECT_LT((at.by_pose.col(i) - numeric).norm(), 1e-4 * (1 + numeric.norm())) << i;
   }

@@ -88,7 +88,7 @@ TEST_F(TagFixTest, CovariancesAreCarriedAsPosesMove) {
   for (int axis = 0; axis < 6; ++axis) {
     Vector6d step = Vector6d::Zero();
     step[axis] = 1e-5;
-    const Pose moved = step_pose(body_, step) * a_;
+    const Pose moved = body_ * step_of(step) * a_;
     Matrix6d covariance = 1e-14 * Matrix6d::Identity();
     covariance(axis, axis) = 1e-10;
     // One standard deviation, whichever way it shows in the carried pose.
