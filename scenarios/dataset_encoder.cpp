@@ -58,7 +58,9 @@ void DatasetEncoder::write(const std::shared_ptr<const DatasetFrame>& frame) {
   pool_.for_each(groups.size(), [&](std::size_t i) {
     const std::string bytes = groups[i].front().bytes();
     if (manifest_ != nullptr) hashes[i] = xxh128(bytes);
-    for (const FileTask& task : groups[i]) write_file_atomically(task.file, bytes);
+    for (const FileTask& task : groups[i]) {
+      task.take ? task.take(bytes) : write_file_atomically(task.file, bytes);
+    }
     bytes_ += bytes.size() * groups[i].size();
   });
   for (const auto& format : formats_) format->commit(*frame);
@@ -66,6 +68,7 @@ void DatasetEncoder::write(const std::shared_ptr<const DatasetFrame>& frame) {
   std::vector<ListedFile> listed;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     for (const FileTask& task : groups[i]) {
+      if (task.take) continue;
       listed.push_back({task.file.lexically_relative(root_).string(), hashes[i]});
     }
   }
