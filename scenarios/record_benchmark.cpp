@@ -99,7 +99,7 @@ Json measure_recording(const RecordBenchmark& benchmark) {
               {"base_wall_s", rounded(base.wall_ms / 1e3)},
               {"base_cpu_s", rounded(base.cpu_ms / 1e3)}};
   result["rgb"] = time_recording(benchmark, {"rgb"}, {}, base);
-  result["all"] = time_recording(benchmark, yaml_names(RecordFormat{}), {}, base);
+  result["all"] = time_recording(benchmark, all_formats(), {}, base);
   result["training"] = time_recording(benchmark, {"rgb", "depth", "semantic", "instances", "coco"},
                                       pairs, base_of_pairs);
   return result;
