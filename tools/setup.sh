@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Installs the Debian packages that Vinebench is built from, those that are missing. As root, or
-# through sudo. Does nothing when all are there. Usage: setup.sh [--ros]; with --ros also ROS's, for
-# recording bags (110 packages, 275 MB), and ROS's Python library, which the tests read them with.
+# through sudo. Does nothing when all are there. Usage: setup.sh [--ros]; with --ros also those for
+# recording ROS bags, and for the tests that read them with Python: 135 packages, 322 MB.
 set -euo pipefail
 
 packages=(
