@@ -1,12 +1,10 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 
-# Flags that every target shares. Results must not depend on the optimiser: no contraction of
-# floating-point expressions, no fast-math. x86-64-v2 brings popcnt and SSE4 and leaves Eigen's
-# alignment as Debian's libraries were built with it.
-function(vinebench_flags target)
-  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
-  target_compile_features(${target} PUBLIC cxx_std_20)
+# Options of all our code. Results must not depend on the optimiser: no contraction of floating-point
+# expressions, no fast-math. x86-64-v2 brings popcnt and SSE4 and leaves Eigen's alignment as
+# Debian's libraries were built with it.
+function(vinebench_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wno-psabi)
   target_compile_options(${target} PRIVATE -ffp-contract=off)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
@@ -15,12 +13,19 @@ function(vinebench_flags target)
   if(VINEBENCH_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
-  vinebench_precompile(${target} <algorithm> <filesystem> <functional> <map> <memory> <optional> <string>
-                       <vector> <fmt/format.h> <Eigen/Core> <Eigen/Geometry> <opencv2/core.hpp>)
   if(VINEBENCH_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${VINEBENCH_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(${target} PRIVATE -fsanitize=${VINEBENCH_SANITIZE})
   endif()
+endfunction()
+
+# What every target shares.
+function(vinebench_flags target)
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  vinebench_options(${target})
+  vinebench_precompile(${target} <algorithm> <filesystem> <functional> <map> <memory> <optional> <string>
+                       <vector> <fmt/format.h> <Eigen/Core> <Eigen/Geometry> <opencv2/core.hpp>)
 endfunction()
 
 # vinebench_precompile(TARGET headers...): libraries' headers that most of its files include.

@@ -65,7 +65,9 @@ void DatasetEncoder::write(const std::shared_ptr<const DatasetFrame>& frame) {
     const auto start = std::chrono::steady_clock::now();
     const std::string bytes = groups[i].front().bytes();
     if (manifest_ != nullptr) hashes[i] = xxh128(bytes);
-    for (const FileTask& task : groups[i]) write_file_atomically(task.file, bytes);
+    for (const FileTask& task : groups[i]) {
+      task.take ? task.take(bytes) : write_file_atomically(task.file, bytes);
+    }
     bytes_ += bytes.size() * groups[i].size();
     seconds[i] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   });
@@ -75,6 +77,7 @@ void DatasetEncoder::write(const std::shared_ptr<const DatasetFrame>& frame) {
   std::vector<ListedFile> listed;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     for (const FileTask& task : groups[i]) {
+      if (task.take) continue;
       listed.push_back({task.file.lexically_relative(root_).string(), hashes[i]});
     }
   }

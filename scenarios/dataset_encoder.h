@@ -34,7 +34,7 @@ class DatasetEncoder {
   /// Waits until all is written and finishes the formats; rethrows likewise.
   void finish();
 
-  /// Written so far, in files of their own.
+  /// Made so far by the frames' tasks.
   std::uint64_t bytes() const { return bytes_; }
 
  private:

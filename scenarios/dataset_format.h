@@ -25,10 +25,12 @@ struct FileTask {
   std::string key;  ///< tasks of one frame that have the same key have the same bytes
   std::filesystem::path file;
   std::function<std::string()> bytes;  ///< called on any thread, beside others
+  /// Where there is one, it takes the bytes in place of a file; called likewise.
+  std::function<void(const std::string&)> take{};
 };
 
-/// Writes a run in one format into a folder that is its own. All but FileTask::bytes is called on
-/// one thread, frame after frame; what goes wrong throws Error.
+/// Writes a run in one format into a folder that is its own. All but a FileTask's functions is
+/// called on one thread, frame after frame; what goes wrong throws Error.
 class DatasetFormat {
  public:
   virtual ~DatasetFormat() = default;

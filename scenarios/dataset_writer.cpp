@@ -11,6 +11,7 @@
 #include "scenarios/euroc_format.h"
 #include "scenarios/kitti_format.h"
 #include "scenarios/label_formats.h"
+#include "scenarios/ros_format.h"
 #include "scenarios/tum_format.h"
 #include "slam/base/error.h"
 #include "slam/base/files.h"
@@ -124,7 +125,8 @@ DatasetEncoder::Formats DatasetWriter::make_formats(const RecordingNotes& notes,
   add(kDcvslam, [&](const fs::path& to) {
     return std::make_unique<DcvslamFormat>(to, notes, options_.colour);
   });
-  add(kRgb, [&](const fs::path& to) { return make_rgb_format(to, notes, options_.pictures); });
+  const PictureKind pictures = options_.pictures.value_or(PictureKind::kPng);
+  add(kRgb, [&](const fs::path& to) { return make_rgb_format(to, notes, pictures); });
   add(kDepth, [&](const fs::path& to) { return make_depth_format(to, notes); });
   add(kDepth32, [&](const fs::path& to) { return make_depth32_format(to, notes); });
   add(kDisparity, [&](const fs::path& to) { return std::make_unique<DisparityFormat>(to, notes); });
@@ -135,8 +137,10 @@ DatasetEncoder::Formats DatasetWriter::make_formats(const RecordingNotes& notes,
   add(kCoco, [&](const fs::path& to) {
     return std::make_unique<CocoFormat>(
         to, notes, scene,
-        CocoOptions{options_.pictures, options_.categories,
-                    options_.sequence * kCocoImagesPerSequence + 1});
+        CocoOptions{pictures, options_.categories, options_.sequence * kCocoImagesPerSequence + 1});
+  });
+  add(kRos, [&](const fs::path& to) {
+    return std::make_unique<RosFormat>(to, notes, options_.colour, options_.pictures);
   });
   if (options_.has(kFlow) || options_.has(kFlo)) {
     const auto folder = [&](RecordFormat format) {

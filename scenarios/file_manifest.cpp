@@ -6,6 +6,10 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <memory>
 #include <set>
 #include <system_error>
 
@@ -19,6 +23,11 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kDigits = 32;
 constexpr std::string_view kBetween = "  ";
+constexpr std::size_t kPart = std::size_t{1} << 20;  // bytes of a file in memory
+
+std::string digits_of(const XXH128_hash_t& hash) {
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
 
 std::string line_of(const ListedFile& file) {
   return fmt::format("{}{}{}\n", file.hash, kBetween, file.name);
@@ -32,8 +41,22 @@ bool is_line(std::string_view line) {
 }  // namespace
 
 std::string xxh128(std::string_view bytes) {
-  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+  return digits_of(XXH3_128bits(bytes.data(), bytes.size()));
+}
+
+std::string xxh128_of_file(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) fail("{}: cannot be read: {}", file.string(), std::strerror(errno));
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
+                                                                       XXH3_freeState);
+  XXH3_128bits_reset(state.get());
+  std::vector<char> part(kPart);
+  while (in) {
+    in.read(part.data(), static_cast<std::streamsize>(part.size()));
+    XXH3_128bits_update(state.get(), part.data(), static_cast<std::size_t>(in.gcount()));
+  }
+  if (in.bad()) fail("{}: cannot be read: {}", file.string(), std::strerror(errno));
+  return digits_of(XXH3_128bits_digest(state.get()));
 }
 
 std::vector<std::string> files_below(const fs::path& folder) {
@@ -65,7 +88,7 @@ void FileManifest::add_rest(const std::vector<std::string>& without) {
   std::vector<ListedFile> rest;
   for (const std::string& name : files_below(folder_)) {
     if (!known.contains(name) && name != kName) {
-      rest.push_back({name, xxh128(read_file(folder_ / name))});
+      rest.push_back({name, xxh128_of_file(folder_ / name)});
     }
   }
   add(rest);

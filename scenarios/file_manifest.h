@@ -16,6 +16,9 @@ namespace vinebench {
 /// XXH3 of 128 bits as 32 digits, as `xxhsum -H128` prints it.
 std::string xxh128(std::string_view bytes);
 
+/// The same of a file, which may be larger than the memory. Throws Error when it cannot be read.
+std::string xxh128_of_file(const std::filesystem::path& file);
+
 /// A file of a data set.
 struct ListedFile {
   std::string name;  ///< relative to the data set, with '/'

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "scenarios/rosbag/ros_bag.h"
 #include "slam/base/error.h"
 
 namespace vinebench {
@@ -31,7 +32,7 @@ std::string RecordOptions::text() const {
   for (const Category category : categories) ids.push_back(category_id(category));
   return fmt::format("{} | {} | {} | {} {} {} | {} {} {}", fmt::join(names, ","),
                      fmt::join(cameras, ","), fmt::join(ids, ","), first, last, every,
-                     static_cast<int>(pictures), colour, sequence);
+                     pictures ? static_cast<int>(*pictures) : -1, colour, sequence);
 }
 
 CapturePlan plan_of(const RecordOptions& options, const Rig& rig) {
@@ -54,6 +55,12 @@ CapturePlan plan_of(const RecordOptions& options, const Rig& rig) {
     plan.cameras[static_cast<std::size_t>(camera)] = true;
   }
   return plan;
+}
+
+std::vector<std::string> all_formats() {
+  std::vector<std::string> names = yaml_names(RecordFormat{});
+  if (!has_rosbag()) std::erase(names, "ros");
+  return names;
 }
 
 std::set<RecordFormat> parse_formats(const std::vector<std::string>& names) {

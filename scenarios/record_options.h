@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -28,7 +29,8 @@ enum class RecordFormat {
   kNormals,
   kSemantic,
   kInstances,
-  kCoco
+  kCoco,
+  kRos
 };
 inline std::vector<std::string> yaml_names(RecordFormat) {
   return {"euroc", "kitti", "tum",     "dcvslam",  "rgb",       "depth", "depth32", "disparity",
@@ -43,10 +45,10 @@ struct RecordOptions {
   std::int64_t first = 0;            ///< frame of the run
   std::int64_t last = std::numeric_limits<std::int64_t>::max();
   std::int64_t every = 1;
-  PictureKind pictures = PictureKind::kPng;  ///< of rgb and coco
-  bool colour = false;                       ///< euroc, dcvslam in colour; kitti in colour too
-  int threads = 2;                           ///< that encode, beside the simulation's
-  std::int64_t sequence = 0;                 ///< number of the sequence in its data set
+  std::optional<PictureKind> pictures;  ///< where absent, PNG in rgb and coco, raw in ros
+  bool colour = false;                  ///< euroc, dcvslam, ros in colour; kitti in colour too
+  int threads = 2;                      ///< that encode, beside the simulation's
+  std::int64_t sequence = 0;            ///< number of the sequence in its data set
 
   bool has(RecordFormat format) const { return formats.contains(format); }
   /// As text, for comparing a recording with one that is to be resumed.
@@ -55,6 +57,9 @@ struct RecordOptions {
 
 /// What the formats ask of the simulation. Throws Error for a camera that the rig has not.
 CapturePlan plan_of(const RecordOptions& options, const Rig& rig);
+
+/// Names of the formats that this program can write.
+std::vector<std::string> all_formats();
 
 /// "euroc,depth" and so on. Throws Error that lists what there is.
 std::set<RecordFormat> parse_formats(const std::vector<std::string>& names);

@@ -22,7 +22,7 @@ struct RecordArguments {
   std::vector<std::string> labels;
   std::string seeds;
   std::string frames;
-  std::string pictures = "png";
+  std::string pictures;
 };
 
 RecordRequest request_of(const RecordArguments& arguments) {
@@ -36,8 +36,10 @@ RecordRequest request_of(const RecordArguments& arguments) {
         parse_span(arguments.frames, "--frames");
   }
   const std::vector<std::string> kinds = yaml_names(PictureKind{});
-  request.options.pictures =
-      static_cast<PictureKind>(std::ranges::find(kinds, arguments.pictures) - kinds.begin());
+  if (!arguments.pictures.empty()) {
+    request.options.pictures =
+        static_cast<PictureKind>(std::ranges::find(kinds, arguments.pictures) - kinds.begin());
+  }
   return request;
 }
 
@@ -67,7 +69,7 @@ void add_what(CLI::App& command, RecordArguments& arguments) {
   command
       .add_option("--format", arguments.formats,
                   "Some of euroc, kitti, tum, dcvslam, rgb, depth, depth32, disparity, flow, flo, "
-                  "normals, semantic, instances, coco; commas between them")
+                  "normals, semantic, instances, coco, ros; commas between them")
       ->required()
       ->delimiter(',');
   command.add_option("--cameras", options.cameras, "Names of cameras of the rig (default: all)")
@@ -81,11 +83,12 @@ void add_what(CLI::App& command, RecordArguments& arguments) {
   command.add_option("--every", options.every, "Only every so-manieth of them")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}))
       ->capture_default_str();
-  command.add_option("--image", arguments.pictures, "Pictures of rgb and coco: png, jpg, webp")
-      ->check(CLI::IsMember(yaml_names(PictureKind{})))
-      ->capture_default_str();
+  command
+      .add_option("--image", arguments.pictures,
+                  "Pictures of rgb, coco and ros: png, jpg, webp (default: png; ros's are raw)")
+      ->check(CLI::IsMember(yaml_names(PictureKind{})));
   command.add_flag("--colour", options.colour,
-                   "Pictures of euroc and dcvslam in colour; kitti's also in colour");
+                   "Pictures of euroc, dcvslam and ros in colour; kitti's also in colour");
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ class RecordTest : public test::SmallScenario {
 };
 
 TEST_F(RecordTest, TheSameBytesForAnyNumberOfThreads) {
-  const std::vector<std::string> all = yaml_names(RecordFormat{});
+  const std::vector<std::string> all = all_formats();
   EXPECT_EQ(record(all).frames, kFrames);
   const std::string first = manifest();
   EXPECT_THAT(faults(), testing::IsEmpty());

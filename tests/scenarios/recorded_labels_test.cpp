@@ -181,7 +181,7 @@ TEST_F(RecordedLabelsTest, CocoCountsEveryPixelOnce) {
 }
 
 TEST_F(RecordedLabelsTest, AllOfThemPassTheCheck) {
-  record(yaml_names(RecordFormat{}));
+  record(all_formats());
   const DatasetReport report = check_dataset(request_.out);
   for (const DatasetFault& fault : report.faults) ADD_FAILURE() << fault.file << fault.problem;
   // Six frames of three cameras: depth, semantic, instances; disparity of one; five flows of three.
