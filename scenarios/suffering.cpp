@@ -14,6 +14,8 @@ constexpr Stamp kWindow = kNanosecondsPerSecond;   // ns, that growth is looked 
 constexpr Stamp kGap = kNanosecondsPerSecond / 2;  // ns, that a stretch goes on over
 constexpr double kFastGrowth = 0.010;              // m a window, at least
 constexpr double kTimesUsual = 5;                  // and so many times the run's median
+constexpr double kDrift = 0.01;                    // of the way, or this much without a break,
+constexpr double kLeastDrift = 0.003;              // m a window, and more than poses' noise
 
 bool is_known(const Tick& tick) {
   return tick.truth.known && is_tracked(tick.estimate);
@@ -54,6 +56,7 @@ struct Growth {
   std::size_t from = 0;  ///< tick
   std::size_t to = 0;    ///< tick
   double metres = 0;
+  double way = 0;  ///< m, from the true place to the other
 };
 
 std::vector<Growth> growths_of(const RunRecord& record, const RunResults& results) {
@@ -63,19 +66,24 @@ std::vector<Growth> growths_of(const RunRecord& record, const RunResults& result
     while (record.ticks[from].stamp < record.ticks[to].stamp - kWindow) ++from;
     if (record.ticks[to].stamp < record.ticks.front().stamp + kWindow) continue;
     const auto growth = error_growth(record, from, to);
-    if (growth && !is_corrected(results, from, to)) growths.push_back({from, to, growth->norm()});
+    if (!growth || is_corrected(results, from, to)) continue;
+    const double way = (record.ticks[to].truth.T_world_body.translation -
+                        record.ticks[from].truth.T_world_body.translation)
+                           .norm();
+    growths.push_back({from, to, growth->norm(), way});
   }
   return growths;
 }
 
-/// Ticks of seconds in which the error grew fast.
+/// Ticks of seconds in which the error grew fast, or by too large a share of the way.
 void mark_growth(const std::vector<Growth>& growths, std::vector<bool>& bad) {
   if (growths.empty()) return;
   std::vector<double> metres;
   for (const Growth& growth : growths) metres.push_back(growth.metres);
-  const double limit = std::max(kFastGrowth, kTimesUsual * percentile(metres, 0.5));
+  const double fast = std::max(kFastGrowth, kTimesUsual * percentile(metres, 0.5));
   for (const Growth& growth : growths) {
-    if (growth.metres < limit) continue;
+    const double drift = std::max(kLeastDrift, kDrift * growth.way);
+    if (growth.metres < fast && growth.metres < drift) continue;
     for (std::size_t i = growth.from + 1; i <= growth.to; ++i) bad[i] = true;
   }
 }

@@ -136,9 +136,9 @@ TEST_F(ExplainTest, AnErrorThatGrowsFastIsFoundWithoutWeakTracking) {
   const auto list = found();
   ASSERT_EQ(list.size(), 1u);
   EXPECT_EQ(list[0].cause, Cause::kUnexplained);
-  // Seconds that end from 10.2 s (10 mm of growth) to 12.8 s are fast; they begin one earlier.
-  EXPECT_NEAR(static_cast<double>(list[0].first), 93, 1);
-  EXPECT_NEAR(static_cast<double>(list[0].last), 128, 1);
+  // Seconds that end from 10.1 s (5 mm of growth, 1 % of 0.5 m) to 12.9 s are; they begin earlier.
+  EXPECT_NEAR(static_cast<double>(list[0].first), 92, 1);
+  EXPECT_NEAR(static_cast<double>(list[0].last), 129, 1);
   EXPECT_NEAR(list[0].error_growth, 0.1, 1e-9);
 }
 
@@ -165,6 +165,19 @@ TEST_F(ExplainTest, AMiscalibratedRigIsBlamedForWhatNothingElseExplains) {
   EXPECT_THAT(causes(), ElementsAre(Cause::kCalibrationError));
   meanwhile([](Tick& tick) { tick.truth.box_share = {0.9, 0.9, 0}; });
   EXPECT_THAT(causes(), ElementsAre(Cause::kOcclusion));
+}
+
+// A map 2 % too large: 10 mm in each second of 0.5 m, and never more than usual.
+TEST_F(ExplainTest, ASteadyDriftOfTheWholeRunIsSuffering) {
+  for (Tick& tick : record_.ticks) tick.estimate.T_map_body->translation *= 1.02;
+  scenario_.simulation.sensors.calibration.focal_px = 5;
+  const auto list = found();
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0].cause, Cause::kCalibrationError);
+  EXPECT_NEAR(list[0].error_growth, 0.2, 0.01);  // m, 2 % of 10 m
+  // Half a percent is 2.5 mm a second: the ordinary drift of a good system.
+  for (Tick& tick : record_.ticks) tick.estimate.T_map_body->translation *= 1.005 / 1.02;
+  EXPECT_TRUE(found().empty());
 }
 
 // Plants stand 1 m apart along the row, which leads east: a jump ahead by 2.05 m is two of them.
