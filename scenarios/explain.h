@@ -39,7 +39,7 @@ struct Explanation {
 /// Finds the stretches and their causes. Tracking is weak where there is no pose after the first
 /// one, or fewer inliers than a third of the run's median; the error grows fast where in a second
 /// the estimated motion is off the true one by 10 mm and more, and by five times the run's median,
-/// or by 1 % of the way and at least 3 mm.
+/// or by 1.5 % of the way and at least 5 mm.
 /// Both are of the poses as they were known at their own frame. Such ticks, with gaps of up to half
 /// a second, make a stretch; a cause is named when it shows in a third of it, the strongest first.
 /// Empty where the truth is not known.

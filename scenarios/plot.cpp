@@ -46,6 +46,11 @@ class Drawing {
     add(fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>", px, py, style,
                     xml_escaped(words)));
   }
+  void title(const std::string& words) {
+    constexpr double kLetter = 10;  // px, of the bold face at most in the mean
+    text(kLeft, 30, words, "font-size=\"16\" font-weight=\"bold\"");
+    title_end_ = 2 * kLeft + kLetter * static_cast<double>(words.size());
+  }
   void line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const std::string& style) {
     add(fmt::format("<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" {}/>", x(a.x()),
                     y(a.y()), x(b.x()), y(b.y()), style));
@@ -68,13 +73,14 @@ class Drawing {
         "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
         "<clipPath id=\"map\"><rect x=\"{2}\" y=\"{3}\" width=\"{4:.1f}\" height=\"{5:.1f}\"/>"
         "</clipPath>\n{6}</svg>\n",
-        width_ + kLeft + kRight, std::max(height_ + kTop + kBottom, kLegendHeight), kLeft, kTop,
-        width_, height_, body_);
+        std::max(width_ + kLeft + kRight, title_end_),
+        std::max(height_ + kTop + kBottom, kLegendHeight), kLeft, kTop, width_, height_, body_);
   }
 
  private:
   Eigen::AlignedBox2d bounds_;
   double scale_ = 1, width_ = 0, height_ = 0;
+  double title_end_ = 0;  ///< px
   std::string body_;
 };
 
@@ -304,7 +310,7 @@ std::string plot_svg(const ScenarioConfig& scenario, const RunRecord& record,
                      const RunResults& results) {
   Drawing drawing(bounds_of(scenario.simulation.world, record));
   const double top = results.corrected ? results.corrected->ate.max : 0;
-  drawing.text(kLeft, 30, title_of(scenario, results), "font-size=\"16\" font-weight=\"bold\"");
+  drawing.title(title_of(scenario, results));
   draw_axes(drawing);
   drawing.add("<g clip-path=\"url(#map)\">");
   draw_world(drawing, scenario.simulation.world);

@@ -14,8 +14,8 @@ constexpr Stamp kWindow = kNanosecondsPerSecond;   // ns, that growth is looked 
 constexpr Stamp kGap = kNanosecondsPerSecond / 2;  // ns, that a stretch goes on over
 constexpr double kFastGrowth = 0.010;              // m a window, at least
 constexpr double kTimesUsual = 5;                  // and so many times the run's median
-constexpr double kDrift = 0.01;                    // of the way, or this much without a break,
-constexpr double kLeastDrift = 0.003;              // m a window, and more than poses' noise
+constexpr double kDrift = 0.015;                   // of the way, or this much without a break,
+constexpr double kLeastDrift = 0.005;              // m a window, and more than poses' noise
 
 bool is_known(const Tick& tick) {
   return tick.truth.known && is_tracked(tick.estimate);
