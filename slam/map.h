@@ -14,7 +14,7 @@
 #include "slam/base/time.h"
 #include "slam/feature_grid.h"
 #include "slam/features.h"
-#include "slam/patch.h"
+#include "slam/patch_list.h"
 #include "slam/stereo_matcher.h"
 
 namespace vinebench {
@@ -66,7 +66,7 @@ struct Keyframe {
   std::shared_ptr<const FrameFeatures> frame;
   Pose T_map_body;
   Associations landmarks;
-  std::vector<std::vector<std::optional<Patch>>> patches;  ///< of each feature of each view
+  std::vector<PatchList> patches;    ///< of each view; none where it has no pictures
   std::optional<OdometryLink> link;  ///< to an earlier keyframe, after a stretch without sight
   std::map<int, int> covisible;      ///< keyframe id to the number of landmarks both see
 

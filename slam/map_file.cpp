@@ -29,7 +29,7 @@ struct StoredKeyframe {
   FrameFeatures frame;
   Pose T_map_body;
   Associations landmarks;
-  std::vector<std::vector<std::optional<Patch>>> patches;
+  std::vector<PatchList> patches;
   std::optional<OdometryLink> link;
 };
 
@@ -72,6 +72,19 @@ void fields(Archive& archive, OdometryLink& link) {
   matrix = link.covariance;
   archive(link.from, link.T_from_to, covariance);
   link.covariance = matrix;
+}
+template <class Archive>
+void fields(Archive& archive, PatchList& list) {
+  std::vector<std::optional<Patch>> patches(list.size());
+  for (std::size_t f = 0; f < patches.size(); ++f) {
+    if (const Patch* patch = list.find(f)) patches[f] = *patch;
+  }
+  archive(patches);
+  list = PatchList(patches.size());
+  for (std::size_t f = 0; f < patches.size(); ++f) {
+    if (patches[f]) list.add(f, *patches[f]);
+  }
+  list.close();
 }
 template <class Archive>
 void fields(Archive& archive, StoredKeyframe& k) {
@@ -159,7 +172,7 @@ void check(const StoredKeyframe& keyframe, const EstimatorRig& rig, std::size_t 
     reader.expect(is_sound(views[v], rig.rig.pairs[v].lens, rig.level_scales.size()),
                   "a keyframe's features");
     const std::size_t n = views[v].features.size();
-    reader.expect(patches.empty() || patches[v].empty() || patches[v].size() == n,
+    reader.expect(patches.empty() || patches[v].size() == 0 || patches[v].size() == n,
                   "patches of no feature");
     reader.expect(keyframe.landmarks[v].size() == n, "ties of no feature");
     for (const int id : keyframe.landmarks[v]) {

@@ -69,23 +69,24 @@ void refine_matches(const Map& map, const Pose& T_map_body, const EstimatorRig& 
   }
 }
 
-std::vector<std::vector<std::optional<Patch>>> cut_patches(const FrameFeatures& frame,
-                                                           const Associations& landmarks,
-                                                           const EstimatorRig& rig) {
-  std::vector<std::vector<std::optional<Patch>>> patches;
+std::vector<PatchList> cut_patches(const FrameFeatures& frame, const Associations& landmarks,
+                                   const EstimatorRig& rig) {
+  std::vector<PatchList> patches;
   if (frame.pyramids.empty() || !rig.refinement.enabled) return patches;
   for (std::size_t v = 0; v < landmarks.size(); ++v) {
     const StereoView& view = frame.views[v];
-    std::vector<std::optional<Patch>>& of_view = patches.emplace_back(landmarks[v].size());
+    PatchList& of_view = patches.emplace_back(landmarks[v].size());
     for (std::size_t f = 0; f < landmarks[v].size(); ++f) {
       if (landmarks[v][f] < 0 || !view.is_placed(f)) continue;
       const Keypoint& keypoint = view.features.keypoints[f];
       const auto level = static_cast<std::size_t>(keypoint.level);
       const double pixel = rig.level_scales[level];
-      of_view[f] =
+      const auto patch =
           cut_patch(frame.pyramids[v][level], to_level(static_cast<double>(keypoint.x), pixel),
                     to_level(static_cast<double>(keypoint.y), pixel));
+      if (patch) of_view.add(f, *patch);
     }
+    of_view.close();
   }
   return patches;
 }

@@ -18,8 +18,7 @@ void refine_matches(const Map& map, const Pose& T_map_body, const EstimatorRig& 
 
 /// Cuts the patches of a keyframe's features that have a landmark and are placed to a fraction of a
 /// pixel, or begin a landmark.
-std::vector<std::vector<std::optional<Patch>>> cut_patches(const FrameFeatures& frame,
-                                                           const Associations& landmarks,
-                                                           const EstimatorRig& rig);
+std::vector<PatchList> cut_patches(const FrameFeatures& frame, const Associations& landmarks,
+                                   const EstimatorRig& rig);
 
 }  // namespace vinebench

@@ -44,9 +44,8 @@ PatchProjector::PatchProjector(const Map& map, const Pose& T_map_body, const Est
 const Patch* PatchProjector::find_patch(const Observation& seen) const {
   const Keyframe& keyframe = map_.keyframe(seen.keyframe);
   if (keyframe.patches.empty()) return nullptr;
-  const std::optional<Patch>& patch =
-      keyframe.patches[static_cast<std::size_t>(seen.view)][static_cast<std::size_t>(seen.feature)];
-  return patch ? &*patch : nullptr;
+  return keyframe.patches[static_cast<std::size_t>(seen.view)].find(
+      static_cast<std::size_t>(seen.feature));
 }
 
 const PatchProjector::Step& PatchProjector::step(int keyframe, int v) {

@@ -26,9 +26,10 @@ std::uint8_t grey_of(const Landmark& landmark, const Map& map) {
   for (const Observation& o : landmark.observations) {
     const auto& patches = map.keyframe(o.keyframe).patches;
     if (patches.empty()) continue;
-    const auto& patch = patches[static_cast<std::size_t>(o.view)];
+    const PatchList& of_view = patches[static_cast<std::size_t>(o.view)];
     const auto f = static_cast<std::size_t>(o.feature);
-    if (f < patch.size() && patch[f]) return grey_of(*patch[f]);
+    if (f >= of_view.size()) continue;
+    if (const Patch* patch = of_view.find(f)) return grey_of(*patch);
   }
   return kUnknownGrey;
 }

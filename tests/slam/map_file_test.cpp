@@ -54,7 +54,9 @@ AisleMap small_map(const SyntheticAisle& aisle) {
   const int id = made.add(frame, second);
   auto& patches = made.map.keyframe(id).patches;
   for (const StereoView& view : frame->views) patches.emplace_back(view.features.size());
-  patches[0][1].emplace().grey.fill(77);
+  Patch grey;
+  grey.grey.fill(77);
+  patches[0].add(1, grey);
   made.map.tags().push_back({"tag36h11", 0, 0.161, T_world_tag, true});
   made.map.remove_landmark(made.map.keyframe(0).landmarks[0][2]);
   return made;
@@ -101,8 +103,8 @@ TEST_F(MapFileTest, EverythingComesBack) {
   EXPECT_EQ(now.covisible, then.covisible);
   ASSERT_EQ(now.frame->tags.size(), 1u);
   EXPECT_EQ(now.frame->tags[0].corners, then.frame->tags[0].corners);
-  EXPECT_EQ(now.patches[0][1]->grey[60], 77);
-  EXPECT_FALSE(now.patches[0][0]);
+  EXPECT_EQ(now.patches[0].find(1)->grey[60], 77);
+  EXPECT_EQ(now.patches[0].find(0), nullptr);
   const StereoView& view = now.frame->views[1];
   EXPECT_EQ(view.placed, then.frame->views[1].placed);
   EXPECT_EQ(view.features.descriptors, then.frame->views[1].features.descriptors);

@@ -45,7 +45,8 @@ TEST_F(PatchProjectorTest, FromTheSamePlaceAPatchIsItself) {
     const auto view = projector.on_best_level(seen(i), 0, map.landmark(static_cast<int>(i)));
     ASSERT_TRUE(view) << i;
     EXPECT_EQ(view->level, level_of(places[i])) << i;
-    const auto itself = warp_patch(*map.keyframe(0).patches[0][i], Eigen::Matrix3d::Identity());
+    const auto itself =
+        warp_patch(*map.keyframe(0).patches[0].find(i), Eigen::Matrix3d::Identity());
     // Grey levels; the depth is a float, which moves what is looked up by 1e-5 px.
     for (std::size_t k = 0; k < itself->grey.size(); ++k) {
       EXPECT_NEAR(view->window.grey[k], itself->grey[k], 0.01);
@@ -71,7 +72,8 @@ TEST_F(PatchProjectorTest, ForetellsWhatAnotherPoseSees) {
   const double plain = fit_error(
       pose,
       [&](std::size_t i) {
-        const auto window = warp_patch(*map.keyframe(0).patches[0][i], Eigen::Matrix3d::Identity());
+        const auto window =
+            warp_patch(*map.keyframe(0).patches[0].find(i), Eigen::Matrix3d::Identity());
         return std::optional(PatchView{level_of(places[i]), *window});
       },
       found_plain);
@@ -101,7 +103,7 @@ TEST_F(PatchProjectorTest, SaysNothingOfWhatItCannotKnow) {
   EXPECT_FALSE(here.on_level(seen(0), 0, landmark, 2));    // 1.44 times smaller: another picture
   EXPECT_FALSE(here.on_level({0, 1, 0}, 0, landmark, 0));  // of another view
 
-  map.keyframe(0).patches[0][0].reset();
+  map.keyframe(0).patches[0] = PatchList(map.keyframe(0).patches[0].size());
   EXPECT_FALSE(here.on_level(seen(0), 0, landmark, 0));  // cut from too near the border
   map.keyframe(0).patches.clear();
   EXPECT_FALSE(here.on_level(seen(1), 0, map.landmark(1), 0));  // a keyframe without pictures

@@ -37,9 +37,9 @@ TEST(PointCloudTest, EachLandmarkIsAVertex) {
   for (const auto& view : made.map.keyframe(seen.keyframe).landmarks) {
     patches.emplace_back(view.size());
   }
-  patches[static_cast<std::size_t>(seen.view)][static_cast<std::size_t>(seen.feature)]
-      .emplace()
-      .grey.fill(200);
+  Patch light;
+  light.grey.fill(200);
+  patches[static_cast<std::size_t>(seen.view)].add(static_cast<std::size_t>(seen.feature), light);
 
   const std::string ply = format_ply(made.map, 1);
   const std::size_t begin = ply.find("end_header\n") + 11;
