@@ -9,6 +9,7 @@
 
 #include "scenarios/label_formats.h"
 #include "scenarios/randomisation.h"
+#include "scenarios/record_options.h"
 #include "scenarios/run_scenario.h"
 #include "slam/base/error.h"
 
@@ -34,12 +35,7 @@ CapturePlan plan_of(const StreamRequest& request, const Rig& rig) {
   plan.instances = wants("instances") || wants("things");
   plan.normals = wants("normals") || wants("flow");
   plan.motion = wants("flow");
-  if (!request.cameras.empty()) plan.cameras.assign(rig.cameras.size(), false);
-  for (const std::string& name : request.cameras) {
-    const int camera = rig.find_camera(name);
-    if (camera < 0) fail("cameras: rig '{}' has no camera named '{}'", rig.name, name);
-    plan.cameras[static_cast<std::size_t>(camera)] = true;
-  }
+  plan.cameras = chosen_cameras(request.cameras, rig, "cameras");
   return plan;
 }
 

@@ -35,6 +35,17 @@ std::string RecordOptions::text() const {
                      pictures ? static_cast<int>(*pictures) : -1, colour, sequence);
 }
 
+std::vector<bool> chosen_cameras(const std::vector<std::string>& names, const Rig& rig,
+                                 const std::string& what) {
+  std::vector<bool> chosen(names.empty() ? 0 : rig.cameras.size(), false);
+  for (const std::string& name : names) {
+    const int camera = rig.find_camera(name);
+    if (camera < 0) fail("{}: rig '{}' has no camera named '{}'", what, rig.name, name);
+    chosen[static_cast<std::size_t>(camera)] = true;
+  }
+  return chosen;
+}
+
 CapturePlan plan_of(const RecordOptions& options, const Rig& rig) {
   using enum RecordFormat;
   CapturePlan plan;
@@ -47,13 +58,7 @@ CapturePlan plan_of(const RecordOptions& options, const Rig& rig) {
   plan.normals = options.has(kNormals) || flows;
   plan.motion = flows;
   plan.instances = options.has(kInstances) || options.has(kCoco);
-  if (options.cameras.empty()) return plan;
-  plan.cameras.assign(rig.cameras.size(), false);
-  for (const std::string& name : options.cameras) {
-    const int camera = rig.find_camera(name);
-    if (camera < 0) fail("--cameras: rig '{}' has no camera named '{}'", rig.name, name);
-    plan.cameras[static_cast<std::size_t>(camera)] = true;
-  }
+  plan.cameras = chosen_cameras(options.cameras, rig, "--cameras");
   return plan;
 }
 

@@ -55,6 +55,11 @@ struct RecordOptions {
   std::string text() const;
 };
 
+/// CapturePlan::cameras of these names; none where there are no names. `what` names the option in
+/// the error. Throws Error for a camera that the rig has not.
+std::vector<bool> chosen_cameras(const std::vector<std::string>& names, const Rig& rig,
+                                 const std::string& what);
+
 /// What the formats ask of the simulation. Throws Error for a camera that the rig has not.
 CapturePlan plan_of(const RecordOptions& options, const Rig& rig);
 

@@ -63,12 +63,6 @@ class Warp {
     return a_.picture.motion.empty() ? p : Eigen::Vector3d(p + motion(x, y));
   }
 
-  /// Pixel of b.
-  Eigen::Vector2d place(const Eigen::Vector3d& point) const {
-    const PinholeCamera& lens = b_.camera;
-    return {lens.fx * point.x() / point.z() + lens.cx, lens.fy * point.y() / point.z() + lens.cy};
-  }
-
   bool is_sky(int x, int y) const { return a_.picture.depth.at<float>(y, x) == 0; }
 
   /// Whether b shows the point, or the sky, at a place of its picture.
@@ -150,7 +144,7 @@ FlowTruth optical_flow(const TruthView& a, const TruthView& b) {
     for (int x = 0; x < size.width; ++x) {
       const Eigen::Vector3d point = warp.point(x, y);
       const bool ahead = point.z() > kNearest;
-      const Eigen::Vector2d place = ahead ? warp.place(point) : Eigen::Vector2d::Zero();
+      const Eigen::Vector2d place = ahead ? b.camera.project(point) : Eigen::Vector2d::Zero();
       flow[x] =
           ahead ? cv::Vec2f(static_cast<float>(place.x() - x), static_cast<float>(place.y() - y))
                 : cv::Vec2f(kNone, kNone);

@@ -27,7 +27,7 @@ case ${1:-} in
   --ros)
     packages+=(
       librosbag-storage-dev libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev libros-rosgraph-msgs-dev
-      python3-rosbag python3-numpy python3-opencv python3-yaml
+      python3-rosbag python3-opencv python3-yaml
     )
     ;;
   *)
