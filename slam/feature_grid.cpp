@@ -20,8 +20,7 @@ FeatureGrid::FeatureGrid(const std::vector<Keypoint>& keypoints, int width, int 
     : columns_(std::max(1, (width + kCell - 1) / kCell)),
       rows_(std::max(1, (height + kCell - 1) / kCell)),
       cell_begin_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0),
-      items_(keypoints.size()),
-      keypoints_(keypoints) {
+      items_(keypoints.size()) {
   // Counting sort by cell; equal cells keep the order of the indices.
   std::vector<std::size_t> cells;
   cells.reserve(keypoints.size());
@@ -34,7 +33,11 @@ FeatureGrid::FeatureGrid(const std::vector<Keypoint>& keypoints, int width, int 
   for (std::size_t i = 1; i < cell_begin_.size(); ++i) cell_begin_[i] += cell_begin_[i - 1];
   std::vector<int> next = cell_begin_;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    items_[static_cast<std::size_t>(next[cells[i]]++)] = static_cast<int>(i);
+    Item& item = items_[static_cast<std::size_t>(next[cells[i]]++)];
+    item.x = keypoints[i].x;
+    item.y = keypoints[i].y;
+    item.index = static_cast<std::uint32_t>(i) & 0xffffffU;
+    item.level = static_cast<std::uint32_t>(keypoints[i].level) & 0xffU;
   }
 }
 
@@ -49,11 +52,11 @@ void FeatureGrid::query(float x, float y, float radius, int min_level, int max_l
     const auto first = static_cast<std::size_t>(row * columns_ + first_column);
     const auto last = static_cast<std::size_t>(row * columns_ + last_column) + 1;
     for (int i = cell_begin_[first]; i < cell_begin_[last]; ++i) {
-      const int index = items_[static_cast<std::size_t>(i)];
-      const Keypoint& keypoint = keypoints_[static_cast<std::size_t>(index)];
-      if (keypoint.level < min_level || keypoint.level > max_level) continue;
-      if (std::abs(keypoint.x - x) > radius || std::abs(keypoint.y - y) > radius) continue;
-      result.push_back(index);
+      const Item& item = items_[static_cast<std::size_t>(i)];
+      const int level = static_cast<int>(item.level);
+      if (level < min_level || level > max_level) continue;
+      if (std::abs(item.x - x) > radius || std::abs(item.y - y) > radius) continue;
+      result.push_back(static_cast<int>(item.index));
     }
   }
 }

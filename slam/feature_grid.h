@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "slam/features.h"
@@ -21,11 +22,19 @@ class FeatureGrid {
 
  private:
   static constexpr int kCell = 16;  ///< px
+
+  /// What a query needs to know of a keypoint, where it was when it was filed.
+  struct Item {
+    float x = 0;  ///< px
+    float y = 0;
+    std::uint32_t index : 24 = 0;
+    std::uint32_t level : 8 = 0;
+  };
+
   int columns_ = 0;
   int rows_ = 0;
   std::vector<int> cell_begin_;  ///< offsets into items_, one a cell and one past the last
-  std::vector<int> items_;       ///< keypoint indices, cell after cell
-  std::vector<Keypoint> keypoints_;
+  std::vector<Item> items_;      ///< cell after cell, in a cell by index
 };
 
 }  // namespace vinebench

@@ -38,6 +38,7 @@ int LocalMapper::insert(const TrackedFrame& tracked, Map& map) const {
   }
   for (const int landmark : touched) map.refresh(landmark, rig_.T_body_cams);
   map.keyframe(id).patches = cut_patches(*tracked.frame, map.keyframe(id).landmarks, rig_);
+  for (StereoView& view : tracked.frame->views) view.close();
   return id;
 }
 

@@ -141,7 +141,9 @@ void Map::remove_observation(int id, const Observation& observation) {
       std::none_of(landmark.observations.begin(), landmark.observations.end(),
                    [&](const Observation& o) { return o.keyframe == observation.keyframe; });
   if (last_of_keyframe) change_covisibility(landmark, observation.keyframe, -1);
-  if (landmark.observations.empty()) landmark.removed = true;
+  if (!landmark.observations.empty()) return;
+  landmark.removed = true;
+  landmark.observations.shrink_to_fit();
 }
 
 void Map::remove_landmark(int id) {

@@ -33,6 +33,14 @@ struct StereoView {
 
   std::size_t detected() const { return features.size() - followed; }
   bool is_placed(std::size_t feature) const { return !placed.empty() && placed[feature] != 0; }
+
+  /// No more features will be added: gives back the room for them.
+  void close() {
+    features.keypoints.shrink_to_fit();
+    features.descriptors.shrink_to_fit();
+    stereo.shrink_to_fit();
+    placed.shrink_to_fit();
+  }
 };
 
 /// What a frame's pictures were boiled down to. Tracking places its matches more finely; after that
