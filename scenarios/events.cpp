@@ -49,6 +49,7 @@ class EventLog {
       }
       add_sightings();
       add_rejections();
+      add_calibration();
       if (tick_->estimate.keyframe) add("keyframe");
       add_loop_closures();
       add_explanations();
@@ -128,6 +129,11 @@ class EventLog {
       add("tag_rejected", more);
     }
     rejected_ = std::move(now);
+  }
+
+  void add_calibration() {
+    const std::vector<double>& offsets = tick_->estimate.disparity_offsets;
+    if (!offsets.empty()) add("calibrated", {{"disparity_offsets_px", offsets}});
   }
 
   struct TagKey {

@@ -16,6 +16,18 @@ constexpr std::size_t kAbsent = static_cast<std::size_t>(-1);
 /// Relative decrease of the cost at which a global adjustment is done.
 constexpr double kGlobalTolerance = 1e-5;
 
+/// Beyond so many keyframes the normal equations of their poses are solved by conjugate gradients:
+/// what is far away is seen from everywhere, so that they have no zeros to speak of, and to factor
+/// them takes the cube of their number.
+constexpr std::size_t kManyKeyframes = 400;
+
+/// Relative decrease of the cost at which such an adjustment is done.
+constexpr double kManyKeyframesTolerance = 5e-4;
+
+/// Steps of conjugate gradients at most: they smooth what is near each other, and what is far apart
+/// was put right when the loop's correction was spread.
+constexpr int kManyKeyframesSteps = 60;
+
 }  // namespace
 
 /// One Ceres problem over a window of the map. Blocks are kept by position in ascending id, so that
@@ -23,7 +35,10 @@ constexpr double kGlobalTolerance = 1e-5;
 class AdjustmentJob::Impl {
  public:
   Impl(AdjustmentWindow window, const EstimatorRig& rig, const AdjustmentOptions& options)
-      : window_(std::move(window)), rig_(rig), options_(options), problem_(ownership()) {}
+      : window_(std::move(window)), rig_(rig), options_(options), problem_(ownership()) {
+    for (const EyeModel& eye : rig.eyes) offsets_.push_back(eye.disparity_offset);
+    offset_used_.assign(offsets_.size(), 0);
+  }
 
   void build(const Map& map) {
     add_keyframes(map);
@@ -33,19 +48,32 @@ class AdjustmentJob::Impl {
     for (const int id : window_.fixed) add_tags(id, map);
   }
 
-  void solve() {
+  double solve() {
+    const bool many = window_.moved.size() > kManyKeyframes;
     ceres::Solver::Options options;
-    options.linear_solver_type = options_.global ? ceres::SPARSE_SCHUR : ceres::DENSE_SCHUR;
-    options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
+    options.linear_solver_type = many ? ceres::ITERATIVE_SCHUR : ceres::DENSE_SCHUR;
+    options.preconditioner_type = ceres::SCHUR_JACOBI;
     options.dense_linear_algebra_library_type = ceres::EIGEN;
+    options.max_linear_solver_iterations = kManyKeyframesSteps;
     options.max_num_iterations = options_.iterations;
-    options.function_tolerance = options_.global ? kGlobalTolerance : 1e-6;
+    options.function_tolerance = many              ? kManyKeyframesTolerance
+                                 : options_.global ? kGlobalTolerance
+                                                   : 1e-6;
     options.num_threads = 1;
     options.logging_type = ceres::SILENT;
-    options.linear_solver_ordering.reset(ordering_.release());
+    options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>(ordering_);
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
+    return summary.final_cost;
   }
+
+  void free_offsets() {
+    for (std::size_t v = 0; v < offsets_.size(); ++v) {
+      if (offset_used_[v]) problem_.SetParameterBlockVariable(&offsets_[v]);
+    }
+  }
+
+  const std::vector<double>& disparity_offsets() const { return offsets_; }
 
   void write_back(Map& map) {
     for (const int id : window_.moved) {
@@ -97,7 +125,7 @@ class AdjustmentJob::Impl {
       pose_index_[static_cast<std::size_t>(id)] = poses_.size();
       poses_.push_back(to_block(map.keyframe(id).T_map_body));
       problem_.AddParameterBlock(poses_.back().data(), 7, &manifold_);
-      ordering_->AddElementToGroup(poses_.back().data(), 1);
+      ordering_.AddElementToGroup(poses_.back().data(), 1);
       if (fixed) problem_.SetParameterBlockConstant(poses_.back().data());
     };
     for (const int id : window_.moved) add(id, false);
@@ -124,16 +152,30 @@ class AdjustmentJob::Impl {
     points_.push_back(landmark.position);
     double* point = points_.back().data();
     problem_.AddParameterBlock(point, 3);
-    ordering_->AddElementToGroup(point, 0);
+    ordering_.AddElementToGroup(point, 0);
     for (const Observation& o : landmark.observations) {
       if (pose_index_[static_cast<std::size_t>(o.keyframe)] == kAbsent) continue;
       const StereoView& view =
           map.keyframe(o.keyframe).frame->views[static_cast<std::size_t>(o.view)];
       const PixelMeasurement m = rig_.measurement(view, o.feature);
-      errors_.emplace_back(rig_.eyes[static_cast<std::size_t>(o.view)], m);
-      problem_.AddResidualBlock(&errors_.back(), &cauchy_, pose_of(o.keyframe), point);
+      const bool with_offset = options_.offsets_unknown && m.right_x;
+      errors_.emplace_back(rig_.eyes[static_cast<std::size_t>(o.view)], m, with_offset);
+      std::vector<double*> blocks{pose_of(o.keyframe), point};
+      if (with_offset) blocks.push_back(offset_of(static_cast<std::size_t>(o.view)));
+      problem_.AddResidualBlock(&errors_.back(), &cauchy_, blocks);
       terms_.push_back({landmark.id, o, &errors_.back(), chi_squared_limit(m)});
     }
+  }
+
+  double* offset_of(std::size_t eye) {
+    double* offset = &offsets_[eye];
+    if (!offset_used_[eye]) {
+      problem_.AddParameterBlock(offset, 1);
+      ordering_.AddElementToGroup(offset, 1);
+      problem_.SetParameterBlockConstant(offset);
+      offset_used_[eye] = 1;
+    }
+    return offset;
   }
 
   /// Ties a keyframe to the one before a stretch without sight, where both take part.
@@ -157,7 +199,7 @@ class AdjustmentJob::Impl {
       double* block = tag_blocks_[t].data();
       if (!tag_used_[t]) {
         problem_.AddParameterBlock(block, 7, &manifold_);
-        ordering_->AddElementToGroup(block, 1);
+        ordering_.AddElementToGroup(block, 1);
         if (tag->fixed || !options_.global) problem_.SetParameterBlockConstant(block);
         tag_used_[t] = 1;
       }
@@ -187,8 +229,9 @@ class AdjustmentJob::Impl {
   std::deque<TagCornerError> tag_errors_;
   std::deque<OdometryError> odometry_errors_;
   std::vector<Term> terms_;
-  std::unique_ptr<ceres::ParameterBlockOrdering> ordering_ =
-      std::make_unique<ceres::ParameterBlockOrdering>();
+  std::vector<double> offsets_;  ///< px, of each eye
+  std::vector<char> offset_used_;
+  ceres::ParameterBlockOrdering ordering_;
   ceres::Problem problem_;  // last: it must go before the blocks it points to
 };
 
@@ -200,8 +243,16 @@ AdjustmentJob::AdjustmentJob(const Map& map, AdjustmentWindow window, const Esti
 
 AdjustmentJob::~AdjustmentJob() = default;
 
-void AdjustmentJob::solve() {
-  impl_->solve();
+double AdjustmentJob::solve() {
+  return impl_->solve();
+}
+
+void AdjustmentJob::free_offsets() {
+  impl_->free_offsets();
+}
+
+const std::vector<double>& AdjustmentJob::disparity_offsets() const {
+  return impl_->disparity_offsets();
 }
 
 void AdjustmentJob::apply(Map& map) const {

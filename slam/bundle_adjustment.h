@@ -21,7 +21,8 @@ struct AdjustmentWindow {
 struct AdjustmentOptions {
   int iterations = 6;
   double tag_corner_sigma = 0.3;  ///< px, besides the noise that a sighting knows of
-  bool global = false;            ///< all of the map: sparse solver; mapped tags move too
+  bool global = false;            ///< all of the map: to the end; mapped tags move too
+  bool offsets_unknown = false;   ///< the eyes' disparity offsets can be freed
 };
 
 /// The keyframe, those that share most landmarks with it, and as fixed ones all others that see
@@ -43,9 +44,16 @@ class AdjustmentJob {
   AdjustmentJob(const AdjustmentJob&) = delete;
   AdjustmentJob& operator=(const AdjustmentJob&) = delete;
 
-  /// Touches nothing but its own copies.
-  void solve();
+  /// Touches nothing but its own copies. Returns the cost reached: half the sum of the squared
+  /// residuals, in standard deviations, under their loss.
+  double solve();
   void apply(Map& map) const;
+
+  /// Lets the next solve() estimate the disparity offsets too (AdjustmentOptions::offsets_unknown).
+  void free_offsets();
+
+  /// Of each eye, px: the rig's, or what was estimated.
+  const std::vector<double>& disparity_offsets() const;
 
  private:
   class Impl;

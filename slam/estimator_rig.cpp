@@ -23,6 +23,23 @@ EstimatorRig::EstimatorRig(const StereoRig& stereo_rig, const OrbConfig& feature
   }
 }
 
+void EstimatorRig::set_disparity_offsets(const std::vector<double>& offsets) {
+  for (std::size_t v = 0; v < eyes.size(); ++v) eyes[v].disparity_offset = offsets[v];
+}
+
+void EstimatorRig::correct_depths(std::size_t v, StereoView& view) const {
+  const EyeModel& eye = eyes[v];
+  if (eye.disparity_offset == 0) return;
+  for (std::size_t f = 0; f < view.stereo.size(); ++f) {
+    StereoMatch& match = view.stereo[f];
+    if (match.x_right < 0) continue;
+    const double depth =
+        eye.depth_of(static_cast<double>(view.features.keypoints[f].x - match.x_right));
+    const bool near = depth > 0 && depth < stereo.max_depth_baselines * eye.baseline;
+    match.depth = near ? static_cast<float>(depth) : -1.0F;
+  }
+}
+
 PixelMeasurement EstimatorRig::measurement(const StereoView& view, int feature) const {
   const auto f = static_cast<std::size_t>(feature);
   const Keypoint& keypoint = view.features.keypoints[f];

@@ -25,6 +25,12 @@ struct EstimatorRig {
   RefinementConfig refinement;
   StereoConfig stereo;
 
+  /// One of each eye, px.
+  void set_disparity_offsets(const std::vector<double>& offsets);
+
+  /// Depths of a view as the eye's disparity offset makes them; unchanged where it has none.
+  void correct_depths(std::size_t v, StereoView& view) const;
+
   /// The measurement that a feature is: its pixel, its stereo match where it has one, its noise.
   PixelMeasurement measurement(const StereoView& view, int feature) const;
 

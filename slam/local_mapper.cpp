@@ -48,12 +48,16 @@ void LocalMapper::extend(int keyframe, Map& map) const {
   fuse(keyframe, map);
 }
 
-std::unique_ptr<AdjustmentJob> LocalMapper::local_adjustment(int keyframe, const Map& map) const {
+AdjustmentOptions LocalMapper::adjustment_options() const {
   AdjustmentOptions options;
   options.iterations = config_.mapping.iterations;
   options.tag_corner_sigma = config_.loop.corner_sigma;
+  return options;
+}
+
+std::unique_ptr<AdjustmentJob> LocalMapper::local_adjustment(int keyframe, const Map& map) const {
   return std::make_unique<AdjustmentJob>(map, local_window(map, keyframe, config_.mapping.window),
-                                         rig_, options);
+                                         rig_, adjustment_options());
 }
 
 void LocalMapper::cull(int keyframe, Map& map) const {

@@ -26,6 +26,8 @@ class LocalMapper {
   /// covisible ones, and fuses doubles.
   void extend(int keyframe, Map& map) const;
 
+  AdjustmentOptions adjustment_options() const;
+
   /// The adjustment of the keyframe's neighbourhood, yet to be solved.
   std::unique_ptr<AdjustmentJob> local_adjustment(int keyframe, const Map& map) const;
 

@@ -315,7 +315,8 @@ LoopClosure LoopCloser::close(int keyframe_id, double path_length, Map& map) {
   closure.earlier = map.keyframe(first).frame->stamp;
   closure.later = later.frame->stamp;
   closure.T_earlier_later = T_earlier_tag * T_tag_later;
-  spread_correction(map, first, keyframe_id, tag->T_ref_tag * T_tag_later);
+  spread_correction(map, first, keyframe_id, tag->T_ref_tag * T_tag_later,
+                    carry_covariance(covariance(*sighting) + covariance(*earlier), T_tag_later));
   for (const TagSighting& seen : later.frame->tags) {
     if (registered(seen) != nullptr && !T_map_world_) continue;
     if (map.find_tag(seen.family, seen.id) == nullptr) add_tag(seen, later.T_map_body, map);

@@ -124,6 +124,10 @@ class Map {
   const std::vector<Landmark>& landmarks() const { return landmarks_; }
   std::vector<MapTag>& tags() { return tags_; }
   const std::vector<MapTag>& tags() const { return tags_; }
+
+  /// EyeModel::disparity_offset of each view, as they were when the map was made; empty for none.
+  std::vector<double>& disparity_offsets() { return disparity_offsets_; }
+  const std::vector<double>& disparity_offsets() const { return disparity_offsets_; }
   const MapTag* find_tag(const std::string& family, int id) const;
 
   /// Adds a keyframe; its associations become observations. Returns its id.
@@ -161,6 +165,7 @@ class Map {
   std::vector<Keyframe> keyframes_;
   std::vector<Landmark> landmarks_;
   std::vector<MapTag> tags_;
+  std::vector<double> disparity_offsets_;
 };
 
 /// Number of different keyframes among a landmark's observations.

@@ -14,7 +14,7 @@ namespace vinebench {
 namespace {
 
 constexpr std::string_view kMagic("vinemap\0", 8);
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kHeaderSize = 20;  // magic, version, size of the content
 constexpr std::size_t kChecksumSize = 8;
 
@@ -218,13 +218,20 @@ Map read_content(BinaryReader& reader, const EstimatorRig& rig, const std::strin
   const std::string differs = difference(print, rig_print(rig));
   if (!differs.empty()) fail("{}: this map was made with another rig: {}", where, differs);
   double level_scale = 0;
+  std::vector<double> disparity_offsets;
   std::vector<MapTag> tags;
   std::vector<Landmark> landmarks;
   std::vector<StoredKeyframe> keyframes;
-  reader(level_scale, tags, landmarks, keyframes);
+  reader(level_scale, disparity_offsets, tags, landmarks, keyframes);
   reader.expect(reader.at_end(), "it goes on after its end");
   reader.expect(std::isfinite(level_scale) && level_scale > 1, "the pyramid's scale");
+  reader.expect(disparity_offsets.empty() || disparity_offsets.size() == rig.eyes.size(),
+                "disparity offsets of no pair");
+  for (const double offset : disparity_offsets) {
+    reader.expect(std::isfinite(offset), "a disparity offset");
+  }
   Map map(level_scale);
+  map.disparity_offsets() = std::move(disparity_offsets);
   for (const MapTag& tag : tags)
     reader.expect(std::isfinite(tag.size) && tag.size > 0, "a tag's size");
   map.tags() = std::move(tags);
@@ -252,7 +259,7 @@ std::string format_map(const Map& map, const EstimatorRig& rig) {
   std::vector<int> moved_to;
   const std::vector<Landmark> landmarks = living_landmarks(map, moved_to);
   BinaryWriter content;
-  content(rig_print(rig), map.level_scale(), map.tags(), landmarks,
+  content(rig_print(rig), map.level_scale(), map.disparity_offsets(), map.tags(), landmarks,
           static_cast<std::uint32_t>(map.keyframes().size()));
   for (const Keyframe& keyframe : map.keyframes()) {
     content(stored(keyframe, *map.keyframes().back().frame, moved_to));

@@ -150,18 +150,19 @@ class Follower {
     const auto level = static_cast<std::size_t>(keypoint.level);
     if (frame_.right_pyramids[v].size() <= level) return match;
     const double pixel = rig_.level_scales[level];
-    const double focal_baseline = lens().fx * rig_.eyes[v].baseline;
-    const auto aligned =
-        align_patch(frame_.pyramids[v][level], frame_.right_pyramids[v][level],
-                    static_cast<int>(std::lround(fit.x)), static_cast<int>(std::lround(fit.y)),
-                    focal_baseline / (depth * pixel));
+    const EyeModel& eye = rig_.eyes[v];
+    const double level_disparity =
+        lens().fx * eye.baseline / (depth * pixel) - eye.disparity_offset / pixel;
+    const auto aligned = align_patch(frame_.pyramids[v][level], frame_.right_pyramids[v][level],
+                                     static_cast<int>(std::lround(fit.x)),
+                                     static_cast<int>(std::lround(fit.y)), level_disparity);
     if (!aligned || aligned->shift <= 0 || !rig_.stereo.accepts(*aligned)) return match;
     const double disparity = aligned->shift * pixel;
     match.x_right = keypoint.x - static_cast<float>(disparity);
     match.slant_x = static_cast<float>(aligned->slope_x / disparity);
     match.slant_y = static_cast<float>(aligned->slope_y / disparity);
-    const double seen_depth = focal_baseline / disparity;
-    if (seen_depth < rig_.stereo.max_depth_baselines * rig_.eyes[v].baseline) {
+    const double seen_depth = eye.depth_of(disparity);
+    if (seen_depth > 0 && seen_depth < rig_.stereo.max_depth_baselines * eye.baseline) {
       match.depth = static_cast<float>(seen_depth);
     }
     return match;

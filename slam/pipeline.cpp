@@ -7,6 +7,7 @@
 
 #include "slam/base/error.h"
 #include "slam/keyframe_selector.h"
+#include "slam/stereo_calibration.h"
 
 namespace vinebench {
 namespace {
@@ -64,12 +65,14 @@ Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
 void Pipeline::continue_from(Map map) {
   if (!map_.keyframes().empty()) fail("a map can be loaded before the first frame only");
   map_ = std::move(map);
+  if (!map_.disparity_offsets().empty()) rig_.set_disparity_offsets(map_.disparity_offsets());
   loop_closer_.take_over(map_);
 }
 
 Estimate Pipeline::process(const std::shared_ptr<FrameFeatures>& frame) {
   scheduler_.tick();
   if (scheduler_.due()) join_mapping();
+  for (std::size_t v = 0; v < frame->views.size(); ++v) rig_.correct_depths(v, frame->views[v]);
   TrackedFrame tracked = started_                   ? track(frame)
                          : map_.keyframes().empty() ? initialise(frame)
                                                     : relocalise(frame);
@@ -242,6 +245,7 @@ void Pipeline::map_keyframe(TrackedFrame& tracked, Estimate& estimate) {
   tags_since_adjustment_ |= closures_ > 0 && !tracked.frame->tags.empty();
   if (loop) close_loop(id, estimate);
   if (started_ && !tracked.link) {
+    calibrate(estimate);
     const ScopedTimer timer(times_, "local mapping");
     mapper_.extend(id, map_);
     scheduler_.start(mapper_.local_adjustment(id, map_), id);
@@ -269,6 +273,18 @@ void Pipeline::close_loop(int keyframe, Estimate& estimate) {
                      loop_closer_.fix_covariance(map_.keyframe(keyframe).frame->tags));
   ++closures_;
   tags_since_adjustment_ = false;
+}
+
+/// Makes good an error of the pairs' calibration, in the map and from here on.
+void Pipeline::calibrate(Estimate& estimate) {
+  if (!config_.stereo.self_calibration || !calibration_due(map_)) return;
+  const ScopedTimer timer(times_, "calibration");
+  const auto offsets = find_disparity_offsets(map_, rig_, mapper_.adjustment_options());
+  if (!offsets) return;
+  rig_.set_disparity_offsets(*offsets);
+  map_.disparity_offsets() = *offsets;
+  loop_closer_.adjust_globally(map_);
+  estimate.disparity_offsets = *offsets;
 }
 
 void Pipeline::remember(Stamp stamp) {

@@ -57,6 +57,7 @@ class Pipeline {
   void map_keyframe(TrackedFrame& tracked, Estimate& estimate);
   void grow_uncertainty(const TrackedFrame& tracked);
   void close_loop(int keyframe, Estimate& estimate);
+  void calibrate(Estimate& estimate);
   void remember(Stamp stamp);
   Matrix6d covariance(const TrackedFrame& tracked, bool keyframe) const;
   Estimate report(const TrackedFrame& tracked) const;

@@ -17,7 +17,7 @@ Matrix6d inflated_inverse(const Matrix6d& information) {
 
 }  // namespace
 
-Matrix6d carry_covariance(const Matrix6d& of_a, const Pose& T_a_b) {
+Matrix6d carried_step(const Pose& T_a_b) {
   // A step (rho, theta) of a moves b by R_ba (rho + theta x t) and turns it by R_ba theta.
   const Eigen::Matrix3d R_b_a = T_a_b.rotation.toRotationMatrix().transpose();
   const Eigen::Vector3d& t = T_a_b.translation;
@@ -27,6 +27,11 @@ Matrix6d carry_covariance(const Matrix6d& of_a, const Pose& T_a_b) {
   J.topLeftCorner<3, 3>() = R_b_a;
   J.topRightCorner<3, 3>() = -R_b_a * cross;
   J.bottomRightCorner<3, 3>() = R_b_a;
+  return J;
+}
+
+Matrix6d carry_covariance(const Matrix6d& of_a, const Pose& T_a_b) {
+  const Matrix6d J = carried_step(T_a_b);
   return J * of_a * J.transpose();
 }
 

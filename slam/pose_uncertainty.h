@@ -35,6 +35,10 @@ class PoseUncertainty {
   Matrix6d keyframe_ = Matrix6d::Zero();
 };
 
+/// The step of b that a step of a makes, where T_a_b does not change: as a matrix, the adjoint of
+/// T_b_a.
+Matrix6d carried_step(const Pose& T_a_b);
+
 /// The covariance of T_map_b where T_map_b = T_map_a T_a_b and T_a_b is exact.
 Matrix6d carry_covariance(const Matrix6d& of_a, const Pose& T_a_b);
 

@@ -88,15 +88,18 @@ bool PoseManifold::MinusJacobian(const double*, double* jacobian) const {
   return true;
 }
 
-ReprojectionError::ReprojectionError(const EyeModel& eye, const PixelMeasurement& measurement)
-    : reprojection_(eye, measurement) {
+ReprojectionError::ReprojectionError(const EyeModel& eye, const PixelMeasurement& measurement,
+                                     bool offset_unknown)
+    : eye_(&eye), reprojection_(eye, measurement) {
   set_num_residuals(measurement.size());
   *mutable_parameter_block_sizes() = {7, 3};
+  if (offset_unknown) mutable_parameter_block_sizes()->push_back(1);
 }
 
-Eigen::Vector3d Reprojection::residual_at(const Eigen::Vector3d& p_cam) const {
+Eigen::Vector3d Reprojection::residual_at(const Eigen::Vector3d& p_cam,
+                                          double disparity_offset) const {
   const Eigen::Vector2d pixel = eye_->lens.project(p_cam);
-  const double right_x = pixel.x() - eye_->lens.fx * eye_->baseline / p_cam.z();
+  const double right_x = pixel.x() - eye_->lens.fx * eye_->baseline / p_cam.z() + disparity_offset;
   return {
       (pixel.x() - measurement_.pixel.x()) / measurement_.sigma,
       (pixel.y() - measurement_.pixel.y()) / measurement_.sigma,
@@ -104,7 +107,8 @@ Eigen::Vector3d Reprojection::residual_at(const Eigen::Vector3d& p_cam) const {
 }
 
 Reprojection::Linearised Reprojection::linearise(const Pose& T_map_body,
-                                                 const Eigen::Vector3d& p_map) const {
+                                                 const Eigen::Vector3d& p_map,
+                                                 double disparity_offset) const {
   const Eigen::Vector3d p_body = T_map_body.rotation.conjugate() * (p_map - T_map_body.translation);
   const Matrix3d R_cam_body = eye_->T_cam_body.rotation.toRotationMatrix();
   Eigen::Vector3d p_cam = R_cam_body * p_body + eye_->T_cam_body.translation;
@@ -113,7 +117,7 @@ Reprojection::Linearised Reprojection::linearise(const Pose& T_map_body,
   const Eigen::Vector3d weights(1 / measurement_.sigma, 1 / measurement_.sigma,
                                 measurement_.right_x ? 1 / measurement_.right_sigma : 0);
   Linearised result;
-  result.residual = residual_at(p_cam);
+  result.residual = residual_at(p_cam, disparity_offset);
   result.by_point_in_body = weights.asDiagonal() * projection_jacobian(*eye_, p_cam) * R_cam_body;
   result.by_pose = result.by_point_in_body * body_point_jacobian(p_body);
   return result;
@@ -123,7 +127,9 @@ bool ReprojectionError::Evaluate(double const* const* parameters, double* residu
                                  double** jacobians) const {
   const Pose T_map_body = from_block(parameters[0]);
   const Eigen::Map<const Eigen::Vector3d> p_map(parameters[1]);
-  const Reprojection::Linearised at = reprojection_.linearise(T_map_body, p_map);
+  const bool offset_unknown = parameter_block_sizes().size() > 2;
+  const double offset = offset_unknown ? parameters[2][0] : eye_->disparity_offset;
+  const Reprojection::Linearised at = reprojection_.linearise(T_map_body, p_map, offset);
   std::copy_n(at.residual.data(), num_residuals(), residuals);
   if (jacobians == nullptr) return true;
   if (jacobians[0] != nullptr) {
@@ -135,13 +141,17 @@ bool ReprojectionError::Evaluate(double const* const* parameters, double* residu
     const Matrix3d R_body_map = T_map_body.rotation.toRotationMatrix().transpose();
     copy_rows(Matrix3d(at.by_point_in_body * R_body_map), num_residuals(), jacobians[1]);
   }
+  if (offset_unknown && jacobians[2] != nullptr) {
+    std::fill_n(jacobians[2], num_residuals(), 0.0);
+    if (num_residuals() == 3) jacobians[2][2] = reprojection_.by_disparity_offset();
+  }
   return true;
 }
 
 double Reprojection::chi_squared(const Pose& T_map_body, const Eigen::Vector3d& p_map) const {
   const Eigen::Vector3d p_cam = eye_->T_cam_body * (T_map_body.inverse() * p_map);
   if (p_cam.z() < kMinDepth) return std::numeric_limits<double>::infinity();
-  return residual_at(p_cam).squaredNorm();
+  return residual_at(p_cam, eye_->disparity_offset).squaredNorm();
 }
 
 TagCornerError::TagCornerError(const EyeModel& eye, const Eigen::Vector2d& pixel, double sigma,

@@ -37,6 +37,15 @@ struct EyeModel {
   PinholeCamera lens;
   Pose T_cam_body;
   double baseline = 0;
+  double disparity_offset =
+      0;  ///< px that disparities measure too little, by the pair's calibration
+
+  /// m along the optical axis, of a measured disparity (px).
+  double depth_of(double disparity) const {
+    return lens.fx * baseline / (disparity + disparity_offset);
+  }
+  /// px that a point in that depth (m) is measured at.
+  double disparity_of(double depth) const { return lens.fx * baseline / depth - disparity_offset; }
 };
 
 /// What is seen of a point: a pixel, and where the right eye saw it too, its column there.
@@ -66,7 +75,16 @@ class Reprojection {
     Eigen::Matrix<double, 3, 6> by_pose;
     Eigen::Matrix3d by_point_in_body;  ///< by the point in the body frame
   };
-  Linearised linearise(const Pose& T_map_body, const Eigen::Vector3d& p_map) const;
+  Linearised linearise(const Pose& T_map_body, const Eigen::Vector3d& p_map) const {
+    return linearise(T_map_body, p_map, eye_->disparity_offset);
+  }
+
+  /// The same for another disparity offset than the eye's (px).
+  Linearised linearise(const Pose& T_map_body, const Eigen::Vector3d& p_map,
+                       double disparity_offset) const;
+
+  /// Derivative of the third residual by the disparity offset, 1/px.
+  double by_disparity_offset() const { return 1 / measurement_.right_sigma; }
 
   /// Squared norm of the residuals for that pose and point; infinite behind the eye.
   double chi_squared(const Pose& T_map_body, const Eigen::Vector3d& p_map) const;
@@ -74,16 +92,18 @@ class Reprojection {
   int size() const { return measurement_.size(); }
 
  private:
-  Eigen::Vector3d residual_at(const Eigen::Vector3d& p_cam) const;
+  Eigen::Vector3d residual_at(const Eigen::Vector3d& p_cam, double disparity_offset) const;
 
   const EyeModel* eye_;
   PixelMeasurement measurement_;
 };
 
-/// The same as a cost function of Ceres: parameters are the body's pose (7) and the point (3).
+/// The same as a cost function of Ceres: parameters are the body's pose (7), the point (3) and,
+/// where it is an unknown, the eye's disparity offset (1), which the right eye alone measures.
 class ReprojectionError : public ceres::CostFunction {
  public:
-  ReprojectionError(const EyeModel& eye, const PixelMeasurement& measurement);
+  ReprojectionError(const EyeModel& eye, const PixelMeasurement& measurement,
+                    bool offset_unknown = false);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
@@ -93,6 +113,7 @@ class ReprojectionError : public ceres::CostFunction {
   }
 
  private:
+  const EyeModel* eye_;
   Reprojection reprojection_;
 };
 

@@ -24,7 +24,8 @@ struct StereoConfig {
   /// Windows that show two depths, a stem before the ground, differ more: they would be biased
   /// towards the nearer one.
   double max_residual = 0.1;
-  double noise = 1.5;  ///< grey levels, difference that the sensor's noise alone explains
+  bool self_calibration = true;  ///< corrects a pair's disparities where the map shows them off
+  double noise = 1.5;            ///< grey levels, difference that the sensor's noise alone explains
 
   /// Whether aligned windows show the same thing.
   bool accepts(const PatchAlignment& aligned) const {
@@ -38,6 +39,7 @@ struct StereoConfig {
     archive("min_depth", min_depth, Range::positive());
     archive("uniqueness", uniqueness, Range::between(1, 10));
     archive("max_residual", max_residual, Range::between(0.01, 2));
+    archive("self_calibration", self_calibration);
     archive("noise", noise, Range::between(0, 50));
   }
 };

@@ -85,6 +85,9 @@ struct Estimate {
   std::vector<TagSighting> tags;           ///< all that were found, the rejected too
   std::vector<RejectedTag> rejected_tags;  ///< of these, while there is a pose to judge them by
   std::optional<LoopClosure> loop_closure;
+  /// Of each stereo pair in use, px: found at this frame to be what disparities measure too little,
+  /// by an error of the calibration, and made good from here on. Empty where nothing was found.
+  std::vector<double> disparity_offsets;
 };
 
 /// What a SLAM system knows in the end, after all corrections.

@@ -44,6 +44,26 @@ TEST(EstimatorRigTest, StereoPutsAPointWhereItIs) {
   }
 }
 
+// Half a pixel more of disparity, and the depth that this is. What lies beyond the limit has no
+// depth any more, and keeps its match.
+TEST(EstimatorRigTest, CorrectsDepthsByTheDisparityOffset) {
+  const SyntheticAisle aisle(0, 1, 300);
+  EstimatorRig rig(aisle.rig, OrbConfig{});
+  const StereoView view = aisle.frame(0, Pose{})->views[0];
+  StereoView corrected = view;
+  rig.correct_depths(0, corrected);
+  EXPECT_EQ(corrected.stereo[5].depth, view.stereo[5].depth);
+  rig.set_disparity_offsets({0.5, 0});
+  corrected.stereo[3].x_right = view.features.keypoints[3].x - 0.1F;
+  rig.correct_depths(0, corrected);
+  const EyeModel& eye = rig.eyes[0];
+  const double disparity =
+      static_cast<double>(view.features.keypoints[5].x - view.stereo[5].x_right);
+  EXPECT_NEAR(corrected.stereo[5].depth, eye.lens.fx * eye.baseline / (disparity + 0.5), 1e-6);
+  EXPECT_EQ(corrected.stereo[5].x_right, view.stereo[5].x_right);
+  EXPECT_EQ(corrected.stereo[3].depth, -1);
+}
+
 TEST(EstimatorRigTest, TagEyesHaveNoDistortionLeft) {
   Rig bent = load_rig(VINEBENCH_SOURCE_DIR "/models/csl-rover/rig.yaml");
   bent.cameras[4].model.distortion = {-0.05, 0, 0, 0};

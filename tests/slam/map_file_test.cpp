@@ -58,6 +58,7 @@ AisleMap small_map(const SyntheticAisle& aisle) {
   grey.grey.fill(77);
   patches[0].add(1, grey);
   made.map.tags().push_back({"tag36h11", 0, 0.161, T_world_tag, true});
+  made.map.disparity_offsets() = {0, 0.25};
   made.map.remove_landmark(made.map.keyframe(0).landmarks[0][2]);
   return made;
 }
@@ -115,6 +116,7 @@ TEST_F(MapFileTest, EverythingComesBack) {
   EXPECT_THAT(found, testing::Contains(3));
   ASSERT_EQ(map.tags().size(), 1u);
   EXPECT_TRUE(map.tags()[0].fixed);
+  EXPECT_EQ(map.disparity_offsets(), (std::vector<double>{0, 0.25}));
 }
 
 TEST_F(MapFileTest, LandmarksKeepAllButTheirNumbers) {
@@ -186,7 +188,7 @@ TEST_F(MapFileTest, AnotherVersionIsSaidSo) {
   std::string other = bytes_;
   other[8] = 1;  // version, low byte
   EXPECT_THAT(error_of(sealed(other)),
-              AllOf(HasSubstr("version 1"), HasSubstr("expected version 2")));
+              AllOf(HasSubstr("version 1"), HasSubstr("expected version 3")));
 }
 
 TEST_F(MapFileTest, AnotherRigIsSaidSo) {

@@ -95,6 +95,29 @@ TEST(ReprojectionErrorTest, JacobiansAreTheNumericOnes) {
   expect_jacobian(ReprojectionError(e, m), {as_vector(to_block(body())), {p.x(), p.y(), p.z()}});
 }
 
+TEST(ReprojectionErrorTest, AnUnknownDisparityOffsetMovesTheRightEyesColumnAlone) {
+  EyeModel e = eye();
+  PixelMeasurement m;
+  m.pixel = {400, 200};
+  m.right_x = 380;
+  m.right_sigma = 1.2;
+  const Eigen::Vector3d p = point();
+  expect_jacobian(ReprojectionError(e, m, true),
+                  {as_vector(to_block(body())), {p.x(), p.y(), p.z()}, {0.3}});
+  // The eye's own offset does the same: 0.6 px more in the right eye are half a standard deviation.
+  const double before = Reprojection(e, m).linearise(body(), p).residual.z();
+  e.disparity_offset = 0.6;
+  EXPECT_NEAR(Reprojection(e, m).linearise(body(), p).residual.z() - before, 0.5, 1e-9);
+}
+
+TEST(EyeModelTest, DepthAndDisparityAreEachOthersInverse) {
+  EyeModel e = eye();
+  e.disparity_offset = -0.4;
+  // At 2 m by lens and baseline, and 0.4 px more for the offset.
+  EXPECT_NEAR(e.disparity_of(2), e.lens.fx * e.baseline / 2 + 0.4, 1e-12);
+  EXPECT_NEAR(e.depth_of(e.disparity_of(2)), 2, 1e-12);
+}
+
 TEST(ReprojectionTest, StepsThePoseAsTheManifoldDoes) {
   const EyeModel e = eye();
   PixelMeasurement m;
