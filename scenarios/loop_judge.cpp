@@ -55,13 +55,13 @@ std::vector<TagVisit> visits_of(const RunRecord& record, int tag,
   return visits;
 }
 
-/// A detector may read a tag some frames before the truth calls it wholly in view.
-constexpr Stamp kEarlyReading = kNanosecondsPerSecond;
-
-bool was_closed(const RunRecord& record, const LoopVerdict& verdict, const TagVisit& visit) {
+/// Whether a closure with the tag was reported since the visit before: a detector may read a tag from
+/// afar, before the truth calls it readable, and then closes the loop early.
+bool was_closed(const RunRecord& record, const LoopVerdict& verdict, const TagVisit& before,
+                const TagVisit& visit) {
   return std::ranges::any_of(verdict.closures, [&](const JudgedClosure& judged) {
     return judged.closure.tag_id == record.tags[static_cast<std::size_t>(visit.tag)].id &&
-           judged.closure.later >= record.ticks[visit.first].stamp - kEarlyReading &&
+           judged.closure.later > record.ticks[before.last].stamp &&
            judged.closure.later <= record.ticks[visit.last].stamp;
   });
 }
@@ -92,12 +92,11 @@ LoopVerdict judge_loop_closures(const RunRecord& record) {
   for (std::size_t i = 0; i < record.ticks.size(); ++i) {
     if (record.ticks[i].estimate.loop_closure) verdict.closures.push_back(judge(record, i));
   }
-  int seen_before = -1;
-  for (const TagVisit& visit : tag_visits(record)) {
-    const bool again = visit.tag == seen_before;
-    seen_before = visit.tag;
-    if (again && visit.longest >= kVisitSeconds && !was_closed(record, verdict, visit)) {
-      verdict.missed.push_back(visit);
+  const std::vector<TagVisit> visits = tag_visits(record);
+  for (std::size_t i = 1; i < visits.size(); ++i) {
+    const bool again = visits[i].tag == visits[i - 1].tag && visits[i].longest >= kVisitSeconds;
+    if (again && !was_closed(record, verdict, visits[i - 1], visits[i])) {
+      verdict.missed.push_back(visits[i]);
     }
   }
   return verdict;

@@ -12,6 +12,11 @@
 namespace vinebench {
 namespace {
 
+/// Keyframes after which features that no landmark has been tied to lose their patches: most of
+/// what a long drive would keep. One that is tied later all the same is found by the patches of
+/// others.
+constexpr int kPatchesForAll = 300;
+
 /// A landmark is, by definition, what is seen where it was first found.
 void place(StereoView& view, std::size_t feature) {
   if (view.placed.empty()) view.placed.assign(view.features.size(), 0);
@@ -39,6 +44,12 @@ int LocalMapper::insert(const TrackedFrame& tracked, Map& map) const {
   for (const int landmark : touched) map.refresh(landmark, rig_.T_body_cams);
   map.keyframe(id).patches = cut_patches(*tracked.frame, map.keyframe(id).landmarks, rig_);
   for (StereoView& view : tracked.frame->views) view.close();
+  if (id >= kPatchesForAll) {
+    Keyframe& old = map.keyframe(id - kPatchesForAll);
+    for (std::size_t v = 0; v < old.patches.size(); ++v) {
+      if (old.patches[v].size() > 0) old.patches[v].keep_tied(old.landmarks[v]);
+    }
+  }
   return id;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "slam/patch.h"
@@ -27,6 +28,17 @@ class PatchList {
   void add(std::size_t feature, const Patch& patch) {
     places_[feature] = static_cast<int>(patches_.size());
     patches_.push_back(patch);
+  }
+
+  /// Drops the patches of features that have no landmark (-1).
+  void keep_tied(const std::vector<int>& landmarks) {
+    PatchList kept(size());
+    for (std::size_t f = 0; f < size(); ++f) {
+      const Patch* patch = find(f);
+      if (patch != nullptr && landmarks[f] >= 0) kept.add(f, *patch);
+    }
+    kept.close();
+    *this = std::move(kept);
   }
 
   /// No more will be added: gives back the room for them.
