@@ -55,8 +55,8 @@ std::vector<TagVisit> visits_of(const RunRecord& record, int tag,
   return visits;
 }
 
-/// Whether a closure with the tag was reported since the visit before: a detector may read a tag from
-/// afar, before the truth calls it readable, and then closes the loop early.
+/// Whether a closure with the tag was reported since the visit before: a detector may read a tag
+/// from afar, before the truth calls it readable, and then closes the loop early.
 bool was_closed(const RunRecord& record, const LoopVerdict& verdict, const TagVisit& before,
                 const TagVisit& visit) {
   return std::ranges::any_of(verdict.closures, [&](const JudgedClosure& judged) {
