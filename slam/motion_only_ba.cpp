@@ -63,8 +63,7 @@ NormalEquations linearise(const Matches& matches, const Pose& pose, const Robust
 double cost(const Matches& matches, const Pose& pose, const RobustLoss& loss) {
   double sum = 0;
   for (const Match& match : matches) {
-    if (match.inlier)
-      sum += loss.cost(match.error.linearise(pose, match.p_map).residual.squaredNorm());
+    if (match.inlier) sum += loss.cost(match.error.residual(pose, match.p_map).squaredNorm());
   }
   return sum;
 }

@@ -90,7 +90,7 @@ bool PoseManifold::MinusJacobian(const double*, double* jacobian) const {
 
 ReprojectionError::ReprojectionError(const EyeModel& eye, const PixelMeasurement& measurement,
                                      bool offset_unknown)
-    : eye_(&eye), reprojection_(eye, measurement) {
+    : reprojection_(eye, measurement) {
   set_num_residuals(measurement.size());
   *mutable_parameter_block_sizes() = {7, 3};
   if (offset_unknown) mutable_parameter_block_sizes()->push_back(1);
@@ -106,14 +106,20 @@ Eigen::Vector3d Reprojection::residual_at(const Eigen::Vector3d& p_cam,
       measurement_.right_x ? (right_x - *measurement_.right_x) / measurement_.right_sigma : 0.0};
 }
 
-Reprojection::Linearised Reprojection::linearise(const Pose& T_map_body,
-                                                 const Eigen::Vector3d& p_map,
-                                                 double disparity_offset) const {
-  const Eigen::Vector3d p_body = T_map_body.rotation.conjugate() * (p_map - T_map_body.translation);
+Eigen::Vector3d Reprojection::in_eye(const Eigen::Vector3d& p_body) const {
   const Matrix3d R_cam_body = eye_->T_cam_body.rotation.toRotationMatrix();
   Eigen::Vector3d p_cam = R_cam_body * p_body + eye_->T_cam_body.translation;
   // A point that a step threw behind the eye keeps a large, finite error that pulls it back.
   p_cam.z() = std::max(p_cam.z(), kMinDepth);
+  return p_cam;
+}
+
+Reprojection::Linearised Reprojection::linearise(const Pose& T_map_body,
+                                                 const Eigen::Vector3d& p_map,
+                                                 double disparity_offset) const {
+  const Eigen::Vector3d p_body = in_body(T_map_body, p_map);
+  const Eigen::Vector3d p_cam = in_eye(p_body);
+  const Matrix3d R_cam_body = eye_->T_cam_body.rotation.toRotationMatrix();
   const Eigen::Vector3d weights(1 / measurement_.sigma, 1 / measurement_.sigma,
                                 measurement_.right_x ? 1 / measurement_.right_sigma : 0);
   Linearised result;
@@ -128,10 +134,14 @@ bool ReprojectionError::Evaluate(double const* const* parameters, double* residu
   const Pose T_map_body = from_block(parameters[0]);
   const Eigen::Map<const Eigen::Vector3d> p_map(parameters[1]);
   const bool offset_unknown = parameter_block_sizes().size() > 2;
-  const double offset = offset_unknown ? parameters[2][0] : eye_->disparity_offset;
+  const double offset = offset_unknown ? parameters[2][0] : reprojection_.eye().disparity_offset;
+  if (jacobians == nullptr) {
+    const Eigen::Vector3d residual = reprojection_.residual(T_map_body, p_map, offset);
+    std::copy_n(residual.data(), num_residuals(), residuals);
+    return true;
+  }
   const Reprojection::Linearised at = reprojection_.linearise(T_map_body, p_map, offset);
   std::copy_n(at.residual.data(), num_residuals(), residuals);
-  if (jacobians == nullptr) return true;
   if (jacobians[0] != nullptr) {
     RowMajor37 J = RowMajor37::Zero();
     J.leftCols<6>() = at.by_pose;

@@ -83,6 +83,15 @@ class Reprojection {
   Linearised linearise(const Pose& T_map_body, const Eigen::Vector3d& p_map,
                        double disparity_offset) const;
 
+  /// The residuals alone.
+  Eigen::Vector3d residual(const Pose& T_map_body, const Eigen::Vector3d& p_map) const {
+    return residual(T_map_body, p_map, eye_->disparity_offset);
+  }
+  Eigen::Vector3d residual(const Pose& T_map_body, const Eigen::Vector3d& p_map,
+                           double disparity_offset) const {
+    return residual_at(in_eye(in_body(T_map_body, p_map)), disparity_offset);
+  }
+
   /// Derivative of the third residual by the disparity offset, 1/px.
   double by_disparity_offset() const { return 1 / measurement_.right_sigma; }
 
@@ -90,8 +99,13 @@ class Reprojection {
   double chi_squared(const Pose& T_map_body, const Eigen::Vector3d& p_map) const;
 
   int size() const { return measurement_.size(); }
+  const EyeModel& eye() const { return *eye_; }
 
  private:
+  static Eigen::Vector3d in_body(const Pose& T_map_body, const Eigen::Vector3d& p_map) {
+    return T_map_body.rotation.conjugate() * (p_map - T_map_body.translation);
+  }
+  Eigen::Vector3d in_eye(const Eigen::Vector3d& p_body) const;
   Eigen::Vector3d residual_at(const Eigen::Vector3d& p_cam, double disparity_offset) const;
 
   const EyeModel* eye_;
@@ -113,7 +127,6 @@ class ReprojectionError : public ceres::CostFunction {
   }
 
  private:
-  const EyeModel* eye_;
   Reprojection reprojection_;
 };
 

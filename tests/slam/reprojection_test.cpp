@@ -136,6 +136,22 @@ TEST(ReprojectionTest, StepsThePoseAsTheManifoldDoes) {
   }
 }
 
+// To the bit: a step that is tried is judged by the one, and what it is judged against by the
+// other.
+TEST(ReprojectionTest, TheResidualAloneIsThatOfTheLinearisation) {
+  const EyeModel e = eye();
+  const Eigen::Vector3d behind = body() * (e.T_cam_body.inverse() * Eigen::Vector3d(0, 0, -1));
+  PixelMeasurement m;
+  m.pixel = {400, 200};
+  for (const Eigen::Vector3d& p : {point(), behind}) {
+    for (const std::optional<double> right_x : {std::optional<double>(), {380}}) {
+      m.right_x = right_x;
+      const Reprojection reprojection(e, m);
+      EXPECT_EQ(reprojection.residual(body(), p), reprojection.linearise(body(), p).residual);
+    }
+  }
+}
+
 TEST(ReprojectionErrorTest, BehindTheEyeIsNoInlierAndStaysFinite) {
   const EyeModel e = eye();
   PixelMeasurement m;
