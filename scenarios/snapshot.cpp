@@ -16,7 +16,6 @@
 #include "slam/base/error.h"
 #include "slam/base/files.h"
 #include "slam/base/rig.h"
-#include "slam/base/yaml.h"
 
 namespace vinebench {
 namespace {
@@ -54,12 +53,6 @@ cv::Mat for_encoder(const cv::Mat& picture) {
 }
 
 }  // namespace
-
-WorldConfig load_world(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  YamlDocument document = YamlDocument::load(file);
-  for (const Override& o : overrides) document.set(o.first, o.second);
-  return document.read<WorldConfig>();
-}
 
 PinholeCamera parse_camera(const std::string& text) {
   PinholeCamera camera;

@@ -14,11 +14,6 @@
 
 namespace vinebench {
 
-/// Reads a world's YAML file and applies overrides ("sun.elevation_deg=20"). Throws Error that
-/// names file, line and key.
-WorldConfig load_world(const std::filesystem::path& file,
-                       const std::vector<Override>& overrides = {});
-
 /// Reads "WIDTHxHEIGHT@FOCAL" (px), such as 1920x1080@733, the principal point in the middle.
 /// Throws Error for anything else.
 PinholeCamera parse_camera(const std::string& text);

@@ -29,7 +29,7 @@ constexpr double kManyKeyframesTolerance = 5e-4;
 constexpr int kManyKeyframesSteps = 60;
 
 /// Landmarks of fewer observations are left out of it and go with their keyframe: they tie little
-/// together, and are half of what the adjustment has to keep in memory.
+/// together, and take a sixth of its memory.
 constexpr std::size_t kManyKeyframesObservations = 4;
 
 }  // namespace

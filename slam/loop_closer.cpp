@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/loop_closer.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -334,6 +336,7 @@ void LoopCloser::adjust_globally(Map& map) const {
   options.tag_corner_sigma = config_.loop.corner_sigma;
   options.global = true;
   adjust(map, global_window(map), rig_, options);
+  malloc_trim(0);  // of what a long drive's adjustment took, the C library would keep most
 }
 
 }  // namespace vinebench

@@ -9,13 +9,13 @@
 #include "scenarios/run_scenario.h"
 #include "scenarios/snapshot.h"
 #include "scenarios/truth_colours.h"
+#include "sim/config_files.h"
 #include "sim/renderer.h"
 #include "sim/rover.h"
 #include "sim/rover_asset.h"
 #include "sim/truth_images.h"
 #include "slam/base/error.h"
 #include "slam/base/rig.h"
-#include "slam/base/yaml.h"
 #include "tools/commands.h"
 
 namespace vinebench {
@@ -109,7 +109,7 @@ void write_warps(const RenderArguments& arguments, Renderer& renderer, const Tru
 Scene scene_of(const RenderArguments& arguments, const WorldConfig& world) {
   Scene scene = build_scene(world, static_cast<std::uint64_t>(arguments.seed), default_cache());
   if (arguments.rover.empty()) return scene;
-  const auto rover = YamlDocument::load(arguments.rover_file).read<RoverConfig>();
+  const auto rover = load_rover(arguments.rover_file);
   add_rover(scene, rover.model);
   return scene;
 }

@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <memory>
 
+#include "sim/config_files.h"
 #include "sim/world_generator.h"
 #include "slam/base/error.h"
 #include "slam/base/files.h"
-#include "slam/base/yaml.h"
 #include "tools/commands.h"
 
 namespace vinebench {
@@ -31,7 +31,7 @@ int write_world(const WorldArguments& arguments) {
     fail("{} exists; give --force to overwrite it", file.string());
   }
   write_file_atomically(file, text);
-  const WorldConfig world = YamlDocument::load(file).read<WorldConfig>();
+  const WorldConfig world = load_world(file);
   fmt::print("{}: {} rows, {} vines, {} posts, {} tags\n", file.string(), world.rows.size(),
              vine_positions(world).size(), post_positions(world).size(), world.tags.size());
   return 0;

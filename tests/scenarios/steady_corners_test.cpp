@@ -15,7 +15,7 @@
 
 #include "scenarios/render_benchmark.h"
 #include "scenarios/run_scenario.h"
-#include "scenarios/snapshot.h"
+#include "sim/config_files.h"
 #include "sim/renderer.h"
 #include "slam/base/rig.h"
 #include "slam/orb_extractor.h"

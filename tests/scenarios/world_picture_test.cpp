@@ -9,10 +9,10 @@
 #include <opencv2/imgproc.hpp>
 
 #include "scenarios/run_scenario.h"
+#include "sim/config_files.h"
 #include "sim/renderer.h"
 #include "sim/world.h"
 #include "slam/base/rig.h"
-#include "slam/base/yaml.h"
 #include "slam/tag_detector.h"
 
 namespace vinebench {
@@ -22,8 +22,7 @@ const std::filesystem::path kSource = VINEBENCH_SOURCE_DIR;
 
 class WorldPictureTest : public testing::Test {
  protected:
-  WorldConfig world_ =
-      YamlDocument::load(kSource / "worlds" / "csl-vineyard.yaml").read<WorldConfig>();
+  WorldConfig world_ = load_world(kSource / "worlds" / "csl-vineyard.yaml");
   Rig rig_ = load_rig(kSource / "models" / "csl-rover" / "rig.yaml");
 };
 

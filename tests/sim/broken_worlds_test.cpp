@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "sim/config_files.h"
 #include "sim/cultivar.h"
 #include "sim/terrain.h"
 #include "sim/world.h"
@@ -23,7 +24,7 @@ class BrokenWorldsTest : public testing::Test {
   /// The message for a world of that text; it must name the file and be of one line.
   std::string problem(const std::string& text) const {
     const auto file = folder_.write("world.yaml", text);
-    const std::string error = error_of([&] { YamlDocument::load(file).read<WorldConfig>(); });
+    const std::string error = error_of([&] { load_world(file); });
     EXPECT_THAT(error, HasSubstr(file.string())) << text;
     EXPECT_THAT(error, Not(HasSubstr("\n"))) << text;
     return error;
@@ -32,11 +33,7 @@ class BrokenWorldsTest : public testing::Test {
   /// The message for a world of two rows with that override from the command line.
   std::string problem_of_set(const std::string& key, const std::string& value) const {
     const auto file = folder_.write("world.yaml", "block: {rows: 2, length: 10}\n");
-    const std::string error = error_of([&] {
-      YamlDocument document = YamlDocument::load(file);
-      document.set(key, value);
-      document.read<WorldConfig>();
-    });
+    const std::string error = error_of([&] { load_world(file, {{key, value}}); });
     EXPECT_THAT(error, HasSubstr("--set " + key)) << value;
     return error;
   }
@@ -124,7 +121,7 @@ TEST_F(BrokenWorldsTest, EnormousOnes) {
 
 TEST_F(BrokenWorldsTest, TheLargestThatIsAllowedIsLaidOut) {
   const auto file = folder_.write("world.yaml", "block: {rows: 66, length: 300, spacing: 2}\n");
-  const WorldConfig world = YamlDocument::load(file).read<WorldConfig>();
+  const WorldConfig world = load_world(file);
   EXPECT_EQ(vine_positions(world).size(), 66u * 300u);
   EXPECT_LE(Terrain(world).nodes(), WorldConfig::kMostCells);
 }

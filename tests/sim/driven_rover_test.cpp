@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "slam/base/yaml.h"
+#include "sim/config_files.h"
 
 namespace vinebench {
 namespace {
@@ -15,7 +15,7 @@ class DrivenRoverTest : public testing::Test {
   DrivenRoverTest() {
     const std::filesystem::path models =
         std::filesystem::path(VINEBENCH_SOURCE_DIR) / "models/csl-rover";
-    rover_ = YamlDocument::load(models / "rover.yaml").read<RoverConfig>();
+    rover_ = load_rover(models / "rover.yaml");
     world_.rows = {{{0, 1.5}, {2, 1.5}}};
     route_.speed = 0.3;
     route_.waypoints.resize(2);

@@ -9,12 +9,12 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
+#include "sim/config_files.h"
 #include "sim/obstacles.h"
 #include "sim/physics_world.h"
 #include "sim/rover.h"
 #include "sim/textures.h"
 #include "sim/trellis.h"
-#include "slam/base/yaml.h"
 
 namespace vinebench {
 namespace {
@@ -99,7 +99,7 @@ TEST(ObstacleTest, APersonAndACrateAreInTheWay) {
     world.obstacles.resize(1);
     world.obstacles[0].kind = kind;
     world.obstacles[0].position = {1, 3};
-    const auto config = YamlDocument::load(kModels / "rover.yaml").read<RoverConfig>();
+    const auto config = load_rover(kModels / "rover.yaml");
     Rover rover(config, world, {0, 3, 0}, 1);
     std::vector<ImuSample> imu;
     std::vector<WheelSample> wheels;

@@ -8,12 +8,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/config_files.h"
 #include "sim/route.h"
 #include "sim/wheel_controller.h"
 #include "slam/base/error.h"
 #include "slam/base/files.h"
 #include "slam/base/rig.h"
-#include "slam/base/yaml.h"
 #include "tests/test_folder.h"
 
 namespace vinebench {
@@ -29,7 +29,7 @@ const std::filesystem::path kModels =
     std::filesystem::path(VINEBENCH_SOURCE_DIR) / "models/csl-rover";
 
 RoverConfig csl_rover() {
-  return YamlDocument::load(kModels / "rover.yaml").read<RoverConfig>();
+  return load_rover(kModels / "rover.yaml");
 }
 
 /// One row far from where the tests drive.

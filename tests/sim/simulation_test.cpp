@@ -8,8 +8,8 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
+#include "sim/config_files.h"
 #include "slam/base/error.h"
-#include "slam/base/yaml.h"
 #include "tests/test_folder.h"
 
 namespace vinebench {
@@ -43,7 +43,7 @@ class SimulationTest : public testing::Test {
   SimulationConfig config() const {
     SimulationConfig config;
     config.world.rows = {{{0, 1.5}, {2, 1.5}}};
-    config.rover = YamlDocument::load(kModels / "rover.yaml").read<RoverConfig>();
+    config.rover = load_rover(kModels / "rover.yaml");
     config.rover.rig = folder_.write("rig.yaml", kSmallRig);
     config.route.waypoints.resize(2);
     config.route.waypoints[1].position = {1, 0};

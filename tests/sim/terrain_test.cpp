@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/config_files.h"
 #include "sim/ground.h"
 #include "sim/physics_world.h"
 #include "sim/rover.h"
 #include "slam/base/error.h"
-#include "slam/base/yaml.h"
 
 namespace vinebench {
 namespace {
@@ -155,14 +155,13 @@ TEST(TerrainTest, SameSeedSameGround) {
 }
 
 WorldConfig typical() {
-  return YamlDocument::load(kSource / "worlds/typical-vineyard.yaml").read<WorldConfig>();
+  return load_world(kSource / "worlds/typical-vineyard.yaml");
 }
 
 TEST(TerrainTest, TheRoverDrivesStraightOverIt) {
   const WorldConfig world = typical();
   const Terrain terrain(world);
-  const RoverConfig config =
-      YamlDocument::load(kSource / "models/csl-rover/rover.yaml").read<RoverConfig>();
+  const RoverConfig config = load_rover(kSource / "models/csl-rover/rover.yaml");
   Rover rover(config, world, {5, 1.25, 0}, 1);
   std::vector<ImuSample> imu;
   std::vector<WheelSample> wheels;
@@ -189,8 +188,7 @@ TEST(TerrainTest, TheRoverDrivesStraightOverIt) {
 
 TEST(TerrainTest, TheRoverStartsAtRestOnIt) {
   const WorldConfig world = typical();
-  const RoverConfig config =
-      YamlDocument::load(kSource / "models/csl-rover/rover.yaml").read<RoverConfig>();
+  const RoverConfig config = load_rover(kSource / "models/csl-rover/rover.yaml");
   Rover rover(config, world, {12, 3.75, 1.0}, 1);
   const Pose start = rover.T_world_body();
   EXPECT_NEAR(start.translation.x(), 12, 1e-12);
@@ -202,8 +200,7 @@ TEST(TerrainTest, TheRoverStartsAtRestOnIt) {
 }
 
 TEST(TerrainTest, WhereTheGroundEndsTheRoverSaysSo) {
-  const RoverConfig config =
-      YamlDocument::load(kSource / "models/csl-rover/rover.yaml").read<RoverConfig>();
+  const RoverConfig config = load_rover(kSource / "models/csl-rover/rover.yaml");
   EXPECT_THAT(
       [&] {
         Rover(config, bumpy(), {200, 0, 0}, 1);

@@ -9,11 +9,11 @@
 #include <map>
 #include <opencv2/imgproc.hpp>
 
+#include "sim/config_files.h"
 #include "sim/instance_names.h"
 #include "sim/terrain.h"
 #include "sim/truth_images.h"
 #include "slam/base/rig.h"
-#include "slam/base/yaml.h"
 #include "tests/sim/picture_warp.h"
 #include "tests/sim/test_scene.h"
 #include "tests/test_folder.h"
@@ -35,8 +35,7 @@ class TruthWorldTest : public testing::Test {
  protected:
   static WorldConfig csl_vineyard() {
     WorldConfig world =
-        YamlDocument::load(std::filesystem::path(VINEBENCH_SOURCE_DIR) / "worlds/csl-vineyard.yaml")
-            .read<WorldConfig>();
+        load_world(std::filesystem::path(VINEBENCH_SOURCE_DIR) / "worlds/csl-vineyard.yaml");
     world.vines.templates = 2;
     return world;
   }

@@ -7,9 +7,9 @@
 
 #include <cmath>
 
+#include "sim/config_files.h"
 #include "sim/row_frame.h"
 #include "sim/row_index.h"
-#include "slam/base/yaml.h"
 #include "slam/base/yaml_writer.h"
 #include "tests/test_folder.h"
 
@@ -34,7 +34,7 @@ WorldRecipe small_recipe() {
 WorldConfig read_back(const WorldRecipe& recipe) {
   const test::TestFolder folder;
   const auto file = folder.write("world.yaml", format_world(recipe));
-  return YamlDocument::load(file).read<WorldConfig>();
+  return load_world(file);
 }
 
 TEST(WorldGeneratorTest, WhatItWritesReadsBackAsTheSameWorld) {

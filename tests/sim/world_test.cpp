@@ -9,11 +9,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/config_files.h"
 #include "sim/row_frame.h"
 #include "sim/row_index.h"
 #include "sim/tag_family.h"
 #include "slam/base/validate.h"
-#include "slam/base/yaml.h"
 #include "slam/base/yaml_writer.h"
 #include "tests/test_folder.h"
 
@@ -154,12 +154,12 @@ TEST(TagProblemTest, SaysWhatWasExpected) {
 std::string error_of_world(const std::string& text) {
   const test::TestFolder folder;
   const auto file = folder.write("world.yaml", text);
-  return test::error_of([&] { YamlDocument::load(file).read<WorldConfig>(); });
+  return test::error_of([&] { load_world(file); });
 }
 
 TEST(WorldFileTest, TheShippedVineyardIsThatOfThePaper) {
   const auto file = std::filesystem::path(VINEBENCH_SOURCE_DIR) / "worlds" / "csl-vineyard.yaml";
-  const WorldConfig world = YamlDocument::load(file).read<WorldConfig>();
+  const WorldConfig world = load_world(file);
   EXPECT_EQ(world.name, "csl-vineyard");
   ASSERT_EQ(world.rows.size(), 3u);
   for (const WorldConfig::Row& row : world.rows) EXPECT_EQ((row.end - row.start).norm(), 4);
@@ -295,7 +295,7 @@ TEST(PlacingTest, ThingsStandOnUnevenGround) {
 TEST(WorldFileTest, TheShippedWorldsAreWhatTheySay) {
   const auto load = [](const char* name) {
     const auto file = std::filesystem::path(VINEBENCH_SOURCE_DIR) / "worlds" / name;
-    return YamlDocument::load(file).read<WorldConfig>();
+    return load_world(file);
   };
   const WorldConfig typical = load("typical-vineyard.yaml");
   EXPECT_EQ(typical.rows.size(), 10u);
@@ -324,7 +324,7 @@ double distance_to_hull(const Eigen::Vector3d& pose, const Eigen::Vector2d& p) {
 
 TEST(WorldFileTest, TheAuthorsRouteFitsTheAislesOfManyRows) {
   const auto file = std::filesystem::path(VINEBENCH_SOURCE_DIR) / "worlds" / "many-rows.yaml";
-  const WorldConfig world = YamlDocument::load(file).read<WorldConfig>();
+  const WorldConfig world = load_world(file);
   // Places (m) and headings (degrees) of the paper's third simulated experiment.
   const std::vector<Eigen::Vector3d> route{
       {0, 0, 0},           {7.46, 0, 0},        {7.26, 0.09, 94},    {7.12, 1.79, 95},
@@ -354,10 +354,10 @@ TEST(WorldFileTest, TheAuthorsRouteFitsTheAislesOfManyRows) {
 TEST(WorldFileTest, AResolvedWorldReadsBackTheSame) {
   const auto file =
       std::filesystem::path(VINEBENCH_SOURCE_DIR) / "worlds" / "typical-vineyard.yaml";
-  const WorldConfig world = YamlDocument::load(file).read<WorldConfig>();
+  const WorldConfig world = load_world(file);
   const std::string text = format_yaml(world);
   const test::TestFolder folder;
-  const auto copy = YamlDocument::load(folder.write("copy.yaml", text)).read<WorldConfig>();
+  const auto copy = load_world(folder.write("copy.yaml", text));
   EXPECT_EQ(format_yaml(copy), text);
   EXPECT_EQ(copy.rows.size(), 10u);
 }
