@@ -33,21 +33,36 @@ JudgedClosure judge(const RunRecord& record, std::size_t tick) {
   return judged;
 }
 
-bool sees(const Tick& tick, int tag) {
-  return std::ranges::count(tick.truth.visible_tags, tag) > 0;
+/// Tags by index into RunRecord::tags that stand for each other.
+using Reference = std::vector<int>;
+
+/// All registered tags, any of which tells where in the world the rover is; each other by itself.
+std::vector<Reference> references(const RunRecord& record) {
+  std::vector<Reference> references(1);
+  for (std::size_t t = 0; t < record.tags.size(); ++t) {
+    const int tag = static_cast<int>(t);
+    if (record.tags[t].registered) {
+      references.front().push_back(tag);
+    } else {
+      references.push_back({tag});
+    }
+  }
+  return references;
 }
 
-std::vector<TagVisit> visits_of(const RunRecord& record, int tag,
+std::vector<TagVisit> visits_of(const RunRecord& record, const Reference& reference,
                                 const std::vector<double>& lengths) {
   std::vector<TagVisit> visits;
   Stamp run_begin = 0;
   for (std::size_t i = 0; i < record.ticks.size(); ++i) {
-    if (!sees(record.ticks[i], tag)) continue;
+    const std::vector<int>& visible = record.ticks[i].truth.visible_tags;
+    const auto seen = std::ranges::find_first_of(visible, reference);
+    if (seen == visible.end()) continue;
     const Stamp now = record.ticks[i].stamp;
     const bool again =
         visits.empty() || (now - record.ticks[visits.back().last].stamp >= kVisitGap &&
                            lengths[i] - lengths[visits.back().last] >= kVisitGapMetres);
-    if (again) visits.push_back({.tag = tag, .first = i, .last = i});
+    if (again) visits.push_back({.tag = *seen, .first = i, .last = i});
     if (again || i - visits.back().last > 1) run_begin = now;
     visits.back().last = i;
     visits.back().longest = std::max(visits.back().longest, now - run_begin);
@@ -55,13 +70,15 @@ std::vector<TagVisit> visits_of(const RunRecord& record, int tag,
   return visits;
 }
 
-/// Whether a closure with the tag was reported since the visit before: a detector may read a tag
-/// from afar, before the truth calls it readable, and then closes the loop early.
-bool was_closed(const RunRecord& record, const LoopVerdict& verdict, const TagVisit& before,
-                const TagVisit& visit) {
+/// Whether a closure with one of the tags was reported since the visit before: a detector may read
+/// a tag from afar, before the truth calls it readable, and then closes the loop early.
+bool was_closed(const RunRecord& record, const LoopVerdict& verdict, const Reference& reference,
+                const TagVisit& before, const TagVisit& visit) {
   return std::ranges::any_of(verdict.closures, [&](const JudgedClosure& judged) {
-    return judged.closure.tag_id == record.tags[static_cast<std::size_t>(visit.tag)].id &&
-           judged.closure.later > record.ticks[before.last].stamp &&
+    const bool same = std::ranges::any_of(reference, [&](int tag) {
+      return record.tags[static_cast<std::size_t>(tag)].id == judged.closure.tag_id;
+    });
+    return same && judged.closure.later > record.ticks[before.last].stamp &&
            judged.closure.later <= record.ticks[visit.last].stamp;
   });
 }
@@ -80,9 +97,9 @@ int LoopVerdict::wrong() const {
 std::vector<TagVisit> tag_visits(const RunRecord& record) {
   const std::vector<double> lengths = true_path_lengths(record);
   std::vector<TagVisit> visits;
-  for (std::size_t tag = 0; tag < record.tags.size(); ++tag) {
-    const std::vector<TagVisit> of_tag = visits_of(record, static_cast<int>(tag), lengths);
-    visits.insert(visits.end(), of_tag.begin(), of_tag.end());
+  for (const Reference& reference : references(record)) {
+    const std::vector<TagVisit> more = visits_of(record, reference, lengths);
+    visits.insert(visits.end(), more.begin(), more.end());
   }
   return visits;
 }
@@ -92,10 +109,12 @@ LoopVerdict judge_loop_closures(const RunRecord& record) {
   for (std::size_t i = 0; i < record.ticks.size(); ++i) {
     if (record.ticks[i].estimate.loop_closure) verdict.closures.push_back(judge(record, i));
   }
-  const std::vector<TagVisit> visits = tag_visits(record);
-  for (std::size_t i = 1; i < visits.size(); ++i) {
-    const bool again = visits[i].tag == visits[i - 1].tag && visits[i].longest >= kVisitSeconds;
-    if (again && !was_closed(record, verdict, visits[i - 1], visits[i])) {
+  const std::vector<double> lengths = true_path_lengths(record);
+  for (const Reference& reference : references(record)) {
+    const std::vector<TagVisit> visits = visits_of(record, reference, lengths);
+    for (std::size_t i = 1; i < visits.size(); ++i) {
+      if (visits[i].longest < kVisitSeconds) continue;
+      if (was_closed(record, verdict, reference, visits[i - 1], visits[i])) continue;
       verdict.missed.push_back(visits[i]);
     }
   }

@@ -12,7 +12,8 @@ namespace vinebench {
 inline constexpr double kLoopClosureMetres = 0.10;
 inline constexpr double kLoopClosureDegrees = 2.0;
 
-/// A tag is seen *again* after this much time and way without it …
+/// A tag is seen *again* after this much time and way without it, and, where it is registered,
+/// without any registered one, each of which tells the pose …
 inline constexpr Stamp kVisitGap = 3 * kNanosecondsPerSecond;
 inline constexpr double kVisitGapMetres = 1.0;
 /// … and a visit is one that a system must notice once the tag stayed in view for so long.
@@ -28,9 +29,10 @@ struct JudgedClosure {
   bool judged = true;  ///< false where the truth of either end is unknown
 };
 
-/// A time during which the truth has a tag in view, short gaps included.
+/// A time during which the truth has a tag, or one of the registered tags, in view, short gaps
+/// included.
 struct TagVisit {
-  int tag = 0;            ///< index into RunRecord::tags
+  int tag = 0;            ///< the first in view, an index into RunRecord::tags
   std::size_t first = 0;  ///< tick
   std::size_t last = 0;   ///< tick
   Stamp longest = 0;      ///< longest uninterrupted view, ns
@@ -38,12 +40,12 @@ struct TagVisit {
 
 struct LoopVerdict {
   std::vector<JudgedClosure> closures;
-  std::vector<TagVisit> missed;  ///< returns to a tag during which no closure with it was reported
+  std::vector<TagVisit> missed;  ///< returns without a closure
   int correct() const;
   int wrong() const;
 };
 
-/// Visits of each tag by the truth, in the order of tags, then of time.
+/// Visits by the truth: of the registered tags, then of each other, in order of time.
 std::vector<TagVisit> tag_visits(const RunRecord& record);
 
 LoopVerdict judge_loop_closures(const RunRecord& record);

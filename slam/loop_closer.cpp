@@ -325,6 +325,10 @@ LoopClosure LoopCloser::close(int keyframe_id, double path_length, Map& map) {
     remember_visit(seen, later.frame->stamp, path_length, true);
   }
   adjust_globally(map);
+  if (!same_tag(*earlier, *sighting)) {
+    // One sighting's turn swings what is measured by way of another tag: all of them know better.
+    closure.T_earlier_later = map.keyframe(first).T_map_body.inverse() * later.T_map_body;
+  }
   closure.correction =
       (map.keyframe(keyframe_id).T_map_body.translation - before.translation).norm();
   return closure;

@@ -69,7 +69,7 @@ struct LoopClosure {
   int tag_id = 0;
   Stamp earlier = 0;      ///< stamp of the frame that was recognised
   Stamp later = 0;        ///< stamp of the frame that recognised it
-  Pose T_earlier_later;   ///< body to body, as measured by the tag
+  Pose T_earlier_later;   ///< body to body: by the tag; by way of two, in the adjusted map
   double correction = 0;  ///< how far this frame's body moved, m
 };
 

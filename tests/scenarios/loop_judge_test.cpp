@@ -84,6 +84,28 @@ TEST(LoopJudgeTest, AnotherTagsClosureDoesNotCount) {
   EXPECT_EQ(verdict_of(19, other).missed.size(), 1u);
 }
 
+// The way back comes past one tag from 16 to 18 s, where the loop is closed, and past another after
+// it. Where both are registered, the second tells nothing new; a tag that was mapped does.
+TEST(LoopJudgeTest, ARegisteredTagSoonAfterAnotherIsNoReturnOfItsOwn) {
+  RunRecord record = record_of([](Estimate& estimate) {
+    if (estimate.stamp != fakes::seconds(17)) return;
+    estimate.loop_closure = fakes::closure(fakes::seconds(1), fakes::seconds(17));
+  });
+  for (Tick& tick : record.ticks) {
+    const double t = to_seconds(tick.stamp);
+    tick.truth.visible_tags.clear();
+    if (t <= 2 || (t >= 16 && t <= 18)) tick.truth.visible_tags.push_back(0);
+    if (t <= 2 || t >= 18) tick.truth.visible_tags.push_back(1);
+  }
+  record.tags.push_back(record.tags.front());
+  record.tags.back().id = record.tags.front().id + 1;
+  EXPECT_TRUE(judge_loop_closures(record).missed.empty());
+  record.tags.back().registered = false;
+  const LoopVerdict mapped = judge_loop_closures(record);
+  ASSERT_EQ(mapped.missed.size(), 1u);
+  EXPECT_EQ(mapped.missed[0].tag, 1);
+}
+
 // Views: 0-2 s, 3-4 s (a gap of 1 s: the same visit) and 18-20 s with one frame missing.
 TEST(LoopJudgeTest, ShortGapsBelongToTheVisit) {
   RunRecord record = record_of({});
