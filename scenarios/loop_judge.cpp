@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace vinebench {
 namespace {
@@ -33,30 +34,24 @@ JudgedClosure judge(const RunRecord& record, std::size_t tick) {
   return judged;
 }
 
-/// Tags by index into RunRecord::tags that stand for each other.
-using Reference = std::vector<int>;
-
-/// All registered tags, any of which tells where in the world the rover is; each other by itself.
-std::vector<Reference> references(const RunRecord& record) {
-  std::vector<Reference> references(1);
-  for (std::size_t t = 0; t < record.tags.size(); ++t) {
-    const int tag = static_cast<int>(t);
-    if (record.tags[t].registered) {
-      references.front().push_back(tag);
-    } else {
-      references.push_back({tag});
-    }
-  }
-  return references;
+/// Whether tags (indices into RunRecord::tags) stand for each other: any registered one tells where
+/// in the world the rover is, each other tells of itself alone.
+bool alike(const RunRecord& record, int a, int b) {
+  const auto registered = [&](int tag) {
+    return record.tags[static_cast<std::size_t>(tag)].registered;
+  };
+  return a == b || (registered(a) && registered(b));
 }
 
-std::vector<TagVisit> visits_of(const RunRecord& record, const Reference& reference,
+/// Of that tag and those like it.
+std::vector<TagVisit> visits_of(const RunRecord& record, int tag,
                                 const std::vector<double>& lengths) {
   std::vector<TagVisit> visits;
   Stamp run_begin = 0;
   for (std::size_t i = 0; i < record.ticks.size(); ++i) {
     const std::vector<int>& visible = record.ticks[i].truth.visible_tags;
-    const auto seen = std::ranges::find_first_of(visible, reference);
+    const auto seen =
+        std::ranges::find_if(visible, [&](int other) { return alike(record, tag, other); });
     if (seen == visible.end()) continue;
     const Stamp now = record.ticks[i].stamp;
     const bool again =
@@ -72,13 +67,17 @@ std::vector<TagVisit> visits_of(const RunRecord& record, const Reference& refere
 
 /// Whether a closure with one of the tags was reported since the visit before: a detector may read
 /// a tag from afar, before the truth calls it readable, and then closes the loop early.
-bool was_closed(const RunRecord& record, const LoopVerdict& verdict, const Reference& reference,
-                const TagVisit& before, const TagVisit& visit) {
+bool was_closed(const RunRecord& record, const LoopVerdict& verdict, const TagVisit& before,
+                const TagVisit& visit) {
+  const auto is_of_visit = [&](const LoopClosure& closure) {
+    for (int tag = 0; tag < static_cast<int>(record.tags.size()); ++tag) {
+      const bool named = record.tags[static_cast<std::size_t>(tag)].id == closure.tag_id;
+      if (named && alike(record, tag, visit.tag)) return true;
+    }
+    return false;
+  };
   return std::ranges::any_of(verdict.closures, [&](const JudgedClosure& judged) {
-    const bool same = std::ranges::any_of(reference, [&](int tag) {
-      return record.tags[static_cast<std::size_t>(tag)].id == judged.closure.tag_id;
-    });
-    return same && judged.closure.later > record.ticks[before.last].stamp &&
+    return is_of_visit(judged.closure) && judged.closure.later > record.ticks[before.last].stamp &&
            judged.closure.later <= record.ticks[visit.last].stamp;
   });
 }
@@ -97,8 +96,10 @@ int LoopVerdict::wrong() const {
 std::vector<TagVisit> tag_visits(const RunRecord& record) {
   const std::vector<double> lengths = true_path_lengths(record);
   std::vector<TagVisit> visits;
-  for (const Reference& reference : references(record)) {
-    const std::vector<TagVisit> more = visits_of(record, reference, lengths);
+  bool registered_done = false;
+  for (std::size_t tag = 0; tag < record.tags.size(); ++tag) {
+    if (record.tags[tag].registered && std::exchange(registered_done, true)) continue;
+    const std::vector<TagVisit> more = visits_of(record, static_cast<int>(tag), lengths);
     visits.insert(visits.end(), more.begin(), more.end());
   }
   return visits;
@@ -109,12 +110,11 @@ LoopVerdict judge_loop_closures(const RunRecord& record) {
   for (std::size_t i = 0; i < record.ticks.size(); ++i) {
     if (record.ticks[i].estimate.loop_closure) verdict.closures.push_back(judge(record, i));
   }
-  const std::vector<double> lengths = true_path_lengths(record);
-  for (const Reference& reference : references(record)) {
-    const std::vector<TagVisit> visits = visits_of(record, reference, lengths);
-    for (std::size_t i = 1; i < visits.size(); ++i) {
-      if (visits[i].longest < kVisitSeconds) continue;
-      if (was_closed(record, verdict, reference, visits[i - 1], visits[i])) continue;
+  const std::vector<TagVisit> visits = tag_visits(record);
+  for (std::size_t i = 1; i < visits.size(); ++i) {
+    const bool again =
+        alike(record, visits[i].tag, visits[i - 1].tag) && visits[i].longest >= kVisitSeconds;
+    if (again && !was_closed(record, verdict, visits[i - 1], visits[i])) {
       verdict.missed.push_back(visits[i]);
     }
   }

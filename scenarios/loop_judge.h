@@ -45,7 +45,7 @@ struct LoopVerdict {
   int wrong() const;
 };
 
-/// Visits by the truth: of the registered tags, then of each other, in order of time.
+/// Visits by the truth: one after the other of all registered tags, and of each other tag.
 std::vector<TagVisit> tag_visits(const RunRecord& record);
 
 LoopVerdict judge_loop_closures(const RunRecord& record);
