@@ -28,10 +28,6 @@ constexpr double kManyKeyframesTolerance = 5e-4;
 /// was put right when the loop's correction was spread.
 constexpr int kManyKeyframesSteps = 60;
 
-/// Landmarks of fewer observations are left out of it and go with their keyframe: they tie little
-/// together, and take a sixth of its memory.
-constexpr std::size_t kManyKeyframesObservations = 4;
-
 }  // namespace
 
 /// One Ceres problem over a window of the map. Blocks are kept by position in ascending id, so that
@@ -39,11 +35,7 @@ constexpr std::size_t kManyKeyframesObservations = 4;
 class AdjustmentJob::Impl {
  public:
   Impl(AdjustmentWindow window, const EstimatorRig& rig, const AdjustmentOptions& options)
-      : window_(std::move(window)),
-        many_(window_.moved.size() > kManyKeyframes),
-        rig_(rig),
-        options_(options),
-        problem_(ownership()) {
+      : window_(std::move(window)), rig_(rig), options_(options), problem_(ownership()) {
     for (const EyeModel& eye : rig.eyes) offsets_.push_back(eye.disparity_offset);
     offset_used_.assign(offsets_.size(), 0);
   }
@@ -57,13 +49,14 @@ class AdjustmentJob::Impl {
   }
 
   double solve() {
+    const bool many = window_.moved.size() > kManyKeyframes;
     ceres::Solver::Options options;
-    options.linear_solver_type = many_ ? ceres::ITERATIVE_SCHUR : ceres::DENSE_SCHUR;
+    options.linear_solver_type = many ? ceres::ITERATIVE_SCHUR : ceres::DENSE_SCHUR;
     options.preconditioner_type = ceres::SCHUR_JACOBI;
     options.dense_linear_algebra_library_type = ceres::EIGEN;
     options.max_linear_solver_iterations = kManyKeyframesSteps;
     options.max_num_iterations = options_.iterations;
-    options.function_tolerance = many_             ? kManyKeyframesTolerance
+    options.function_tolerance = many              ? kManyKeyframesTolerance
                                  : options_.global ? kGlobalTolerance
                                                    : 1e-6;
     options.num_threads = 1;
@@ -83,14 +76,6 @@ class AdjustmentJob::Impl {
   const std::vector<double>& disparity_offsets() const { return offsets_; }
 
   void write_back(Map& map) {
-    for (const int id : carried_ids_) {
-      Landmark& landmark = map.landmark(id);
-      const auto seen = std::ranges::find_if(
-          landmark.observations, [&](const Observation& o) { return takes_part(o.keyframe); });
-      const Pose move =
-          from_block(pose_of(seen->keyframe)) * map.keyframe(seen->keyframe).T_map_body.inverse();
-      landmark.position = move * landmark.position;
-    }
     for (const int id : window_.moved) {
       map.keyframe(id).T_map_body = from_block(pose_of(id));
     }
@@ -110,7 +95,6 @@ class AdjustmentJob::Impl {
       if (chi_squared > term.limit) map.remove_observation(term.landmark, term.observation);
     }
     for (const int id : landmark_ids_) map.refresh(id, rig_.T_body_cams);
-    for (const int id : carried_ids_) map.refresh(id, rig_.T_body_cams);
   }
 
  private:
@@ -162,10 +146,7 @@ class AdjustmentJob::Impl {
       }
     }
     for (std::size_t i = 0; i < seen.size(); ++i) {
-      if (!seen[i]) continue;
-      const bool carried =
-          many_ && map.landmarks()[i].observations.size() < kManyKeyframesObservations;
-      (carried ? carried_ids_ : landmark_ids_).push_back(static_cast<int>(i));
+      if (seen[i]) landmark_ids_.push_back(static_cast<int>(i));
     }
     points_.reserve(landmark_ids_.size());
     for (const int id : landmark_ids_) add_landmark(map.landmark(id), map);
@@ -236,7 +217,6 @@ class AdjustmentJob::Impl {
   }
 
   AdjustmentWindow window_;
-  bool many_;  ///< keyframes
   const EstimatorRig& rig_;
   AdjustmentOptions options_;
   PoseManifold manifold_;
@@ -246,7 +226,6 @@ class AdjustmentJob::Impl {
   std::vector<std::size_t> pose_index_;  ///< by keyframe id
   std::vector<int> landmark_ids_;
   std::vector<Eigen::Vector3d> points_;
-  std::vector<int> carried_ids_;  ///< left out: they go with their first keyframe here
   std::vector<PoseBlock> tag_blocks_;
   std::vector<char> tag_used_;
   std::deque<ReprojectionError> errors_;

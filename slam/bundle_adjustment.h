@@ -12,8 +12,7 @@
 namespace vinebench {
 
 /// Which keyframes an adjustment moves, and which it only looks at. The landmarks that a moved
-/// keyframe sees are adjusted with them; where there are hundreds of keyframes, those of three
-/// observations and less keep their place against the first that sees them.
+/// keyframe sees are adjusted with them.
 struct AdjustmentWindow {
   std::vector<int> moved;  ///< keyframe ids, ascending
   std::vector<int> fixed;  ///< keyframe ids, ascending

@@ -54,83 +54,29 @@ std::size_t count_observations(const Map& map) {
   return n;
 }
 
-/// So many that they are solved for by conjugate gradients, 5 mm apart; all but the first are moved
-/// by a centimetre and half a degree.
-class ManyKeyframesTest : public testing::Test {
- protected:
-  ManyKeyframesTest() {
-    std::vector<int> moved;
-    for (int id = 1; id < kCount; ++id) moved.push_back(id);
-    perturb(made_.map, moved);
+// So many that they are solved for by conjugate gradients, 5 mm apart, each moved by a centimetre
+// and half a degree. Iteration ends where the cost falls by less than a two-thousandth, which the
+// noise of half a pixel sets: keyframes stand within a few millimetres then.
+TEST(ManyKeyframesTest, PerturbedTheyComeBack) {
+  const SyntheticAisle aisle(0.5, 1, 80);
+  std::vector<Pose> poses;
+  for (int i = 0; i < 405; ++i) {
+    poses.push_back({exp_so3({0, 0, 0.001 * i}), {0.005 * i, 0, 0}});
   }
-
-  static std::vector<Pose> poses() {
-    std::vector<Pose> poses;
-    for (int i = 0; i < kCount; ++i) {
-      poses.push_back({exp_so3({0, 0, 0.001 * i}), {0.005 * i, 0, 0}});
-    }
-    return poses;
-  }
-
-  void adjust_all(int iterations) {
-    AdjustmentOptions options;
-    options.iterations = iterations;
-    options.global = true;
-    adjust(made_.map, global_window(made_.map), made_.rig, options);
-  }
-
-  static constexpr int kCount = 405;
-  SyntheticAisle aisle_{0.5, 1, 80};
-  AisleMap made_{aisle_, poses()};
-};
-
-// Iteration ends where the cost falls by less than a two-thousandth, which the noise of half a
-// pixel sets: keyframes stand within a few millimetres then.
-TEST_F(ManyKeyframesTest, PerturbedTheyComeBack) {
-  adjust_all(25);
+  AisleMap made(aisle, poses);
+  std::vector<int> moved;
+  for (int id = 1; id < 405; ++id) moved.push_back(id);
+  perturb(made.map, moved);
+  AdjustmentOptions options;
+  options.iterations = 25;
+  options.global = true;
+  adjust(made.map, global_window(made.map), made.rig, options);
   double worst = 0;
-  for (std::size_t k = 1; k < kCount; ++k) {
-    worst = std::max(worst, distance(made_.map.keyframes()[k].T_map_body, poses()[k]));
+  for (const int id : moved) {
+    worst = std::max(
+        worst, distance(made.map.keyframe(id).T_map_body, poses[static_cast<std::size_t>(id)]));
   }
   EXPECT_LT(worst, 0.01);
-}
-
-TEST_F(ManyKeyframesTest, WhatFewSawGoesWithTheFirstOfThem) {
-  const auto places = [&] {
-    std::vector<Eigen::Vector3d> in_keyframe;
-    for (const Landmark& landmark : made_.map.landmarks()) {
-      in_keyframe.push_back(made_.map.keyframe(landmark.first_keyframe).T_map_body.inverse() *
-                            landmark.position);
-    }
-    return in_keyframe;
-  };
-  // All keyframes see nearly the same: of every fourth landmark only three observations are left.
-  for (std::size_t i = 0; i < made_.map.landmarks().size(); i += 4) {
-    const std::vector<Observation> seen = made_.map.landmarks()[i].observations;
-    for (std::size_t o = 3; o < seen.size(); ++o) {
-      made_.map.remove_observation(static_cast<int>(i), seen[o]);
-    }
-  }
-  const std::vector<Eigen::Vector3d> before = places();
-  std::vector<std::size_t> observations;
-  for (const Landmark& landmark : made_.map.landmarks()) {
-    observations.push_back(landmark.observations.size());
-  }
-  adjust_all(3);
-  const std::vector<Eigen::Vector3d> after = places();
-  std::size_t few = 0;
-  std::size_t changed = 0;
-  for (std::size_t i = 0; i < after.size(); ++i) {
-    const double moved = (after[i] - before[i]).norm();
-    if (observations[i] < 4) {
-      EXPECT_LT(moved, 1e-12) << i;  // m: rounding, of metres
-      ++few;
-    } else if (moved > 1e-3) {
-      ++changed;  // it was a centimetre off, and so was its keyframe
-    }
-  }
-  EXPECT_GE(few, after.size() / 4);
-  EXPECT_GT(changed, after.size() / 2);
 }
 
 class BundleAdjustmentTest : public testing::TestWithParam<bool> {};
