@@ -46,10 +46,11 @@ function(vinebench_module name)
   vinebench_flags(vinebench_${name})
 endfunction()
 
-# vinebench_shards(PROGRAM): its tests in a few processes, since with sanitizers one takes long to
-# start. VINEBENCH_TEST_FILTER (as for --gtest_filter) chooses among them.
+# vinebench_shards(PROGRAM): its tests in some processes, since with sanitizers one takes long to
+# start, and few would leave a core idle at the end. VINEBENCH_TEST_FILTER (as for --gtest_filter)
+# chooses among them.
 function(vinebench_shards program)
-  set(shards 4)
+  set(shards 8)
   foreach(shard RANGE 1 ${shards})
     math(EXPR index "${shard} - 1")
     add_test(NAME ${program}_${shard} COMMAND ${program} --gtest_brief=1
