@@ -9,11 +9,11 @@ include(CMakePackageConfigHelpers)
 set(headers ${CMAKE_INSTALL_INCLUDEDIR}/vinebench)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/vinebench)
 
-set_target_properties(vinebench_base PROPERTIES EXPORT_NAME base)
+set_target_properties(vinebench_core PROPERTIES EXPORT_NAME core)
 set_target_properties(vinebench_slam PROPERTIES EXPORT_NAME slam)
-install(TARGETS vinebench_base vinebench_slam EXPORT vinebench INCLUDES DESTINATION ${headers})
+install(TARGETS vinebench_core vinebench_slam EXPORT vinebench INCLUDES DESTINATION ${headers})
 install(EXPORT vinebench NAMESPACE vinebench:: DESTINATION ${package} FILE vinebenchTargets.cmake)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/slam DESTINATION ${headers} FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/core ${PROJECT_SOURCE_DIR}/slam DESTINATION ${headers} FILES_MATCHING PATTERN "*.h")
 install(FILES ${CMAKE_BINARY_DIR}/generated/vinebench/version.h DESTINATION ${headers}/vinebench)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/vinebenchConfig.cmake.in

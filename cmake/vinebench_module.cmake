@@ -38,9 +38,11 @@ function(vinebench_precompile target)
   endif()
 endfunction()
 
-# vinebench_module(NAME dependencies...): one static library of every source in this folder.
+# vinebench_module(NAME dependencies...): one static library of every source in this folder and those
+# below it, but for folders that are libraries of their own.
 function(vinebench_module name)
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
+  list(FILTER sources EXCLUDE REGEX "/rosbag/")
   add_library(vinebench_${name} STATIC ${sources})
   target_link_libraries(vinebench_${name} PUBLIC ${ARGN})
   vinebench_flags(vinebench_${name})
@@ -67,10 +69,10 @@ function(vinebench_library name)
   target_compile_options(vinebench_${name} PRIVATE -fno-semantic-interposition)
 endfunction()
 
-# vinebench_tests(FOLDER dependencies...): one GoogleTest program of every *_test.cpp in tests/FOLDER.
+# vinebench_tests(FOLDER dependencies...): one GoogleTest program of every *_test.cpp in and below tests/FOLDER.
 function(vinebench_tests folder)
   string(REPLACE "/" "_" name ${folder})
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${folder}/*_test.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${folder}/*_test.cpp)
   if(VINEBENCH_TEST_FILES)
     list(FILTER sources INCLUDE REGEX "/(${VINEBENCH_TEST_FILES})_test\\.cpp$")
   endif()

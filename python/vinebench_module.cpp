@@ -16,12 +16,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/time.h"
+#include "core/util/error.h"
 #include "scenarios/frame_stream.h"
 #include "scenarios/label_formats.h"
 #include "scenarios/label_table.h"
 #include "scenarios/run_length.h"
-#include "slam/base/error.h"
-#include "slam/base/time.h"
 #include "vinebench/version.h"
 
 namespace py = pybind11;

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "slam/base/error.h"
-#include "slam/base/yaml.h"
-#include "slam/base/yaml_writer.h"
+#include "core/config/yaml.h"
+#include "core/config/yaml_writer.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 namespace {

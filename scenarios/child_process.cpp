@@ -15,7 +15,7 @@
 #include <system_error>
 #include <vector>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 namespace {

@@ -10,9 +10,9 @@
 #include <set>
 #include <system_error>
 
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "scenarios/run_length.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
 
 namespace vinebench {
 namespace {

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 #include "vinebench/version.h"
 
 namespace vinebench {

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "core/util/files.h"
 #include "scenarios/coco_file.h"
 #include "scenarios/label_formats.h"
-#include "slam/base/files.h"
 
 namespace vinebench {
 namespace {

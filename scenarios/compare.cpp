@@ -11,8 +11,8 @@
 #include <numeric>
 #include <utility>
 
-#include "slam/base/error.h"
-#include "slam/base/files.h"
+#include "core/util/error.h"
+#include "core/util/files.h"
 
 namespace vinebench {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <system_error>
 
-#include "slam/base/files.h"
-#include "slam/base/yaml.h"
-#include "slam/base/yaml_writer.h"
+#include "core/config/yaml.h"
+#include "core/config/yaml_writer.h"
+#include "core/util/files.h"
 
 namespace vinebench {
 

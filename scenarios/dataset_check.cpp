@@ -9,13 +9,13 @@
 #include <set>
 #include <system_error>
 
+#include "core/trajectory.h"
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "scenarios/dataset_card.h"
 #include "scenarios/file_manifest.h"
 #include "scenarios/label_check.h"
 #include "scenarios/text_table.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
-#include "slam/base/trajectory.h"
 
 namespace vinebench {
 namespace {

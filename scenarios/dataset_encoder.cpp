@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "slam/base/files.h"
+#include "core/util/files.h"
 
 namespace vinebench {
 namespace {

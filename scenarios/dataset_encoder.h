@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "core/util/worker_pool.h"
 #include "scenarios/background_worker.h"
 #include "scenarios/dataset_format.h"
 #include "scenarios/file_manifest.h"
-#include "slam/base/worker_pool.h"
 
 namespace vinebench {
 

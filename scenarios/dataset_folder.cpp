@@ -9,8 +9,8 @@
 #include <system_error>
 #include <vector>
 
+#include "core/util/error.h"
 #include "scenarios/dataset_format.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 

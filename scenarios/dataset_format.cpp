@@ -7,8 +7,8 @@
 #include <system_error>
 #include <utility>
 
+#include "core/util/error.h"
 #include "scenarios/picture_codec.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 

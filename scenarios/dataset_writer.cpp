@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "core/config/yaml_writer.h"
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "scenarios/calibration_file.h"
 #include "scenarios/coco_format.h"
 #include "scenarios/dataset_folder.h"
@@ -13,9 +16,6 @@
 #include "scenarios/label_formats.h"
 #include "scenarios/ros_format.h"
 #include "scenarios/tum_format.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
-#include "slam/base/yaml_writer.h"
 #include "vinebench/version.h"
 
 namespace vinebench {

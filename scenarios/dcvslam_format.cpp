@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <array>
 
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "scenarios/slam_settings.h"
 #include "scenarios/tags_in_view.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
 
 namespace vinebench {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <fmt/ranges.h>
 
+#include "core/config/yaml_writer.h"
+#include "core/util/files.h"
 #include "scenarios/picture_codec.h"
 #include "scenarios/slam_settings.h"
 #include "scenarios/tag_list.h"
-#include "slam/base/files.h"
-#include "slam/base/yaml_writer.h"
 
 namespace vinebench {
 namespace {

@@ -5,9 +5,9 @@
 #include <deque>
 #include <optional>
 
+#include "core/trajectory.h"
 #include "scenarios/append_file.h"
 #include "scenarios/dataset_format.h"
-#include "slam/base/trajectory.h"
 
 namespace vinebench {
 

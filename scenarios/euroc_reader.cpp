@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "core/util/error.h"
 #include "scenarios/picture_association.h"
 #include "scenarios/recording_readers.h"
 #include "scenarios/sensor_file.h"
 #include "scenarios/tag_list.h"
 #include "scenarios/text_table.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {

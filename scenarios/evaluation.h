@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "slam/base/trajectory.h"
+#include "core/trajectory.h"
 
 namespace vinebench {
 

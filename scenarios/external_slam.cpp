@@ -4,9 +4,9 @@
 
 #include <optional>
 
+#include "core/util/error.h"
 #include "scenarios/foreign_trajectory.h"
 #include "scenarios/program.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {

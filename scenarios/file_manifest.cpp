@@ -13,8 +13,8 @@
 #include <set>
 #include <system_error>
 
-#include "slam/base/error.h"
-#include "slam/base/files.h"
+#include "core/util/error.h"
+#include "core/util/files.h"
 
 namespace vinebench {
 namespace {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "scenarios/evaluation.h"
 #include "scenarios/text_table.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
 
 namespace vinebench {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "core/util/files.h"
 #include "scenarios/picture_codec.h"
-#include "slam/base/files.h"
 
 namespace vinebench {
 

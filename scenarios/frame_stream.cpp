@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/util/error.h"
 #include "scenarios/label_formats.h"
 #include "scenarios/randomisation.h"
 #include "scenarios/record_options.h"
 #include "scenarios/run_scenario.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {

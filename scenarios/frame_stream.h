@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "core/util/worker_pool.h"
 #include "scenarios/dataset_format.h"
 #include "scenarios/look_ahead.h"
 #include "scenarios/picture_labels.h"
 #include "scenarios/scenario.h"
-#include "slam/base/worker_pool.h"
 
 namespace vinebench {
 

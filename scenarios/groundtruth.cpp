@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/util/error.h"
 #include "scenarios/recording_readers.h"
 #include "scenarios/text_table.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "slam/base/xml_text.h"
+#include "core/util/xml_text.h"
 
 namespace vinebench {
 namespace {

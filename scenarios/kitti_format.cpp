@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "core/config/yaml_writer.h"
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "scenarios/slam_settings.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
-#include "slam/base/yaml_writer.h"
 
 namespace vinebench {
 namespace {

@@ -4,10 +4,10 @@
 #include <array>
 #include <map>
 
+#include "core/util/error.h"
 #include "scenarios/recorded_pictures.h"
 #include "scenarios/recording_readers.h"
 #include "scenarios/text_table.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/geometry/pose.h"
+#include "core/time.h"
 #include "scenarios/dataset_check.h"
-#include "slam/base/pose.h"
-#include "slam/base/time.h"
 
 namespace vinebench {
 

@@ -6,12 +6,12 @@
 
 #include <cmath>
 
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "scenarios/label_table.h"
 #include "scenarios/slam_settings.h"
 #include "scenarios/truth_colours.h"
 #include "sim/rover_motion.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
 
 namespace vinebench {
 namespace {

@@ -11,7 +11,7 @@
 #include <ctime>
 #include <fstream>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 namespace {

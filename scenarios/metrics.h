@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/util/stage_timer.h"
 #include "scenarios/results.h"
 #include "scenarios/verdict.h"
-#include "slam/base/stage_timer.h"
 
 namespace vinebench {
 

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "slam/base/xml_text.h"
+#include "core/util/xml_text.h"
 
 namespace vinebench {
 namespace {

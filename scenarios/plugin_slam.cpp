@@ -8,8 +8,8 @@
 #include <array>
 #include <cmath>
 
-#include "slam/base/error.h"
-#include "slam/base/slam_plugin.h"
+#include "core/slam_plugin.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 namespace {
@@ -164,12 +164,12 @@ class PluginSlam : public SlamSystem {
     using Entry = const vinebench_slam_functions* (*)();
     const auto entry = reinterpret_cast<Entry>(dlsym(object, "vinebench_slam"));
     if (entry == nullptr) {
-      fail("slam.plugin.library: {}: exports no vinebench_slam (slam/base/slam_plugin.h)", file);
+      fail("slam.plugin.library: {}: exports no vinebench_slam (core/slam_plugin.h)", file);
     }
     const vinebench_slam_functions* functions = entry();
     if (functions == nullptr || functions->version != VINEBENCH_SLAM_PLUGIN_VERSION) {
-      fail("slam.plugin.library: {}: expected version {} of slam/base/slam_plugin.h, found {}",
-           file, VINEBENCH_SLAM_PLUGIN_VERSION, functions == nullptr ? 0 : functions->version);
+      fail("slam.plugin.library: {}: expected version {} of core/slam_plugin.h, found {}", file,
+           VINEBENCH_SLAM_PLUGIN_VERSION, functions == nullptr ? 0 : functions->version);
     }
     return *functions;
   }

@@ -6,14 +6,14 @@
 #include <optional>
 #include <vector>
 
+#include "core/geometry/rig.h"
+#include "core/slam_system.h"
 #include "scenarios/slam_choice.h"
-#include "slam/base/rig.h"
-#include "slam/base/slam_system.h"
 #include "slam/wheel_odometry.h"
 
 namespace vinebench {
 
-/// Makes the SLAM system of a shared object (slam/base/slam_plugin.h). Throws Error when it cannot
+/// Makes the SLAM system of a shared object (core/slam_plugin.h). Throws Error when it cannot
 /// be loaded, is of another version of that interface, or says that something failed; process and
 /// finish do too.
 std::unique_ptr<SlamSystem> load_plugin_slam(const PluginSlamConfig& config, const Rig& rig,

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 namespace {

@@ -14,8 +14,8 @@
 #include <sstream>
 #include <thread>
 
-#include "slam/base/error.h"
-#include "slam/base/files.h"
+#include "core/util/error.h"
+#include "core/util/files.h"
 
 namespace vinebench {
 namespace {

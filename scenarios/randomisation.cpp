@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "slam/base/random.h"
-#include "slam/base/yaml.h"
+#include "core/config/yaml.h"
+#include "core/util/random.h"
 
 namespace vinebench {
 namespace {

@@ -6,14 +6,14 @@
 
 #include <system_error>
 
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "scenarios/coco_file.h"
 #include "scenarios/dataset_folder.h"
 #include "scenarios/dataset_writer.h"
 #include "scenarios/progress.h"
 #include "scenarios/randomisation.h"
 #include "scenarios/run_scenario.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
 
 namespace vinebench {
 namespace {

@@ -7,12 +7,12 @@
 #include <optional>
 #include <system_error>
 
+#include "core/util/error.h"
 #include "scenarios/dataset_writer.h"
 #include "scenarios/lockstep.h"
 #include "scenarios/look_ahead.h"
 #include "scenarios/measurement.h"
 #include "scenarios/run_scenario.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "core/util/error.h"
 #include "scenarios/rosbag/ros_bag.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "core/util/error.h"
 #include "scenarios/dataset_card.h"
 #include "scenarios/recorded_pictures.h"
 #include "scenarios/recording_readers.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "core/slam_system.h"
 #include "sim/simulation.h"
-#include "slam/base/slam_system.h"
 #include "slam/slam.h"
 
 namespace vinebench {

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "slam/base/error.h"
-#include "slam/base/yaml.h"
+#include "core/config/yaml.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 

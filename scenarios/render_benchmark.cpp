@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/util/worker_pool.h"
 #include "scenarios/child_process.h"
 #include "scenarios/measurement.h"
 #include "scenarios/mujoco_benchmark.h"
@@ -15,7 +16,6 @@
 #include "scenarios/snapshot.h"
 #include "sim/renderer.h"
 #include "sim/terrain.h"
-#include "slam/base/worker_pool.h"
 
 namespace vinebench {
 namespace {

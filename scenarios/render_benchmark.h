@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/rig.h"
 #include "sim/world.h"
-#include "slam/base/rig.h"
 
 namespace vinebench {
 

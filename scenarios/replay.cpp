@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/replay.h"
 
+#include "core/config/yaml.h"
+#include "core/config/yaml_writer.h"
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "scenarios/run_folder.h"
 #include "scenarios/run_scenario.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
-#include "slam/base/yaml.h"
-#include "slam/base/yaml_writer.h"
 
 namespace vinebench {
 namespace {

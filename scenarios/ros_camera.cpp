@@ -8,8 +8,8 @@
 #include <array>
 #include <set>
 
+#include "core/util/error.h"
 #include "scenarios/slam_settings.h"
-#include "slam/base/error.h"
 #include "slam/rectification.h"
 
 namespace vinebench {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/rig.h"
 #include "scenarios/rosbag/ros_bag.h"
-#include "slam/base/rig.h"
 
 namespace vinebench {
 

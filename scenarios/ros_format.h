@@ -4,11 +4,11 @@
 
 #include <optional>
 
+#include "core/trajectory.h"
 #include "scenarios/dataset_format.h"
 #include "scenarios/picture_codec.h"
 #include "scenarios/ros_camera.h"
 #include "scenarios/rosbag/ros_bag.h"
-#include "slam/base/trajectory.h"
 #include "slam/tag_detector.h"
 
 namespace vinebench {

@@ -5,11 +5,11 @@
 #include <regex>
 #include <system_error>
 
+#include "core/config/yaml_writer.h"
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "scenarios/events.h"
 #include "scenarios/plot.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
-#include "slam/base/yaml_writer.h"
 
 namespace vinebench {
 namespace {

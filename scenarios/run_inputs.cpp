@@ -6,9 +6,9 @@
 
 #include <set>
 
+#include "core/config/yaml_writer.h"
+#include "core/util/files.h"
 #include "scenarios/run_hash.h"
-#include "slam/base/files.h"
-#include "slam/base/yaml_writer.h"
 
 namespace vinebench {
 namespace {

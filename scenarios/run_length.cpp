@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 namespace {

@@ -4,12 +4,12 @@
 
 #include <cstdlib>
 
+#include "core/util/error.h"
 #include "scenarios/dataset_folder.h"
 #include "scenarios/dataset_writer.h"
 #include "scenarios/external_slam.h"
 #include "scenarios/look_ahead.h"
 #include "scenarios/plugin_slam.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {

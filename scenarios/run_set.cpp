@@ -13,11 +13,11 @@
 #include <iostream>
 #include <map>
 
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "scenarios/child_process.h"
 #include "scenarios/run_folder.h"
 #include "scenarios/run_inputs.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
 
 namespace vinebench {
 namespace {

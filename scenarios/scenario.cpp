@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "core/config/yaml.h"
+#include "core/util/error.h"
 #include "scenarios/external_slam.h"
 #include "scenarios/occlusion.h"
-#include "slam/base/error.h"
-#include "slam/base/yaml.h"
 
 namespace vinebench {
 namespace {

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/config/config_field.h"
 #include "scenarios/slam_choice.h"
 #include "sim/simulation.h"
-#include "slam/base/config_field.h"
 #include "slam/slam.h"
 
 namespace vinebench {

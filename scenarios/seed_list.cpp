@@ -6,7 +6,7 @@
 #include <charconv>
 #include <sstream>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 namespace {

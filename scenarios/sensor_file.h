@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "slam/base/camera.h"
-#include "slam/base/pose.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
 
 namespace vinebench {
 

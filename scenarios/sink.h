@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "core/slam_system.h"
 #include "sim/simulation.h"
-#include "slam/base/slam_system.h"
 
 namespace vinebench {
 

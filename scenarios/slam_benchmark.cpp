@@ -8,9 +8,9 @@
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 
+#include "core/util/error.h"
 #include "scenarios/measurement.h"
 #include "scenarios/metrics.h"
-#include "slam/base/error.h"
 #include "slam/orb_extractor.h"
 #include "slam/tag_detector.h"
 

@@ -33,7 +33,7 @@ struct ExternalSlamConfig {
   }
 };
 
-/// A SLAM system in a shared object, as of slam/base/slam_plugin.h.
+/// A SLAM system in a shared object, as of core/slam_plugin.h.
 struct PluginSlamConfig {
   std::filesystem::path library;
   std::optional<std::filesystem::path> settings;  ///< handed on to it

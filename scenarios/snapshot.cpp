@@ -10,12 +10,12 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/geometry/rig.h"
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "scenarios/label_table.h"
 #include "scenarios/run_scenario.h"
 #include "sim/renderer.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
-#include "slam/base/rig.h"
 
 namespace vinebench {
 namespace {

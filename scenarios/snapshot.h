@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/camera.h"
 #include "scenarios/scenario.h"
 #include "sim/world.h"
-#include "slam/base/camera.h"
 
 namespace vinebench {
 

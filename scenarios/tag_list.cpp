@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "slam/base/yaml.h"
-#include "slam/base/yaml_writer.h"
+#include "core/config/yaml.h"
+#include "core/config/yaml_writer.h"
 
 namespace vinebench {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "slam/base/slam_system.h"
+#include "core/slam_system.h"
 
 namespace vinebench {
 

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "slam/base/error.h"
-#include "slam/base/files.h"
+#include "core/util/error.h"
+#include "core/util/files.h"
 
 namespace vinebench {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "slam/base/time.h"
+#include "core/time.h"
 
 namespace vinebench {
 

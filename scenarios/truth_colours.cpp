@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "core/util/files.h"
+#include "core/util/random.h"
 #include "scenarios/picture_codec.h"
 #include "scenarios/snapshot.h"
-#include "slam/base/files.h"
-#include "slam/base/random.h"
 
 namespace vinebench {
 namespace {

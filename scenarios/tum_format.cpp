@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/tum_format.h"
 
-#include "slam/base/trajectory.h"
+#include "core/trajectory.h"
 
 namespace vinebench {
 

@@ -9,9 +9,9 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "sim/picture_size.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
 
 namespace vinebench {
 namespace {

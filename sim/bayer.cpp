@@ -5,7 +5,7 @@
 #include <array>
 #include <opencv2/imgproc.hpp>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 namespace {

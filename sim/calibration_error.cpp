@@ -4,8 +4,8 @@
 
 #include <numbers>
 
-#include "slam/base/error.h"
-#include "slam/base/random.h"
+#include "core/util/error.h"
+#include "core/util/random.h"
 
 namespace vinebench {
 namespace {

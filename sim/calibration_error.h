@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "slam/base/config_field.h"
-#include "slam/base/rig.h"
+#include "core/config/config_field.h"
+#include "core/geometry/rig.h"
 
 namespace vinebench {
 

@@ -7,6 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "core/config/config_field.h"
+#include "core/geometry/rig.h"
+#include "core/time.h"
 #include "sim/bayer.h"
 #include "sim/exposure.h"
 #include "sim/fixed_pattern.h"
@@ -15,9 +18,6 @@
 #include "sim/photon_transfer.h"
 #include "sim/renderer.h"
 #include "sim/vignette.h"
-#include "slam/base/config_field.h"
-#include "slam/base/rig.h"
-#include "slam/base/time.h"
 
 namespace vinebench {
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 namespace {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/cultivar.h"
 
-#include "slam/base/yaml.h"
+#include "core/config/yaml.h"
 
 namespace vinebench {
 

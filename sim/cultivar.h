@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "slam/base/config_field.h"
+#include "core/config/config_field.h"
 
 namespace vinebench {
 

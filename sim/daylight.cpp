@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 namespace {

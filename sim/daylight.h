@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "core/config/config_field.h"
 #include "sim/scene.h"
-#include "slam/base/config_field.h"
 
 namespace vinebench {
 

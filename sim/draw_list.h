@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "core/geometry/pose.h"
 #include "sim/frustum.h"
 #include "sim/gpu_scene.h"
 #include "sim/rover_shadow.h"
-#include "slam/base/pose.h"
 
 namespace vinebench {
 

@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
+#include "core/frame.h"
+#include "core/trajectory.h"
 #include "sim/route.h"
 #include "sim/rover.h"
-#include "slam/base/frame.h"
-#include "slam/base/trajectory.h"
 
 namespace vinebench {
 

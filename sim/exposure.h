@@ -5,8 +5,8 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "slam/base/config_field.h"
-#include "slam/base/rig.h"
+#include "core/config/config_field.h"
+#include "core/geometry/rig.h"
 
 namespace vinebench {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "slam/base/config_field.h"
-#include "slam/base/time.h"
+#include "core/config/config_field.h"
+#include "core/time.h"
 
 namespace vinebench {
 

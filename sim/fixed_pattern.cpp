@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "slam/base/random.h"
+#include "core/util/random.h"
 
 namespace vinebench {
 namespace {

@@ -6,7 +6,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "slam/base/config_field.h"
+#include "core/config/config_field.h"
 
 namespace vinebench {
 

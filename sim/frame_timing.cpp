@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slam/base/error.h"
-#include "slam/base/random.h"
+#include "core/util/error.h"
+#include "core/util/random.h"
 
 namespace vinebench {
 namespace {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "core/config/config_field.h"
+#include "core/geometry/rig.h"
+#include "core/time.h"
 #include "sim/fault_scope.h"
-#include "slam/base/config_field.h"
-#include "slam/base/rig.h"
-#include "slam/base/time.h"
 
 namespace vinebench {
 

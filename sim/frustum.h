@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-#include "slam/base/camera.h"
+#include "core/geometry/camera.h"
 
 namespace vinebench {
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <string_view>
 
+#include "core/util/error.h"
 #include "sim/gl.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 

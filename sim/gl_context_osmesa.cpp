@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
+#include "core/util/error.h"
 #include "sim/gl_context.h"
-#include "slam/base/error.h"
 
 #ifdef VINEBENCH_HAS_OSMESA
 

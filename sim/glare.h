@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
 
+#include "core/geometry/camera.h"
 #include "sim/scene.h"
-#include "slam/base/camera.h"
 
 namespace vinebench {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 namespace {

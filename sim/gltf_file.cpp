@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/util/error.h"
 #include "sim/asset_file.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {

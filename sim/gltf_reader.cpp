@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/util/error.h"
 #include "sim/asset_file.h"
 #include "sim/gltf.h"
 #include "sim/gltf_accessor.h"
 #include "sim/gltf_file.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {

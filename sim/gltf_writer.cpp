@@ -5,9 +5,9 @@
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
+#include "core/util/error.h"
 #include "sim/asset_file.h"
 #include "sim/gltf.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/util/random.h"
 #include "sim/grapevine_wood.h"
 #include "sim/textures.h"
-#include "slam/base/random.h"
 
 namespace vinebench {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/util/random.h"
 #include "sim/textures.h"
-#include "slam/base/random.h"
 
 namespace vinebench {
 namespace {

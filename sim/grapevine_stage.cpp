@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/util/error.h"
 #include "sim/vines.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "core/util/random.h"
 #include "sim/grapevine.h"
-#include "slam/base/random.h"
 
 namespace vinebench {
 

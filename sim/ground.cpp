@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 
+#include "core/util/random.h"
 #include "sim/asset.h"
 #include "sim/plant_geometry.h"
 #include "sim/row_index.h"
 #include "sim/textures.h"
-#include "slam/base/random.h"
 
 namespace vinebench {
 namespace {

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/util/random.h"
 #include "sim/asset.h"
 #include "sim/ground.h"
 #include "sim/plant_geometry.h"
 #include "sim/row_index.h"
 #include "sim/textures.h"
-#include "slam/base/random.h"
 
 namespace vinebench {
 namespace {

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <string>
 
-#include "slam/base/config_field.h"
-#include "slam/base/frame.h"
-#include "slam/base/random.h"
+#include "core/config/config_field.h"
+#include "core/frame.h"
+#include "core/util/random.h"
 
 namespace vinebench {
 

@@ -5,7 +5,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "slam/base/camera.h"
+#include "core/geometry/camera.h"
 
 namespace vinebench {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "slam/base/random.h"
+#include "core/util/random.h"
 
 namespace vinebench {
 namespace {

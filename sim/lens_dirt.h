@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
 
+#include "core/config/config_field.h"
 #include "sim/fault_scope.h"
-#include "slam/base/config_field.h"
 
 namespace vinebench {
 

@@ -11,9 +11,9 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
+#include "core/util/error.h"
 #include "sim/asset_file.h"
 #include "sim/collada_check.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {

@@ -13,8 +13,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "core/util/error.h"
 #include "sim/mujoco_scene.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {

@@ -6,9 +6,9 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
 #include "sim/scene.h"
-#include "slam/base/camera.h"
-#include "slam/base/pose.h"
 
 namespace vinebench {
 

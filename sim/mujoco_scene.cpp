@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "core/util/error.h"
 #include "sim/light.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
 
-#include "slam/base/config_field.h"
-#include "slam/base/random.h"
+#include "core/config/config_field.h"
+#include "core/util/random.h"
 
 namespace vinebench {
 

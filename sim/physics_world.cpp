@@ -11,12 +11,12 @@
 #include <mutex>
 #include <system_error>
 
+#include "core/util/error.h"
+#include "core/util/files.h"
+#include "core/util/xml_text.h"
 #include "sim/obstacles.h"
 #include "sim/terrain.h"
 #include "sim/trellis.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
-#include "slam/base/xml_text.h"
 
 namespace vinebench {
 namespace {

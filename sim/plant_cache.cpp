@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/config/yaml_writer.h"
+#include "core/util/error.h"
+#include "core/util/files.h"
+#include "core/util/random.h"
 #include "sim/asset_file.h"
 #include "sim/grapevine.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
-#include "slam/base/random.h"
-#include "slam/base/yaml_writer.h"
 
 namespace vinebench {
 namespace {

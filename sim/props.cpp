@@ -8,11 +8,11 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "core/util/random.h"
 #include "sim/asset.h"
 #include "sim/plant_geometry.h"
 #include "sim/tag_family.h"
 #include "sim/textures.h"
-#include "slam/base/random.h"
 
 namespace vinebench {
 namespace {

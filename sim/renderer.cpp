@@ -7,13 +7,13 @@
 #include <tuple>
 #include <utility>
 
+#include "core/util/error.h"
 #include "sim/frustum.h"
 #include "sim/gl_context.h"
 #include "sim/gl_objects.h"
 #include "sim/glare.h"
 #include "sim/painter.h"
 #include "sim/rover_motion.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "core/config/config_field.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
 #include "sim/scene.h"
-#include "slam/base/camera.h"
-#include "slam/base/config_field.h"
-#include "slam/base/pose.h"
 
 namespace vinebench {
 

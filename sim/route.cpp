@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "slam/base/validate.h"
+#include "core/config/validate.h"
 
 namespace vinebench {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "slam/base/config_field.h"
-#include "slam/base/pose.h"
-#include "slam/base/time.h"
+#include "core/config/config_field.h"
+#include "core/geometry/pose.h"
+#include "core/time.h"
 
 namespace vinebench {
 

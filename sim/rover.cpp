@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 
+#include "core/util/error.h"
+#include "core/util/random.h"
 #include "sim/physics_world.h"
 #include "sim/terrain.h"
 #include "sim/wheel_controller.h"
-#include "slam/base/error.h"
-#include "slam/base/random.h"
 
 namespace vinebench {
 namespace {

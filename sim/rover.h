@@ -8,10 +8,10 @@
 #include <memory>
 #include <vector>
 
+#include "core/config/config_field.h"
+#include "core/frame.h"
+#include "core/geometry/pose.h"
 #include "sim/world.h"
-#include "slam/base/config_field.h"
-#include "slam/base/frame.h"
-#include "slam/base/pose.h"
 
 namespace vinebench {
 

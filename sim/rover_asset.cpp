@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "core/util/error.h"
 #include "sim/plant_geometry.h"
 #include "sim/props.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {

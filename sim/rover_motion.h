@@ -4,8 +4,8 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "slam/base/camera.h"
-#include "slam/base/pose.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
 
 namespace vinebench {
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
 #include "sim/gpu_scene.h"
-#include "slam/base/camera.h"
-#include "slam/base/pose.h"
 
 namespace vinebench {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "slam/base/pose.h"
+#include "core/geometry/pose.h"
 
 namespace vinebench {
 

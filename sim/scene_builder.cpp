@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/util/random.h"
 #include "sim/asset_file.h"
 #include "sim/grapevine.h"
 #include "sim/ground.h"
@@ -12,7 +13,6 @@
 #include "sim/terrain.h"
 #include "sim/trellis.h"
 #include "sim/world.h"
-#include "slam/base/random.h"
 
 namespace vinebench {
 namespace {

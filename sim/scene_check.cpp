@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 namespace {

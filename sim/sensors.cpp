@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/sensors.h"
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "core/config/config_field.h"
+#include "core/geometry/rig.h"
 #include "sim/calibration_error.h"
 #include "sim/camera_sensor.h"
 #include "sim/frame_timing.h"
 #include "sim/inertial_sensor.h"
 #include "sim/wheel_sensor.h"
-#include "slam/base/config_field.h"
-#include "slam/base/rig.h"
 
 namespace vinebench {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 /// The simulated half of the test bench: vineyard, rover physics, renderer, sensors and the truth.
-/// It knows nothing of SLAM; what it hands over is slam/base's Frame, and Truth for the judge.
+/// It knows nothing of SLAM; what it hands over is core's Frame, and Truth for the judge.
 
 #include "sim/renderer.h"
 #include "sim/route.h"

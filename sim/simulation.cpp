@@ -7,10 +7,10 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/config/validate.h"
 #include "sim/driven_rover.h"
 #include "sim/rover_asset.h"
 #include "sim/truth.h"
-#include "slam/base/validate.h"
 
 namespace vinebench {
 namespace {

@@ -10,6 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "core/frame.h"
+#include "core/geometry/rig.h"
+#include "core/slam_system.h"
+#include "core/util/stage_timer.h"
+#include "core/util/worker_pool.h"
 #include "sim/renderer.h"
 #include "sim/route.h"
 #include "sim/rover.h"
@@ -17,11 +22,6 @@
 #include "sim/sensors.h"
 #include "sim/truth_images.h"
 #include "sim/world.h"
-#include "slam/base/frame.h"
-#include "slam/base/rig.h"
-#include "slam/base/slam_system.h"
-#include "slam/base/stage_timer.h"
-#include "slam/base/worker_pool.h"
 
 namespace vinebench {
 

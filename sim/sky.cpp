@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/util/random.h"
 #include "sim/view_block.h"
-#include "slam/base/random.h"
 
 namespace vinebench {
 namespace {

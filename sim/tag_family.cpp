@@ -16,7 +16,7 @@
 #include <algorithm>
 #include <array>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 namespace {

@@ -5,9 +5,9 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/util/random.h"
 #include "sim/row_frame.h"
 #include "sim/world.h"
-#include "slam/base/random.h"
 
 namespace vinebench {
 

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
 
+#include "core/util/random.h"
 #include "sim/cultivar.h"
 #include "sim/grapevine_stage.h"
 #include "sim/plant_geometry.h"
 #include "sim/scene.h"
-#include "slam/base/random.h"
 
 namespace vinebench {
 

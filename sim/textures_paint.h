@@ -4,7 +4,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "slam/base/random.h"
+#include "core/util/random.h"
 
 // What painters of pictures that repeat have in common.
 

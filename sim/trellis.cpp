@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/util/random.h"
 #include "sim/asset.h"
 #include "sim/plant_geometry.h"
 #include "sim/textures.h"
-#include "slam/base/random.h"
 
 namespace vinebench {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
 #include "sim/world.h"
-#include "slam/base/camera.h"
-#include "slam/base/pose.h"
 
 namespace vinebench {
 

@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 namespace {

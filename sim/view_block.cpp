@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/util/random.h"
 #include "sim/frustum.h"
-#include "slam/base/random.h"
 
 namespace vinebench {
 namespace {

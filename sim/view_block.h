@@ -4,10 +4,10 @@
 
 #include <Eigen/Core>
 
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
 #include "sim/gl_objects.h"
 #include "sim/scene.h"
-#include "slam/base/camera.h"
-#include "slam/base/pose.h"
 
 namespace vinebench {
 

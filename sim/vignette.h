@@ -5,8 +5,8 @@
 #include <array>
 #include <opencv2/core/mat.hpp>
 
-#include "slam/base/camera.h"
-#include "slam/base/config_field.h"
+#include "core/config/config_field.h"
+#include "core/geometry/camera.h"
 
 namespace vinebench {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "slam/base/config_field.h"
+#include "core/config/config_field.h"
 
 namespace vinebench {
 

@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "core/geometry/pose.h"
 #include "sim/frustum.h"
 #include "sim/gpu_scene.h"
-#include "slam/base/pose.h"
 
 namespace vinebench {
 

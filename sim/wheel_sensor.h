@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "slam/base/config_field.h"
-#include "slam/base/frame.h"
+#include "core/config/config_field.h"
+#include "core/frame.h"
 
 namespace vinebench {
 

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/util/error.h"
+#include "core/util/random.h"
 #include "sim/props.h"
 #include "sim/row_frame.h"
 #include "sim/tag_family.h"
 #include "sim/terrain.h"
-#include "slam/base/error.h"
-#include "slam/base/random.h"
 
 namespace vinebench {
 namespace {

@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/config/config_field.h"
+#include "core/geometry/pose.h"
+#include "core/slam_system.h"
 #include "sim/daylight.h"
 #include "sim/scene.h"
 #include "sim/vines.h"
-#include "slam/base/config_field.h"
-#include "slam/base/pose.h"
-#include "slam/base/slam_system.h"
 
 namespace vinebench {
 

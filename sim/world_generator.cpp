@@ -6,12 +6,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/config/validate.h"
+#include "core/config/yaml_writer.h"
+#include "core/util/error.h"
+#include "core/util/random.h"
 #include "sim/row_frame.h"
 #include "sim/tag_family.h"
-#include "slam/base/error.h"
-#include "slam/base/random.h"
-#include "slam/base/validate.h"
-#include "slam/base/yaml_writer.h"
 
 namespace vinebench {
 namespace {

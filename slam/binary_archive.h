@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "slam/base/error.h"
-#include "slam/base/pose.h"
+#include "core/geometry/pose.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "slam/base/config_field.h"
+#include "core/config/config_field.h"
 #include "slam/dead_reckoning.h"
 #include "slam/orb_extractor.h"
 #include "slam/patch.h"

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "slam/base/config_field.h"
-#include "slam/base/pose.h"
+#include "core/config/config_field.h"
+#include "core/geometry/pose.h"
 #include "slam/wheel_odometry.h"
 
 namespace vinebench {

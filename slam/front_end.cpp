@@ -5,7 +5,7 @@
 #include <chrono>
 #include <opencv2/imgproc.hpp>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 #include "slam/rectification.h"
 
 namespace vinebench {

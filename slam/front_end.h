@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "slam/base/frame.h"
-#include "slam/base/stage_timer.h"
-#include "slam/base/worker_pool.h"
+#include "core/frame.h"
+#include "core/util/stage_timer.h"
+#include "core/util/worker_pool.h"
 #include "slam/config.h"
 #include "slam/map.h"
 #include "slam/stereo_rig.h"

@@ -10,7 +10,7 @@
 #include <optional>
 #include <thread>
 
-#include "slam/base/slam_system.h"
+#include "core/slam_system.h"
 
 namespace vinebench {
 

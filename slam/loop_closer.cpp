@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 #include "slam/bundle_adjustment.h"
 #include "slam/loop_correction.h"
 

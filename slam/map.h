@@ -9,9 +9,9 @@
 #include <set>
 #include <vector>
 
-#include "slam/base/pose.h"
-#include "slam/base/slam_system.h"
-#include "slam/base/time.h"
+#include "core/geometry/pose.h"
+#include "core/slam_system.h"
+#include "core/time.h"
 #include "slam/feature_grid.h"
 #include "slam/features.h"
 #include "slam/patch_list.h"

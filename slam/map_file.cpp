@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slam/base/files.h"
+#include "core/util/files.h"
 #include "slam/binary_archive.h"
 #include "slam/rig_print.h"
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-#include "slam/base/stage_timer.h"
+#include "core/util/stage_timer.h"
 #include "slam/bundle_adjustment.h"
 #include "slam/config.h"
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "slam/base/random.h"
+#include "core/util/random.h"
 
 namespace vinebench {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 #include "slam/fast_cells.h"
 #include "slam/orb_descriptor.h"
 #include "slam/smoothing.h"

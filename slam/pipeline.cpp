@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 #include "slam/keyframe_selector.h"
 #include "slam/stereo_calibration.h"
 

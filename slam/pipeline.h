@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "slam/base/slam_system.h"
-#include "slam/base/stage_timer.h"
+#include "core/slam_system.h"
+#include "core/util/stage_timer.h"
 #include "slam/config.h"
 #include "slam/estimator_rig.h"
 #include "slam/local_mapper.h"

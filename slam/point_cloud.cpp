@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/point_cloud.h"
 
-#include "slam/base/files.h"
+#include "core/util/files.h"
 #include "slam/binary_archive.h"
 
 namespace vinebench {

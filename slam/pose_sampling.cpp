@@ -6,7 +6,7 @@
 #include <opencv2/calib3d.hpp>
 #include <vector>
 
-#include "slam/base/random.h"
+#include "core/util/random.h"
 
 namespace vinebench {
 namespace {

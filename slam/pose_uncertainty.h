@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "slam/base/pose.h"
+#include "core/geometry/pose.h"
 
 namespace vinebench {
 

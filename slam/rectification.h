@@ -6,7 +6,7 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
-#include "slam/base/rig.h"
+#include "core/geometry/rig.h"
 #include "slam/features.h"
 #include "slam/orb_extractor.h"
 

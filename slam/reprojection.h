@@ -7,8 +7,8 @@
 #include <array>
 #include <optional>
 
-#include "slam/base/camera.h"
-#include "slam/base/pose.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
 
 namespace vinebench {
 

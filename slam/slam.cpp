@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/slam.h"
 
-#include "slam/base/validate.h"
+#include "core/config/validate.h"
 #include "slam/front_end.h"
 #include "slam/map_file.h"
 #include "slam/pipeline.h"

@@ -10,11 +10,11 @@
 #include <memory>
 #include <vector>
 
-#include "slam/base/error.h"
-#include "slam/base/rig.h"
-#include "slam/base/slam_system.h"
-#include "slam/base/trajectory.h"
-#include "slam/base/worker_pool.h"
+#include "core/geometry/rig.h"
+#include "core/slam_system.h"
+#include "core/trajectory.h"
+#include "core/util/error.h"
+#include "core/util/worker_pool.h"
 #include "slam/config.h"
 
 namespace vinebench {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 #include "slam/row_search.h"
 
 namespace vinebench {

@@ -5,8 +5,8 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "slam/base/camera.h"
-#include "slam/base/config_field.h"
+#include "core/config/config_field.h"
+#include "core/geometry/camera.h"
 #include "slam/orb_extractor.h"
 #include "slam/patch_alignment.h"
 

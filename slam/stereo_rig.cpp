@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 #include "slam/rectification.h"
 
 namespace vinebench {

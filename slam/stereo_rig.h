@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "slam/base/rig.h"
+#include "core/geometry/rig.h"
 
 namespace vinebench {
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <opencv2/core/mat.hpp>
 
-#include "slam/base/camera.h"
+#include "core/geometry/camera.h"
 
 namespace vinebench {
 

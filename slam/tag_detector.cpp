@@ -19,7 +19,7 @@
 #include <tuple>
 #include <utility>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 #include "slam/tag_corners.h"
 #include "slam/tag_pose.h"
 #include "slam/tag_search.h"

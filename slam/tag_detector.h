@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "slam/base/camera.h"
-#include "slam/base/config_field.h"
-#include "slam/base/slam_system.h"
+#include "core/config/config_field.h"
+#include "core/geometry/camera.h"
+#include "core/slam_system.h"
 
 namespace vinebench {
 

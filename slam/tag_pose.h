@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "slam/base/camera.h"
-#include "slam/base/pose.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
 
 namespace vinebench {
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "slam/base/config_field.h"
-#include "slam/base/frame.h"
-#include "slam/base/pose.h"
+#include "core/config/config_field.h"
+#include "core/frame.h"
+#include "core/geometry/pose.h"
 
 namespace vinebench {
 

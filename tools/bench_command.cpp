@@ -7,13 +7,13 @@
 #include <memory>
 #include <thread>
 
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "scenarios/measurement.h"
 #include "scenarios/render_benchmark.h"
 #include "scenarios/render_report.h"
 #include "scenarios/scenario.h"
 #include "sim/config_files.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
 #include "tools/commands.h"
 
 namespace vinebench {

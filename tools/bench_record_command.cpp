@@ -8,9 +8,9 @@
 #include <memory>
 #include <thread>
 
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "scenarios/record_benchmark.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
 #include "tools/commands.h"
 #include "tools/interactive.h"
 

@@ -7,11 +7,11 @@
 #include <memory>
 #include <thread>
 
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "scenarios/replay.h"
 #include "scenarios/run_scenario.h"
 #include "scenarios/slam_benchmark.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
 #include "tools/commands.h"
 #include "tools/interactive.h"
 

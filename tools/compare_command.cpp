@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "core/util/files.h"
 #include "scenarios/compare.h"
-#include "slam/base/files.h"
 #include "tools/commands.h"
 
 namespace vinebench {

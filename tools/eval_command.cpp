@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "core/util/error.h"
 #include "scenarios/scenarios.h"
-#include "slam/base/error.h"
 #include "tools/commands.h"
 
 namespace vinebench {

@@ -6,6 +6,8 @@
 #include <limits>
 #include <memory>
 
+#include "core/geometry/rig.h"
+#include "core/util/error.h"
 #include "scenarios/run_scenario.h"
 #include "scenarios/snapshot.h"
 #include "scenarios/truth_colours.h"
@@ -14,8 +16,6 @@
 #include "sim/rover.h"
 #include "sim/rover_asset.h"
 #include "sim/truth_images.h"
-#include "slam/base/error.h"
-#include "slam/base/rig.h"
 #include "tools/commands.h"
 
 namespace vinebench {

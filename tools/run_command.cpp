@@ -8,9 +8,9 @@
 #include <memory>
 #include <thread>
 
+#include "core/util/error.h"
 #include "scenarios/scenarios.h"
 #include "scenarios/seed_list.h"
-#include "slam/base/error.h"
 #include "tools/commands.h"
 #include "tools/interactive.h"
 #include "tools/run_many.h"

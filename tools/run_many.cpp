@@ -8,11 +8,11 @@
 #include <iostream>
 #include <system_error>
 
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "scenarios/junit.h"
 #include "scenarios/run_scenario.h"
 #include "scenarios/set_report.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
 #include "tools/commands.h"
 #include "tools/interactive.h"
 

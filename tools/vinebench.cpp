@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 #include "tools/commands.h"
 #include "tools/versions.h"
 

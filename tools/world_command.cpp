@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <memory>
 
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "sim/config_files.h"
 #include "sim/world_generator.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
 #include "tools/commands.h"
 
 namespace vinebench {

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Vinebench's own SLAM core behind the door that any other system comes through.
-#include <slam/base/slam_plugin.h>
+#include <core/slam_plugin.h>
 #include <slam/slam.h>
 
 #include <algorithm>
 #include <cstdio>
 
-#include "slam/base/yaml.h"
+#include "core/config/yaml.h"
 
 namespace {
 

@@ -22,7 +22,7 @@
 #include <set>
 #include <system_error>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 namespace {

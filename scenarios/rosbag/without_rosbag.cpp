@@ -3,8 +3,8 @@
 
 // In the place of ros_bag.cpp where ROS's libraries are not installed.
 
+#include "core/util/error.h"
 #include "scenarios/rosbag/ros_bag.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 

@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <map>
 
-#include "slam/base/error.h"
-#include "tests/test_folder.h"
+#include "core/util/error.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "slam/base/yaml_writer.h"
+#include "core/config/yaml_writer.h"
 #include "tests/scenarios/recorded_folders.h"
 
 namespace vinebench {

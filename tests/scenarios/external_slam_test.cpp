@@ -7,11 +7,11 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "core/util/files.h"
 #include "scenarios/run.h"
 #include "scenarios/run_folder.h"
-#include "slam/base/files.h"
 #include "tests/scenarios/fakes.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

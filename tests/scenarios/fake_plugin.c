@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "slam/base/slam_plugin.h"
+#include "core/slam_plugin.h"
 
 #ifndef FAKE_PLUGIN_VERSION
 #define FAKE_PLUGIN_VERSION VINEBENCH_SLAM_PLUGIN_VERSION

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

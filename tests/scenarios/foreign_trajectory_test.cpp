@@ -7,7 +7,7 @@
 
 #include <numbers>
 
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

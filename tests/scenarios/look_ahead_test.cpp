@@ -7,7 +7,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 #include "tests/scenarios/fakes.h"
 
 namespace vinebench {

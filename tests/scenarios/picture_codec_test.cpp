@@ -10,8 +10,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "slam/base/random.h"
-#include "tests/test_folder.h"
+#include "core/util/random.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

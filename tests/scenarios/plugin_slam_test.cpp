@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scenarios/fakes.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {
@@ -76,7 +76,7 @@ TEST_F(PluginSlamTest, WhatIsNoPluginIsAnError) {
   EXPECT_THAT(error_with("/nowhere.so"), HasSubstr("slam.plugin.library: /nowhere.so"));
   EXPECT_THAT(error_with(library("empty_plugin.so")), HasSubstr("exports no vinebench_slam"));
   EXPECT_THAT(error_with(library("future_plugin.so")),
-              HasSubstr("expected version 1 of slam/base/slam_plugin.h, found 99"));
+              HasSubstr("expected version 1 of core/slam_plugin.h, found 99"));
 }
 
 }  // namespace

@@ -8,9 +8,9 @@
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 
+#include "core/util/worker_pool.h"
 #include "scenarios/recording.h"
-#include "slam/base/worker_pool.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench::test {
 

@@ -13,9 +13,9 @@
 #include <regex>
 #include <sstream>
 
+#include "core/trajectory.h"
 #include "scenarios/recording.h"
 #include "scenarios/run_scenario.h"
-#include "slam/base/trajectory.h"
 #include "tests/scenarios/recorded_folders.h"
 #include "tests/scenarios/small_scenario.h"
 

@@ -12,11 +12,11 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "core/trajectory.h"
 #include "scenarios/calibration_file.h"
 #include "scenarios/dataset_check.h"
 #include "scenarios/label_table.h"
 #include "scenarios/run_length.h"
-#include "slam/base/trajectory.h"
 #include "tests/scenarios/small_scenario.h"
 
 namespace vinebench {

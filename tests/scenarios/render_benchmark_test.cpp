@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "core/util/error.h"
 #include "scenarios/measurement.h"
 #include "scenarios/render_report.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {

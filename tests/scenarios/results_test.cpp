@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/util/error.h"
 #include "scenarios/lockstep.h"
 #include "scenarios/verdict.h"
-#include "slam/base/error.h"
 #include "tests/scenarios/fakes.h"
 
 namespace vinebench {

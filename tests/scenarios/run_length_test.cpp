@@ -7,8 +7,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "slam/base/random.h"
-#include "tests/test_folder.h"
+#include "core/util/random.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

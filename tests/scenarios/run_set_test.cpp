@@ -8,11 +8,11 @@
 
 #include <sstream>
 
+#include "core/util/error.h"
 #include "scenarios/junit.h"
 #include "scenarios/set_report.h"
-#include "slam/base/error.h"
 #include "tests/scenarios/fakes.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

@@ -8,11 +8,11 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "scenarios/run_folder.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
 #include "tests/scenarios/fakes.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

@@ -5,10 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "slam/base/error.h"
-#include "slam/base/files.h"
-#include "slam/base/yaml_writer.h"
-#include "tests/test_folder.h"
+#include "core/config/yaml_writer.h"
+#include "core/util/error.h"
+#include "core/util/files.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

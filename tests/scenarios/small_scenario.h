@@ -8,7 +8,7 @@
 #include <string>
 
 #include "scenarios/record.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench::test {
 

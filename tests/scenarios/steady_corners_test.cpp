@@ -13,11 +13,11 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "core/geometry/rig.h"
 #include "scenarios/render_benchmark.h"
 #include "scenarios/run_scenario.h"
 #include "sim/config_files.h"
 #include "sim/renderer.h"
-#include "slam/base/rig.h"
 #include "slam/orb_extractor.h"
 
 namespace vinebench {

@@ -10,9 +10,9 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "slam/base/error.h"
-#include "slam/base/files.h"
-#include "tests/test_folder.h"
+#include "core/util/error.h"
+#include "core/util/files.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

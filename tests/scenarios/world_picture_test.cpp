@@ -8,11 +8,11 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "core/geometry/rig.h"
 #include "scenarios/run_scenario.h"
 #include "sim/config_files.h"
 #include "sim/renderer.h"
 #include "sim/world.h"
-#include "slam/base/rig.h"
 #include "slam/tag_detector.h"
 
 namespace vinebench {

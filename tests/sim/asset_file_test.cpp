@@ -10,7 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <tuple>
 
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

@@ -9,8 +9,8 @@
 #include <cstring>
 #include <limits>
 
+#include "core/util/random.h"
 #include "sim/asset_file.h"
-#include "slam/base/random.h"
 #include "tests/sim/broken_files.h"
 
 namespace vinebench {

@@ -12,7 +12,7 @@
 #include "sim/asset_file.h"
 #include "sim/plant_geometry.h"
 #include "sim/scene_check.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench::test {
 

@@ -3,13 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/config/validate.h"
+#include "core/config/yaml.h"
 #include "sim/config_files.h"
 #include "sim/cultivar.h"
 #include "sim/terrain.h"
 #include "sim/world.h"
-#include "slam/base/validate.h"
-#include "slam/base/yaml.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

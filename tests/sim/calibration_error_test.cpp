@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "core/util/error.h"
 #include "sim/light.h"
 #include "sim/sensors.h"
-#include "slam/base/error.h"
 #include "tests/sim/chessboard.h"
 #include "tests/sim/test_scene.h"
 

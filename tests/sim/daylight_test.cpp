@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 
 namespace vinebench {
 namespace {

@@ -6,14 +6,14 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/geometry/rig.h"
+#include "core/util/error.h"
 #include "sim/gl_context.h"
 #include "sim/renderer.h"
 #include "sim/rover_asset.h"
 #include "sim/world.h"
-#include "slam/base/error.h"
-#include "slam/base/rig.h"
 #include "tests/sim/test_scene.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

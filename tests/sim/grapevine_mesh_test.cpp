@@ -10,7 +10,7 @@
 
 #include "sim/asset_file.h"
 #include "tests/sim/test_plant.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

@@ -5,10 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "slam/base/error.h"
-#include "slam/base/validate.h"
+#include "core/config/validate.h"
+#include "core/util/error.h"
 #include "tests/sim/test_plant.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "sim/physics_world.h"
 #include "sim/world.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

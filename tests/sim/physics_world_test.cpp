@@ -10,9 +10,9 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "slam/base/error.h"
-#include "slam/base/rig.h"
-#include "tests/test_folder.h"
+#include "core/geometry/rig.h"
+#include "core/util/error.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

@@ -13,7 +13,7 @@
 #include <opencv2/imgproc.hpp>
 #include <thread>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 #include "tests/sim/chessboard.h"
 #include "tests/sim/test_scene.h"
 

@@ -8,13 +8,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/geometry/rig.h"
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "sim/config_files.h"
 #include "sim/route.h"
 #include "sim/wheel_controller.h"
-#include "slam/base/error.h"
-#include "slam/base/files.h"
-#include "slam/base/rig.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

@@ -7,13 +7,13 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
+#include "core/geometry/rig.h"
+#include "core/util/error.h"
 #include "sim/instance_names.h"
 #include "sim/rover_asset.h"
 #include "sim/truth_images.h"
-#include "slam/base/error.h"
-#include "slam/base/rig.h"
 #include "tests/sim/test_scene.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

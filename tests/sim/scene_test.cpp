@@ -14,7 +14,7 @@
 #include "sim/props.h"
 #include "sim/world.h"
 #include "tests/sim/tag_reading.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

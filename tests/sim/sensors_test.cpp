@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "slam/base/yaml.h"
-#include "slam/base/yaml_writer.h"
-#include "tests/test_folder.h"
+#include "core/config/yaml.h"
+#include "core/config/yaml_writer.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

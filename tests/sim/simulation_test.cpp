@@ -8,9 +8,9 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
+#include "core/util/error.h"
 #include "sim/config_files.h"
-#include "slam/base/error.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

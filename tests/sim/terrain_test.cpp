@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/util/error.h"
 #include "sim/config_files.h"
 #include "sim/ground.h"
 #include "sim/physics_world.h"
 #include "sim/rover.h"
-#include "slam/base/error.h"
 
 namespace vinebench {
 namespace {

@@ -11,7 +11,7 @@
 #include "sim/instance_names.h"
 #include "sim/sensors.h"
 #include "tests/sim/test_scene.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

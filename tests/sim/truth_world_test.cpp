@@ -9,14 +9,14 @@
 #include <map>
 #include <opencv2/imgproc.hpp>
 
+#include "core/geometry/rig.h"
 #include "sim/config_files.h"
 #include "sim/instance_names.h"
 #include "sim/terrain.h"
 #include "sim/truth_images.h"
-#include "slam/base/rig.h"
 #include "tests/sim/picture_warp.h"
 #include "tests/sim/test_scene.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/geometry/rig.h"
 #include "sim/gl_context.h"
-#include "slam/base/rig.h"
 #include "tests/sim/test_scene.h"
 
 namespace vinebench {

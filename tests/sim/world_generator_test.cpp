@@ -7,11 +7,11 @@
 
 #include <cmath>
 
+#include "core/config/yaml_writer.h"
 #include "sim/config_files.h"
 #include "sim/row_frame.h"
 #include "sim/row_index.h"
-#include "slam/base/yaml_writer.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

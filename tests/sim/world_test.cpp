@@ -9,13 +9,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/config/validate.h"
+#include "core/config/yaml_writer.h"
 #include "sim/config_files.h"
 #include "sim/row_frame.h"
 #include "sim/row_index.h"
 #include "sim/tag_family.h"
-#include "slam/base/validate.h"
-#include "slam/base/yaml_writer.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

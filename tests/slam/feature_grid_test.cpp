@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-#include "slam/base/random.h"
+#include "core/util/random.h"
 
 namespace vinebench {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <opencv2/core.hpp>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 #include "tests/slam/synthetic_plane.h"
 #include "tests/slam/synthetic_tag.h"
 

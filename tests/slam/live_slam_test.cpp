@@ -7,7 +7,7 @@
 
 #include <semaphore>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 #include "slam/pipeline.h"
 #include "tests/slam/aisle_map.h"
 

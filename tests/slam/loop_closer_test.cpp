@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 #include "slam/bundle_adjustment.h"
 #include "tests/slam/aisle_map.h"
 

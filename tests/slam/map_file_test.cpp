@@ -7,10 +7,10 @@
 
 #include <filesystem>
 
-#include "slam/base/error.h"
-#include "slam/base/files.h"
+#include "core/util/error.h"
+#include "core/util/files.h"
 #include "tests/slam/aisle_map.h"
-#include "tests/test_folder.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench {
 namespace {

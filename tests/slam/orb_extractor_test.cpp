@@ -10,7 +10,7 @@
 #include <numbers>
 #include <thread>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 #include "tests/slam/synthetic_texture.h"
 
 namespace vinebench {

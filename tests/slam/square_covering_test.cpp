@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "slam/base/random.h"
+#include "core/util/random.h"
 
 namespace vinebench {
 namespace {

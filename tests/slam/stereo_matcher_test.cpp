@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "slam/base/error.h"
+#include "core/util/error.h"
 #include "tests/slam/synthetic_plane.h"
 
 namespace vinebench {

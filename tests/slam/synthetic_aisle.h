@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "slam/base/random.h"
-#include "slam/base/rig.h"
+#include "core/geometry/rig.h"
+#include "core/util/random.h"
 #include "slam/estimator_rig.h"
 #include "slam/map.h"
 #include "slam/stereo_rig.h"

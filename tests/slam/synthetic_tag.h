@@ -10,9 +10,9 @@
 #include <cstdlib>
 #include <opencv2/core/mat.hpp>
 
-#include "slam/base/camera.h"
-#include "slam/base/pose.h"
-#include "slam/base/random.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
+#include "core/util/random.h"
 
 namespace vinebench {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <opencv2/core/mat.hpp>
 
-#include "slam/base/random.h"
+#include "core/util/random.h"
 
 namespace vinebench {
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "slam/base/random.h"
+#include "core/util/random.h"
 #include "slam/bundle_adjustment.h"
 
 namespace vinebench {

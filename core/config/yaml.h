@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "core/config/config_field.h"
+#include "core/config/field_types.h"
+
+namespace vinebench {
+
+class YamlReader;
+
+/// A YAML file with where each part of it came from: its own lines, files it names, and overrides
+/// from the command line.
+class YamlDocument {
+ public:
+  /// Throws Error when the file cannot be read or is no YAML (with its line).
+  static YamlDocument load(const std::filesystem::path& file);
+
+  /// Replaces the top-level scalar `key`, a file name relative to this file, by that file's
+  /// content. Nothing happens where the key is absent or already a map.
+  void include(const std::string& key);
+
+  /// Takes over what this document does not say itself from the file that the top-level scalar
+  /// `key` names, relative to this file: maps are joined key by key, all else counts as a whole. A
+  /// base may have a base; `parts` are included in it. Nothing happens where the key is absent.
+  /// Throws Error for a missing file and for bases that go round in a circle.
+  void inherit(const std::string& key, const std::vector<std::string>& parts) {
+    inherit(key, parts, 0);
+  }
+
+  /// Sets a dotted key ("slam.tracking.radius", "route.2.speed") to the YAML value `value`. A key
+  /// that no struct knows is reported when the document is read.
+  void set(const std::string& key, const std::string& value);
+
+  /// Reads the whole document into a struct. Throws one Error that lists every violation, a line
+  /// each: unknown or duplicate key, wrong type, number out of range, failed requirement.
+  template <class T>
+  T read() const;
+
+ private:
+  friend class YamlReader;
+  void inherit(const std::string& key, const std::vector<std::string>& parts, int depth);
+  void overlay(YAML::Node target, const YAML::Node& source, const std::string& prefix,
+               const std::filesystem::path& file);
+  std::filesystem::path file_of(const std::string& key) const;
+  std::string place_of(const std::string& key, const YAML::Node& node) const;
+
+  YAML::Node root_;
+  std::map<std::string, std::filesystem::path> files_;  ///< by the dotted key they begin at
+  std::map<std::string, std::string> overrides_;        ///< dotted key to the value given
+};
+
+/// Reads a struct out of a document and gathers every violation. See config_field.h.
+class YamlReader {
+ public:
+  YamlReader(const YamlDocument& document, YAML::Node node, std::string prefix,
+             std::vector<std::string>& violations)
+      : document_(document),
+        node_(std::move(node)),
+        prefix_(std::move(prefix)),
+        violations_(violations) {}
+
+  template <class T>
+  void operator()(const std::string& key, T& value, const Range& range = {}) {
+    known_.insert(key);
+    if (const YAML::Node child = find(key); child.IsDefined()) {
+      read(child, full(key), value, range);
+    }
+  }
+
+  void require(bool ok, const std::string& key, const std::string& expectation);
+
+  /// Reports keys that no field asked for, and keys that stand twice.
+  void finish();
+
+ private:
+  YAML::Node find(const std::string& key) const;
+  std::string full(const std::string& key) const {
+    return prefix_.empty() ? key : prefix_ + "." + key;
+  }
+  void violation(const std::string& key, const YAML::Node& node, const std::string& text);
+  bool expect_sequence(const YAML::Node& node, const std::string& key, std::size_t size);
+
+  void read(const YAML::Node& node, const std::string& key, bool& value, const Range&);
+  void read(const YAML::Node& node, const std::string& key, double& value, const Range& range);
+  void read(const YAML::Node& node, const std::string& key, std::string& value, const Range&);
+  void read(const YAML::Node& node, const std::string& key, std::filesystem::path& value,
+            const Range&);
+  void read_integer(const YAML::Node& node, const std::string& key, std::int64_t& value,
+                    const Range& range);
+  void read_name(const YAML::Node& node, const std::string& key,
+                 const std::vector<std::string>& names, int& value);
+
+  template <class T>
+  void read(const YAML::Node& node, const std::string& key, T& value, const Range& range) {
+    if constexpr (std::is_integral_v<T>) {
+      std::int64_t wide = static_cast<std::int64_t>(value);
+      read_integer(node, key, wide, range);
+      if (!std::in_range<T>(wide)) {
+        violation(key, node,
+                  fmt::format("expected a whole number from {} to {}",
+                              std::numeric_limits<T>::min(), std::numeric_limits<T>::max()));
+        return;
+      }
+      value = static_cast<T>(wide);
+    } else if constexpr (std::is_enum_v<T>) {
+      int index = static_cast<int>(value);
+      read_name(node, key, yaml_names(T{}), index);
+      value = static_cast<T>(index);
+    } else if constexpr (field_types::IsOptional<T>::value) {
+      if (node.IsNull()) {
+        value.reset();
+      } else {
+        read(node, key, value.emplace(), range);
+      }
+    } else if constexpr (field_types::IsVector<T>::value) {
+      value.clear();
+      if (node.IsScalar() && !std::is_class_v<typename T::value_type>) {
+        read(node, key, value.emplace_back(), range);  // one number stands for a list of one
+      } else if (node.IsScalar() && std::is_same_v<typename T::value_type, std::string>) {
+        read(node, key, value.emplace_back(), range);  // so does one name
+      } else if (expect_sequence(node, key, node.size())) {
+        value.resize(node.size());
+        for (std::size_t i = 0; i < node.size(); ++i) {
+          read(node[i], fmt::format("{}.{}", key, i), value[i], range);
+        }
+      }
+    } else if constexpr (field_types::IsArray<T>::value || field_types::IsEigen<T>::value) {
+      const auto size = static_cast<std::size_t>(value.size());
+      if (!expect_sequence(node, key, size)) return;
+      for (std::size_t i = 0; i < size; ++i) {
+        read(node[i], fmt::format("{}.{}", key, i), value[i], range);
+      }
+    } else {
+      if (!node.IsMap() && !node.IsNull()) {
+        violation(key, node, "expected a map of keys");
+        return;
+      }
+      YamlReader reader(document_, node, key, violations_);
+      value.serialize(reader);
+      reader.finish();
+    }
+  }
+
+  const YamlDocument& document_;
+  YAML::Node node_;
+  std::string prefix_;
+  std::vector<std::string>& violations_;
+  std::set<std::string> known_;
+};
+
+template <class T>
+T YamlDocument::read() const {
+  T value{};
+  std::vector<std::string> violations;
+  YamlReader reader(*this, root_, "", violations);
+  value.serialize(reader);
+  reader.finish();
+  throw_violations(violations);
+  return value;
+}
+
+}  // namespace vinebench

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/config/config_field.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
+
+namespace vinebench {
+
+/// One camera of a rig: its lens and where it sits on the body.
+struct RigCamera {
+  std::string name;
+  PinholeCamera model;
+  Pose T_body_cam;  ///< optical camera frame (x right, y down, z ahead) to body
+};
+
+/// Two cameras of a rig that see the same scene along a common baseline.
+struct StereoPair {
+  std::string name;
+  int left = 0;  ///< index into Rig::cameras
+  int right = 0;
+};
+
+/// N rigidly mounted cameras exposed at the same instant. A camera is data: its index.
+struct Rig {
+  std::string name;
+  double rate_hz = 15;
+  std::vector<RigCamera> cameras;
+  std::vector<StereoPair> stereo_pairs;  ///< used for tracking
+  std::vector<int> tag_cameras;          ///< searched for AprilTags
+
+  /// Index of the camera with that name, or -1.
+  int find_camera(const std::string& name) const;
+
+  /// Distance between the two eyes of a pair, m.
+  double baseline(const StereoPair& pair) const;
+
+  /// One rectified pair whose left eye is the body's origin and looks along its x axis; the right
+  /// eye is `baseline` (m) to the right of it. Its cameras are "left" and "right".
+  static Rig stereo(const PinholeCamera& lens, double baseline);
+
+  /// Pose of a camera that sits at `position` (m) and looks along the x axis of a body-like frame
+  /// (x ahead, y left, z up) turned by roll, pitch, yaw (rad) against the body.
+  static Pose mount(const Eigen::Vector3d& position, const Eigen::Vector3d& rpy);
+};
+
+/// How a rig is written in YAML. Angles in degrees there.
+struct RigConfig {
+  struct Camera {
+    std::string name;
+    int width = 752;                     ///< px
+    int height = 480;                    ///< px
+    double fx = 263.2786;                ///< px
+    double fy = 263.2786;                ///< px
+    std::optional<double> cx;            ///< px; the middle, (width - 1) / 2, where absent
+    std::optional<double> cy;            ///< px; the middle, (height - 1) / 2, where absent
+    std::array<double, 4> distortion{};  ///< k1, k2, p1, p2
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, in the body frame
+    Eigen::Vector3d rpy_deg = Eigen::Vector3d::Zero();   ///< view direction against the body
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive("name", name);
+      archive("width", width, Range::between(16, 16384));
+      archive("height", height, Range::between(16, 16384));
+      archive("fx", fx, Range::positive());
+      archive("fy", fy, Range::positive());
+      archive("cx", cx);
+      archive("cy", cy);
+      archive("distortion", distortion);
+      archive("position", position);
+      archive("rpy_deg", rpy_deg, Range::between(-360, 360));
+    }
+  };
+  struct Pair {
+    std::string name;
+    std::string left;
+    std::string right;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive("name", name);
+      archive("left", left);
+      archive("right", right);
+    }
+  };
+
+  std::string name = "rig";
+  double rate_hz = 15;
+  std::vector<Camera> cameras;
+  std::vector<Pair> stereo_pairs;
+  std::vector<std::string> tag_cameras;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("name", name);
+    archive("rate_hz", rate_hz, Range::positive());
+    archive("cameras", cameras);
+    archive("stereo_pairs", stereo_pairs);
+    archive("tag_cameras", tag_cameras);
+    check(archive);
+  }
+
+  /// Throws Error where a name is unknown (a validated config has none).
+  Rig make() const;
+
+ private:
+  template <class Archive>
+  void check(Archive& archive) const {
+    archive.require(!cameras.empty(), "cameras", "expected at least one camera");
+    const auto known = [this](const std::string& camera) {
+      for (const Camera& c : cameras) {
+        if (c.name == camera) return true;
+      }
+      return false;
+    };
+    for (std::size_t i = 0; i < stereo_pairs.size(); ++i) {
+      for (const std::string& eye : {stereo_pairs[i].left, stereo_pairs[i].right}) {
+        archive.require(known(eye), fmt::format("stereo_pairs.{}", i),
+                        fmt::format("expected the name of a camera of this rig, found '{}'", eye));
+      }
+    }
+    for (std::size_t i = 0; i < tag_cameras.size(); ++i) {
+      archive.require(
+          known(tag_cameras[i]), fmt::format("tag_cameras.{}", i),
+          fmt::format("expected the name of a camera of this rig, found '{}'", tag_cameras[i]));
+    }
+  }
+};
+
+/// Reads a rig from its YAML file. Throws Error that names file, line and key.
+Rig load_rig(const std::filesystem::path& file);
+
+}  // namespace vinebench

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/config/yaml_writer.h"
+
+#include <gtest/gtest.h>
+
+#include "core/config/yaml.h"
+#include "tests/support/example_config.h"
+#include "tests/support/test_folder.h"
+
+namespace vinebench {
+namespace {
+
+using test::Inner;
+using test::Outer;
+
+TEST(YamlWriterTest, WrittenTextReadsBackTheSame) {
+  const test::TestFolder folder;
+  Outer outer;
+  outer.count = 9;
+  outer.name = "a \"quoted\" \\ name";
+  outer.names = {"b", "c"};
+  outer.position = {0.1, 1e-9, 3};
+  outer.list = {Inner{2}, Inner{0.3}};
+  const std::string text = format_yaml(outer);
+  const Outer back = YamlDocument::load(folder.write("back.yaml", text)).read<Outer>();
+  EXPECT_EQ(format_yaml(back), text);
+  EXPECT_EQ(back.position, outer.position);
+  EXPECT_EQ(back.name, outer.name);
+}
+
+}  // namespace
+}  // namespace vinebench
