@@ -9,7 +9,7 @@
 #include "core/geometry/rig.h"
 #include "core/slam_system.h"
 #include "scenarios/slam_choice.h"
-#include "slam/wheel_odometry.h"
+#include "slam/odometry/wheel_odometry.h"
 
 namespace vinebench {
 

@@ -10,7 +10,7 @@
 
 #include "core/util/error.h"
 #include "scenarios/slam_settings.h"
-#include "slam/rectification.h"
+#include "slam/camera/rectification.h"
 
 namespace vinebench {
 namespace {

@@ -9,7 +9,7 @@
 #include "scenarios/picture_codec.h"
 #include "scenarios/ros_camera.h"
 #include "scenarios/rosbag/ros_bag.h"
-#include "slam/tag_detector.h"
+#include "slam/tags/tag_detector.h"
 
 namespace vinebench {
 

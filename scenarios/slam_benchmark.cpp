@@ -11,8 +11,8 @@
 #include "core/util/error.h"
 #include "scenarios/measurement.h"
 #include "scenarios/metrics.h"
-#include "slam/orb_extractor.h"
-#include "slam/tag_detector.h"
+#include "slam/features/orb_extractor.h"
+#include "slam/tags/tag_detector.h"
 
 namespace vinebench {
 namespace {

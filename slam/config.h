@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "core/config/config_field.h"
-#include "slam/dead_reckoning.h"
-#include "slam/orb_extractor.h"
-#include "slam/patch.h"
-#include "slam/stereo_matcher.h"
-#include "slam/tag_detector.h"
+#include "slam/features/orb_extractor.h"
+#include "slam/odometry/dead_reckoning.h"
+#include "slam/patches/patch.h"
+#include "slam/stereo/stereo_matcher.h"
+#include "slam/tags/tag_detector.h"
 
 namespace vinebench {
 

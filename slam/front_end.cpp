@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/util/error.h"
-#include "slam/rectification.h"
+#include "slam/camera/rectification.h"
 
 namespace vinebench {
 namespace {

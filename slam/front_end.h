@@ -8,10 +8,10 @@
 #include "core/frame.h"
 #include "core/util/stage_timer.h"
 #include "core/util/worker_pool.h"
+#include "slam/camera/stereo_rig.h"
 #include "slam/config.h"
-#include "slam/map.h"
-#include "slam/stereo_rig.h"
-#include "slam/wheel_odometry.h"
+#include "slam/map/map.h"
+#include "slam/odometry/wheel_odometry.h"
 
 namespace vinebench {
 

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "core/util/error.h"
-#include "slam/keyframe_selector.h"
-#include "slam/stereo_calibration.h"
+#include "slam/calibration/stereo_calibration.h"
+#include "slam/tracking/keyframe_selector.h"
 
 namespace vinebench {
 namespace {

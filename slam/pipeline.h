@@ -7,15 +7,15 @@
 
 #include "core/slam_system.h"
 #include "core/util/stage_timer.h"
+#include "slam/camera/estimator_rig.h"
 #include "slam/config.h"
-#include "slam/estimator_rig.h"
-#include "slam/local_mapper.h"
-#include "slam/loop_closer.h"
-#include "slam/map.h"
-#include "slam/mapping_scheduler.h"
-#include "slam/pose_uncertainty.h"
-#include "slam/relocaliser.h"
-#include "slam/tracker.h"
+#include "slam/loop/loop_closer.h"
+#include "slam/map/map.h"
+#include "slam/mapping/local_mapper.h"
+#include "slam/optimisation/pose_uncertainty.h"
+#include "slam/runtime/mapping_scheduler.h"
+#include "slam/tracking/relocaliser.h"
+#include "slam/tracking/tracker.h"
 
 namespace vinebench {
 

@@ -4,9 +4,9 @@
 
 #include "core/config/validate.h"
 #include "slam/front_end.h"
-#include "slam/map_file.h"
+#include "slam/map/map_file.h"
+#include "slam/map/point_cloud.h"
 #include "slam/pipeline.h"
-#include "slam/point_cloud.h"
 
 namespace vinebench {
 namespace {

@@ -4,7 +4,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
-#include "tests/slam/synthetic_texture.h"
+#include "tests/support/synthetic_texture.h"
 
 // Writes FOLDER/left/000000.png … and right/: what the rig of examples/feed_images sees of a plane
 // across its view. The plane is 2.4 m away, so that 0.12 m of baseline at 400 px is 20 px; the rig

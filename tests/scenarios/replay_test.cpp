@@ -7,7 +7,7 @@
 
 #include "scenarios/slam_benchmark.h"
 #include "tests/scenarios/recorded_folders.h"
-#include "tests/slam/synthetic_plane.h"
+#include "tests/support/synthetic_plane.h"
 
 namespace vinebench {
 namespace {

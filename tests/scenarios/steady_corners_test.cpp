@@ -18,7 +18,7 @@
 #include "scenarios/run_scenario.h"
 #include "sim/config_files.h"
 #include "sim/renderer.h"
-#include "slam/orb_extractor.h"
+#include "slam/features/orb_extractor.h"
 
 namespace vinebench {
 namespace {

@@ -13,7 +13,7 @@
 #include "sim/config_files.h"
 #include "sim/renderer.h"
 #include "sim/world.h"
-#include "slam/tag_detector.h"
+#include "slam/tags/tag_detector.h"
 
 namespace vinebench {
 namespace {

@@ -9,8 +9,8 @@
 #include <opencv2/core.hpp>
 
 #include "core/util/error.h"
-#include "tests/slam/synthetic_plane.h"
-#include "tests/slam/synthetic_tag.h"
+#include "tests/support/synthetic_plane.h"
+#include "tests/support/synthetic_tag.h"
 
 namespace vinebench {
 namespace {

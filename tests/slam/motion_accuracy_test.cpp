@@ -9,10 +9,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "slam/motion_only_ba.h"
-#include "slam/robust_loss.h"
-#include "tests/slam/aisle_map.h"
-#include "tests/slam/rigs.h"
+#include "slam/factors/robust_loss.h"
+#include "slam/optimisation/motion_only_ba.h"
+#include "tests/support/aisle_map.h"
+#include "tests/support/rigs.h"
 
 namespace vinebench {
 namespace {

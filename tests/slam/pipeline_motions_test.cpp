@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "slam/pipeline.h"
-#include "tests/slam/aisle_map.h"
-#include "tests/slam/rigs.h"
+#include "tests/support/aisle_map.h"
+#include "tests/support/rigs.h"
 
 namespace vinebench {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/slam/synthetic_aisle.h"
+#include "tests/support/synthetic_aisle.h"
 
 namespace vinebench {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/util/files.h"
-#include "tests/slam/synthetic_texture.h"
+#include "tests/support/synthetic_texture.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench {

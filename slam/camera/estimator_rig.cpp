@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/camera/estimator_rig.h"
+
+#include <cmath>
+
+namespace vinebench {
+
+EstimatorRig::EstimatorRig(const StereoRig& stereo_rig, const OrbConfig& features,
+                           const RefinementConfig& refine, const StereoConfig& stereo_config)
+    : rig(stereo_rig), refinement(refine), stereo(stereo_config) {
+  for (const StereoEye& pair : rig.pairs) {
+    eyes.push_back({pair.lens, pair.T_cam_body, pair.baseline});
+    T_body_cams.push_back(pair.T_body_cam);
+  }
+  for (const RigCamera& camera : rig.cameras) {
+    EyeModel eye{camera.model, camera.T_body_cam.inverse(), 0};
+    eye.lens.distortion = {};
+    tag_eyes.push_back(eye);
+  }
+  for (int level = 0; level < features.levels; ++level) {
+    level_scales.push_back(std::pow(features.scale, level));
+  }
+}
+
+void EstimatorRig::set_disparity_offsets(const std::vector<double>& offsets) {
+  for (std::size_t v = 0; v < eyes.size(); ++v) eyes[v].disparity_offset = offsets[v];
+}
+
+void EstimatorRig::correct_depths(std::size_t v, StereoView& view) const {
+  const EyeModel& eye = eyes[v];
+  if (eye.disparity_offset == 0) return;
+  for (std::size_t f = 0; f < view.stereo.size(); ++f) {
+    StereoMatch& match = view.stereo[f];
+    if (match.x_right < 0) continue;
+    const double depth =
+        eye.depth_of(static_cast<double>(view.features.keypoints[f].x - match.x_right));
+    const bool near = depth > 0 && depth < stereo.max_depth_baselines * eye.baseline;
+    match.depth = near ? static_cast<float>(depth) : -1.0F;
+  }
+}
+
+PixelMeasurement EstimatorRig::measurement(const StereoView& view, int feature) const {
+  const auto f = static_cast<std::size_t>(feature);
+  const Keypoint& keypoint = view.features.keypoints[f];
+  PixelMeasurement m;
+  m.pixel = {keypoint.x, keypoint.y};
+  m.sigma = m.right_sigma = level_scales[static_cast<std::size_t>(keypoint.level)];
+  if (view.is_placed(f)) {
+    m.right_sigma *= std::hypot(refinement.sigma, refinement.disparity_sigma);
+    m.sigma *= refinement.sigma;
+    m.tolerance = refinement.tolerance;
+  }
+  if (view.stereo[f].depth > 0) m.right_x = view.stereo[f].x_right;
+  return m;
+}
+
+Eigen::Vector3d EstimatorRig::stereo_point(const StereoView& view, int v, int feature,
+                                           const Pose& T_map_body) const {
+  const auto f = static_cast<std::size_t>(feature);
+  const Keypoint& keypoint = view.features.keypoints[f];
+  const Eigen::Vector3d ray =
+      eyes[static_cast<std::size_t>(v)].lens.unproject({keypoint.x, keypoint.y});
+  const Eigen::Vector3d p_cam = ray * static_cast<double>(view.stereo[f].depth);
+  return T_map_body * (T_body_cams[static_cast<std::size_t>(v)] * p_cam);
+}
+
+}  // namespace vinebench

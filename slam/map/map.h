@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "core/geometry/pose.h"
+#include "core/slam_system.h"
+#include "core/time.h"
+#include "slam/features/feature_grid.h"
+#include "slam/features/features.h"
+#include "slam/patches/patch_list.h"
+#include "slam/stereo/stereo_matcher.h"
+
+namespace vinebench {
+
+/// What one stereo pair saw in one frame: the left eye's features with their stereo matches.
+struct StereoView {
+  Features features;
+  std::vector<StereoMatch> stereo;  ///< of each feature
+  FeatureGrid grid;
+  /// Of each feature, whether it stands on the landmark's patch to a fraction of a pixel; empty
+  /// where none does.
+  std::vector<char> placed;
+
+  /// How many features at the end were not detected but followed by their landmark's patch.
+  std::size_t followed = 0;
+
+  std::size_t detected() const { return features.size() - followed; }
+  bool is_placed(std::size_t feature) const { return !placed.empty() && placed[feature] != 0; }
+
+  /// No more features will be added: gives back the room for them.
+  void close() {
+    features.keypoints.shrink_to_fit();
+    features.descriptors.shrink_to_fit();
+    stereo.shrink_to_fit();
+    placed.shrink_to_fit();
+  }
+};
+
+/// What a frame's pictures were boiled down to. Tracking places its matches more finely; after that
+/// it is immutable, and shared by those who need it.
+struct FrameFeatures {
+  std::int64_t index = 0;
+  Stamp stamp = 0;
+  std::vector<StereoView> views;  ///< of each pair of the StereoRig
+  std::vector<TagSighting> tags;
+  std::optional<Pose> wheels;  ///< T_before_now since the frame before, by the wheels
+  /// Left and right pyramid of each pair, while the frame is being tracked; dropped afterwards.
+  std::vector<std::vector<cv::Mat>> pyramids;
+  std::vector<std::vector<cv::Mat>> right_pyramids;
+};
+
+/// Landmark of each feature of each view, -1 for none.
+using Associations = std::vector<std::vector<int>>;
+
+/// No feature of the frame has a landmark.
+Associations no_associations(const FrameFeatures& frame);
+
+/// What dead reckoning says of a stretch between two keyframes that no landmark ties together.
+struct OdometryLink {
+  int from = 0;  ///< keyframe
+  Pose T_from_to;
+  Matrix6d covariance = Matrix6d::Identity();  ///< in the step of step_of
+};
+
+struct Keyframe {
+  int id = 0;
+  std::shared_ptr<const FrameFeatures> frame;
+  Pose T_map_body;
+  Associations landmarks;
+  std::vector<PatchList> patches;    ///< of each view; none where it has no pictures
+  std::optional<OdometryLink> link;  ///< to an earlier keyframe, after a stretch without sight
+  std::map<int, int> covisible;      ///< keyframe id to the number of landmarks both see
+
+  /// Whether it came with a map that was loaded: frames of earlier runs have negative indices.
+  bool inherited() const { return frame->index < 0; }
+};
+
+/// One feature of one keyframe.
+struct Observation {
+  int keyframe = 0;
+  int view = 0;
+  int feature = 0;
+};
+
+struct Landmark {
+  int id = 0;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< map frame, m
+  Descriptor descriptor{};  ///< the one nearest to all others that were seen of it
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< mean direction from the eyes to it
+  double max_distance = 0;  ///< m, where its feature would be found on level 0 of the pyramid
+  std::vector<Observation> observations;  ///< ascending by keyframe, then view
+  int first_keyframe = 0;
+  bool removed = false;
+};
+
+/// A tag in the map.
+struct MapTag {
+  std::string family;
+  int id = 0;
+  double size = 0;  ///< m
+  Pose T_map_tag;
+  bool fixed = false;  ///< its pose is known beforehand
+};
+
+/// Keyframes, landmarks and tags, each found by id, so that no order depends on an address.
+class Map {
+ public:
+  explicit Map(double level_scale) : level_scale_(level_scale) {}
+
+  std::vector<Keyframe>& keyframes() { return keyframes_; }
+  const std::vector<Keyframe>& keyframes() const { return keyframes_; }
+  Keyframe& keyframe(int id) { return keyframes_[static_cast<std::size_t>(id)]; }
+  const Keyframe& keyframe(int id) const { return keyframes_[static_cast<std::size_t>(id)]; }
+  Landmark& landmark(int id) { return landmarks_[static_cast<std::size_t>(id)]; }
+  const Landmark& landmark(int id) const { return landmarks_[static_cast<std::size_t>(id)]; }
+  std::vector<Landmark>& landmarks() { return landmarks_; }
+  const std::vector<Landmark>& landmarks() const { return landmarks_; }
+  std::vector<MapTag>& tags() { return tags_; }
+  const std::vector<MapTag>& tags() const { return tags_; }
+
+  /// EyeModel::disparity_offset of each view, as they were when the map was made; empty for none.
+  std::vector<double>& disparity_offsets() { return disparity_offsets_; }
+  const std::vector<double>& disparity_offsets() const { return disparity_offsets_; }
+  const MapTag* find_tag(const std::string& family, int id) const;
+
+  /// Adds a keyframe; its associations become observations. Returns its id.
+  int add_keyframe(std::shared_ptr<const FrameFeatures> frame, const Pose& T_map_body,
+                   const Associations& associations);
+
+  /// Adds a landmark that is first seen at `observation`. Returns its id.
+  int add_landmark(const Eigen::Vector3d& position, const Observation& observation);
+
+  /// Ties a feature to a landmark, unless either end is taken: the feature by another landmark, or
+  /// the landmark in that view of that keyframe by another feature.
+  bool add_observation(int landmark, const Observation& observation);
+
+  void remove_observation(int landmark, const Observation& observation);
+  void remove_landmark(int landmark);
+
+  /// All observations of `from` go to `into`, where they are free; `from` is removed.
+  void merge(int from, int into);
+
+  /// Recomputes what is derived from a landmark's observations: descriptor, normal, distance.
+  void refresh(int landmark, const std::vector<Pose>& T_body_cams);
+
+  /// Ids of the keyframes that share most landmarks with `keyframe`, best first.
+  std::vector<int> covisible(int keyframe, int at_most) const;
+
+  /// Number of landmarks seen by at least that many keyframes.
+  std::size_t count_landmarks(int min_observations) const;
+
+  double level_scale() const { return level_scale_; }
+
+ private:
+  void change_covisibility(const Landmark& landmark, int keyframe, int change);
+
+  double level_scale_;
+  std::vector<Keyframe> keyframes_;
+  std::vector<Landmark> landmarks_;
+  std::vector<MapTag> tags_;
+  std::vector<double> disparity_offsets_;
+};
+
+/// Number of different keyframes among a landmark's observations.
+int count_keyframes(const Landmark& landmark);
+
+}  // namespace vinebench

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "slam/camera/estimator_rig.h"
+
+namespace vinebench {
+
+/// What a map depends on of the rig that made it.
+struct RigPrint {
+  struct Camera {
+    std::string name;
+    PinholeCamera model;
+    Pose T_body_cam;
+  };
+  struct Pair {
+    std::string name;
+    int left_camera = 0;
+    int right_camera = 0;
+    PinholeCamera lens;
+    double baseline = 0;
+    Pose T_body_cam;
+  };
+  std::vector<Camera> cameras;
+  std::vector<Pair> pairs;
+  std::vector<double> level_scales;
+};
+
+RigPrint rig_print(const EstimatorRig& rig);
+
+/// How the rig of a map differs from the one in use, the first difference only; empty where they
+/// are the same but for the roundings of a calibration that was computed again.
+std::string difference(const RigPrint& map, const RigPrint& rig);
+
+template <class Archive>
+void fields(Archive& archive, PinholeCamera& c) {
+  archive(c.width, c.height, c.fx, c.fy, c.cx, c.cy, c.distortion);
+}
+template <class Archive>
+void fields(Archive& archive, RigPrint::Camera& c) {
+  archive(c.name, c.model, c.T_body_cam);
+}
+template <class Archive>
+void fields(Archive& archive, RigPrint::Pair& p) {
+  archive(p.name, p.left_camera, p.right_camera, p.lens, p.baseline, p.T_body_cam);
+}
+template <class Archive>
+void fields(Archive& archive, RigPrint& rig) {
+  archive(rig.cameras, rig.pairs, rig.level_scales);
+}
+}  // namespace vinebench

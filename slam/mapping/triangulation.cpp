@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/mapping/triangulation.h"
+
+#include <cmath>
+
+namespace vinebench {
+namespace {
+
+/// Rays that meet at less than a degree give no useful depth.
+const double kMinParallax = 1.0 - std::cos(1.0 * 3.14159265358979 / 180.0);
+
+/// Features of one view in want of a landmark, with their rays in the map frame.
+struct Candidate {
+  int feature;
+  Eigen::Vector3d direction;
+  PixelMeasurement measurement;
+};
+
+std::vector<Candidate> candidates(const Keyframe& keyframe, std::size_t v,
+                                  const EstimatorRig& rig) {
+  const StereoView& view = keyframe.frame->views[v];
+  const Eigen::Quaterniond R_map_cam = keyframe.T_map_body.rotation * rig.T_body_cams[v].rotation;
+  std::vector<Candidate> result;
+  for (std::size_t f = 0; f < view.detected(); ++f) {
+    if (keyframe.landmarks[v][f] >= 0 || view.stereo[f].depth > 0) continue;
+    const PixelMeasurement m = rig.measurement(view, static_cast<int>(f));
+    result.push_back(
+        {static_cast<int>(f), (R_map_cam * rig.eyes[v].lens.unproject(m.pixel)).normalized(), m});
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<Eigen::Vector3d> intersect_rays(const Eigen::Vector3d& p_a,
+                                              const Eigen::Vector3d& d_a,
+                                              const Eigen::Vector3d& p_b,
+                                              const Eigen::Vector3d& d_b) {
+  const double cosine = d_a.dot(d_b);
+  if (1.0 - cosine < kMinParallax) return std::nullopt;
+  const Eigen::Vector3d offset = p_b - p_a;
+  const double denominator = 1.0 - cosine * cosine;
+  const double s = (offset.dot(d_a) - cosine * offset.dot(d_b)) / denominator;
+  const double t = (cosine * offset.dot(d_a) - offset.dot(d_b)) / denominator;
+  if (s <= 0 || t <= 0) return std::nullopt;
+  return 0.5 * (p_a + s * d_a + p_b + t * d_b);
+}
+
+std::vector<EpipolarMatch> match_epipolar(const Keyframe& a, const Keyframe& b, int view,
+                                          const EstimatorRig& rig, int max_hamming) {
+  const auto v = static_cast<std::size_t>(view);
+  const Eigen::Vector3d p_a = a.T_map_body * rig.T_body_cams[v].translation;
+  const Eigen::Vector3d p_b = b.T_map_body * rig.T_body_cams[v].translation;
+  std::vector<EpipolarMatch> matches;
+  if ((p_a - p_b).norm() < 0.02) return matches;
+  const std::vector<Candidate> of_b = candidates(b, v, rig);
+  const Eigen::Vector3d baseline = (p_b - p_a).normalized();
+  for (const Candidate& candidate : candidates(a, v, rig)) {
+    const Eigen::Vector3d plane = baseline.cross(candidate.direction).normalized();
+    const Descriptor& wanted =
+        a.frame->views[v].features.descriptors[static_cast<std::size_t>(candidate.feature)];
+    int best = max_hamming + 1;
+    EpipolarMatch match;
+    for (const Candidate& other : of_b) {
+      // Distance from the epipolar plane, in the picture's standard deviations.
+      const double off = std::abs(plane.dot(other.direction)) * rig.eyes[v].lens.fx;
+      if (off > 2.0 * other.measurement.sigma) continue;
+      const int distance = hamming_distance(
+          wanted, b.frame->views[v].features.descriptors[static_cast<std::size_t>(other.feature)]);
+      if (distance >= best) continue;
+      const auto p_map = intersect_rays(p_a, candidate.direction, p_b, other.direction);
+      if (!p_map) continue;
+      const Reprojection in_a(rig.eyes[v], candidate.measurement);
+      const Reprojection in_b(rig.eyes[v], other.measurement);
+      if (in_a.chi_squared(a.T_map_body, *p_map) > kChiSquared2 ||
+          in_b.chi_squared(b.T_map_body, *p_map) > kChiSquared2) {
+        continue;
+      }
+      best = distance;
+      match = {candidate.feature, other.feature, *p_map};
+    }
+    if (best <= max_hamming) matches.push_back(match);
+  }
+  return matches;
+}
+
+}  // namespace vinebench

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "core/config/config_field.h"
+#include "core/geometry/pose.h"
+#include "slam/odometry/wheel_odometry.h"
+
+namespace vinebench {
+
+/// What is known of the body's motion while no camera sees anything.
+struct DeadReckoningConfig {
+  std::optional<MecanumWheels> wheels;  ///< without, the last velocity is kept
+  double wheel_slip = 0.05;             ///< share of the way, standard deviation
+  double wheel_turn = 0.05;             ///< rad a m of the way and a rad turned, likewise
+  double acceleration = 0.5;            ///< m/s^2, that a kept velocity does not know of
+  double turn_acceleration = 0.5;       ///< rad/s^2, likewise
+  double max_sigma = 1.0;               ///< m; less certain than this the body is lost
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("wheels", wheels);
+    archive("wheel_slip", wheel_slip, Range::positive());
+    archive("wheel_turn", wheel_turn, Range::positive());
+    archive("acceleration", acceleration, Range::positive());
+    archive("turn_acceleration", turn_acceleration, Range::positive());
+    archive("max_sigma", max_sigma, Range::positive());
+  }
+};
+
+/// A stretch without sight: what was done in it, and how uncertain that is.
+class DeadReckoning {
+ public:
+  explicit DeadReckoning(const DeadReckoningConfig& config) : config_(config) {}
+
+  /// Sight is back, or begins.
+  void reset();
+
+  /// One more frame without sight, `dt` s after the one before. Returns T_before_now: by the wheels
+  /// where there are any, else by the velocity (body frame; m/s, rad/s) of the last seen motion.
+  Pose advance(const std::optional<Pose>& wheels, const Vector6d& velocity, double dt);
+
+  bool active() const { return frames_ > 0; }
+  int frames() const { return frames_; }
+  double sigma_position() const;  ///< m
+  double sigma_rotation() const;  ///< rad
+  bool is_lost() const { return sigma_position() > config_.max_sigma; }
+
+  /// Covariance of the stretch's motion, in the step of step_of.
+  Matrix6d covariance() const;
+
+ private:
+  DeadReckoningConfig config_;
+  int frames_ = 0;
+  double seconds_on_velocity_ = 0;
+  double way_ = 0;   ///< m, by the wheels
+  double turn_ = 0;  ///< rad, by the wheels
+};
+
+}  // namespace vinebench

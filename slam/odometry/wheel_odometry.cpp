@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/odometry/wheel_odometry.h"
+
+namespace vinebench {
+
+Pose WheelOdometry::step_between(const WheelSample& from, const WheelSample& to) const {
+  std::array<double, 4> rolled{};  // m; front-left, front-right, rear-left, rear-right
+  for (std::size_t i = 0; i < rolled.size(); ++i) {
+    rolled[i] = wheels_.radius * (to.angle[i] - from.angle[i]);
+  }
+  const auto [fl, fr, rl, rr] = rolled;
+  const double turn = (-fl + fr - rl + rr) / (4 * (wheels_.half_track + wheels_.half_wheelbase));
+  const Eigen::Vector3d way((fl + fr + rl + rr) / 4, (-fl + fr + rl - rr) / 4, 0);
+  // Half of the turn is done when half of the way is.
+  return {exp_so3({0, 0, turn}), exp_so3({0, 0, turn / 2}) * way};
+}
+
+std::optional<Pose> WheelOdometry::step(const std::vector<WheelSample>& readings) {
+  std::optional<Pose> T_before_now;
+  for (const WheelSample& reading : readings) {
+    if (last_) {
+      const Pose step = step_between(*last_, reading);
+      T_before_now = T_before_now ? *T_before_now * step : step;
+    }
+    last_ = reading;
+  }
+  return T_before_now;
+}
+
+}  // namespace vinebench

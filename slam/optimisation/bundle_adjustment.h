@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "slam/camera/estimator_rig.h"
+#include "slam/config.h"
+#include "slam/map/map.h"
+
+namespace vinebench {
+
+/// Which keyframes an adjustment moves, and which it only looks at. The landmarks that a moved
+/// keyframe sees are adjusted with them.
+struct AdjustmentWindow {
+  std::vector<int> moved;  ///< keyframe ids, ascending
+  std::vector<int> fixed;  ///< keyframe ids, ascending
+};
+
+struct AdjustmentOptions {
+  int iterations = 6;
+  double tag_corner_sigma = 0.3;  ///< px, besides the noise that a sighting knows of
+  bool global = false;            ///< all of the map: to the end; mapped tags move too
+  bool offsets_unknown = false;   ///< the eyes' disparity offsets can be freed
+};
+
+/// The keyframe, those that share most landmarks with it, and as fixed ones all others that see
+/// their landmarks. The first keyframe of the map and those that begin it anew after a stretch
+/// without sight are fixed.
+AdjustmentWindow local_window(const Map& map, int keyframe, int size);
+
+/// All keyframes; the first is fixed unless a tag of known pose holds the map.
+AdjustmentWindow global_window(const Map& map);
+
+/// A bundle adjustment in three steps, so that the second can run beside tracking: what it needs of
+/// the map is copied when it is made, solved, and written back. Between the first and the last step
+/// the map may gain tags, but keyframes, landmarks and observations must stay as they are.
+class AdjustmentJob {
+ public:
+  AdjustmentJob(const Map& map, AdjustmentWindow window, const EstimatorRig& rig,
+                const AdjustmentOptions& options);
+  ~AdjustmentJob();
+  AdjustmentJob(const AdjustmentJob&) = delete;
+  AdjustmentJob& operator=(const AdjustmentJob&) = delete;
+
+  /// Touches nothing but its own copies. Returns the cost reached: half the sum of the squared
+  /// residuals, in standard deviations, under their loss.
+  double solve();
+  void apply(Map& map) const;
+
+  /// Lets the next solve() estimate the disparity offsets too (AdjustmentOptions::offsets_unknown).
+  void free_offsets();
+
+  /// Of each eye, px: the rig's, or what was estimated.
+  const std::vector<double>& disparity_offsets() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Bundle adjustment, Eq. (4), (5): poses of the window's keyframes and positions of the landmarks
+/// that they see, Huber loss, weights by octave; tags seen by a keyframe take part with their
+/// corners. Observations that are outliers in the end (95 % chi-square) are removed from the map.
+void adjust(Map& map, const AdjustmentWindow& window, const EstimatorRig& rig,
+            const AdjustmentOptions& options);
+
+/// Corners of a tag of side `size` in its own frame (x right, y down), in the order of TagSighting.
+std::array<Eigen::Vector3d, 4> tag_corners(double size);
+
+}  // namespace vinebench

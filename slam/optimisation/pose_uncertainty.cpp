@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/optimisation/pose_uncertainty.h"
+
+#include <Eigen/Cholesky>
+
+namespace vinebench {
+namespace {
+
+Matrix6d inflated_inverse(const Matrix6d& information) {
+  const Eigen::LDLT<Matrix6d> solver(information);
+  const bool usable =
+      solver.info() == Eigen::Success && solver.isPositive() && solver.vectorD().minCoeff() > 0;
+  if (!usable) return Matrix6d::Zero();
+  return PoseUncertainty::kInflation * solver.solve(Matrix6d::Identity());
+}
+
+}  // namespace
+
+Matrix6d carried_step(const Pose& T_a_b) {
+  // A step (rho, theta) of a moves b by R_ba (rho + theta x t) and turns it by R_ba theta.
+  const Eigen::Matrix3d R_b_a = T_a_b.rotation.toRotationMatrix().transpose();
+  const Eigen::Vector3d& t = T_a_b.translation;
+  Eigen::Matrix3d cross;
+  cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
+  Matrix6d J = Matrix6d::Zero();
+  J.topLeftCorner<3, 3>() = R_b_a;
+  J.topRightCorner<3, 3>() = -R_b_a * cross;
+  J.bottomRightCorner<3, 3>() = R_b_a;
+  return J;
+}
+
+Matrix6d carry_covariance(const Matrix6d& of_a, const Pose& T_a_b) {
+  const Matrix6d J = carried_step(T_a_b);
+  return J * of_a * J.transpose();
+}
+
+void PoseUncertainty::start(const Matrix6d& covariance) {
+  keyframe_ = covariance;
+}
+
+void PoseUncertainty::keyframe(const Pose& T_last_now, const Matrix6d& information) {
+  keyframe_ = at(T_last_now, information);
+}
+
+void PoseUncertainty::bridge(const Pose& T_last_now, const Matrix6d& covariance) {
+  keyframe_ = carry_covariance(keyframe_, T_last_now) + covariance;
+}
+
+Matrix6d PoseUncertainty::at(const Pose& T_last_now, const Matrix6d& information) const {
+  return carry_covariance(keyframe_, T_last_now) + inflated_inverse(information);
+}
+
+}  // namespace vinebench

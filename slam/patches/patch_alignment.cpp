@@ -1,0 +1,259 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/patches/patch_alignment.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace vinebench {
+namespace {
+
+constexpr int kRadius = 5;
+constexpr int kSide = 2 * kRadius + 1;
+constexpr int kArea = kSide * kSide;
+constexpr int kSearch = 5;            ///< px, whole shifts tried on either side of the guess
+constexpr int kMaxSteps = 5;          ///< of Gauss-Newton
+constexpr double kConverged = 0.005;  ///< px
+constexpr double kMaxCorrection =
+    2;  ///< px; a solution farther from the whole shift is not its own
+/// Slopes are expected within about 0.4 px a pixel, and pixels to agree within about 4 grey levels.
+constexpr double kSlopePrior = (4.0 / 0.4) * (4.0 / 0.4);
+
+/// Rows of a window lie one more pixel apart than they have, a round number for the processor; what
+/// stands there does not count.
+constexpr int kPitch = 12;
+constexpr int kLanes = 4;
+using Window = std::array<float, kSide * kPitch>;
+using Vector3f = Eigen::Vector3f;
+
+/// Sum of products, in a fixed order whatever the processor's width.
+float dot(const Window& a, const Window& b) {
+  std::array<float, kLanes> lanes{};
+  for (std::size_t i = 0; i < a.size(); i += kLanes) {
+    for (std::size_t k = 0; k < kLanes; ++k) lanes[k] += a[i + k] * b[i + k];
+  }
+  return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+}
+
+/// 1 where a pixel counts.
+const Window& ones() {
+  static const Window window = [] {
+    Window w;
+    for (std::size_t i = 0; i < w.size(); ++i) w[i] = i % kPitch < kSide ? 1.0F : 0.0F;
+    return w;
+  }();
+  return window;
+}
+
+void remove_mean(Window& window) {
+  const float mean = dot(window, ones()) / kArea;
+  for (std::size_t i = 0; i < window.size(); ++i) window[i] = (window[i] - mean) * ones()[i];
+}
+
+/// Mean absolute deviation from the mean.
+float deviation(Window window) {
+  remove_mean(window);
+  for (float& value : window) value = std::abs(value);
+  return dot(window, ones()) / kArea;
+}
+
+/// Left window, and its derivatives by shift and slopes, of zero mean: the brightness solved for.
+struct Template {
+  Window grey;
+  std::array<Window, 3> derivative;
+  Eigen::Matrix3f normal;
+};
+
+Template make_template(const cv::Mat& left, int x, int y) {
+  Template t;
+  std::size_t i = 0;
+  for (int dy = -kRadius; dy <= kRadius; ++dy, ++i) {
+    const std::uint8_t* row = left.ptr<std::uint8_t>(y + dy) + x;
+    for (int dx = -kRadius; dx <= kRadius; ++dx, ++i) {
+      const float gradient = 0.5F * static_cast<float>(row[dx + 1] - row[dx - 1]);
+      t.grey[i] = row[dx];
+      t.derivative[0][i] = gradient;
+      t.derivative[1][i] = gradient * static_cast<float>(dx);
+      t.derivative[2][i] = gradient * static_cast<float>(dy);
+    }
+    t.grey[i] = 0;
+    for (Window& derivative : t.derivative) derivative[i] = 0;
+  }
+  for (Window& derivative : t.derivative) remove_mean(derivative);
+  for (int r = 0; r < 3; ++r) {
+    for (int c = r; c < 3; ++c) {
+      t.normal(r, c) =
+          dot(t.derivative[static_cast<std::size_t>(r)], t.derivative[static_cast<std::size_t>(c)]);
+      t.normal(c, r) = t.normal(r, c);
+    }
+  }
+  return t;
+}
+
+/// Eight grey levels as whole numbers of 16 bits, which the processor treats at once.
+using Eight [[gnu::vector_size(16)]] = std::int16_t;
+
+Eight load_eight(const std::uint8_t* at) {
+  using Bytes [[gnu::vector_size(8)]] = std::uint8_t;
+  Bytes bytes;
+  std::memcpy(&bytes, at, sizeof bytes);
+  return __builtin_convertvector(bytes, Eight);
+}
+
+constexpr int kTriedLanes = 16;  ///< tried columns are 11 at most; two times eight are computed
+static_assert(2 * kSearch + 1 <= kTriedLanes);
+/// The right picture's rows as far as windows at all tried columns reach.
+using Strip = std::array<std::array<std::uint8_t, kSide + kTriedLanes - 1>, kSide>;
+
+Strip cut_strip(const cv::Mat& right, int first, int last, int y) {
+  Strip strip{};
+  const auto bytes = static_cast<std::size_t>(last - first + kSide);
+  for (int row = 0; row < kSide; ++row) {
+    std::memcpy(strip[static_cast<std::size_t>(row)].data(),
+                right.ptr<std::uint8_t>(y - kRadius + row) + first - kRadius, bytes);
+  }
+  return strip;
+}
+
+/// By how much the left window is brighter than the right one at each of eight columns, rounded.
+Eight brightness_offsets(int left_sum, const Strip& strip, std::size_t lane) {
+  Eight sums{};
+  for (std::size_t row = 0; row < kSide; ++row) {
+    for (std::size_t column = 0; column < kSide; ++column) {
+      sums += load_eight(&strip[row][column + lane]);
+    }
+  }
+  Eight offsets;
+  for (int k = 0; k < 8; ++k) offsets[k] = static_cast<std::int16_t>((left_sum - sums[k]) / kArea);
+  return offsets;
+}
+
+using LeftWindow = std::array<std::int16_t, kArea>;
+
+/// Sums of absolute differences at eight columns, windows less their mean. The largest possible,
+/// 121 * 510, fits 16 bits without a sign.
+void zero_mean_sads(const LeftWindow& left, int left_sum, const Strip& strip, std::size_t lane,
+                    std::uint16_t* sads) {
+  const Eight offsets = brightness_offsets(left_sum, strip, lane);
+  Eight sum{};
+  const std::int16_t* grey = left.data();
+  for (std::size_t row = 0; row < kSide; ++row) {
+    for (std::size_t column = 0; column < kSide; ++column, ++grey) {
+      const Eight difference = *grey - load_eight(&strip[row][column + lane]) - offsets;
+      sum += difference < 0 ? -difference : difference;
+    }
+  }
+  std::memcpy(sads, &sum, sizeof sum);
+}
+
+std::array<std::uint16_t, kTriedLanes> zero_mean_sads(const cv::Mat& left, int x, int y,
+                                                      const Strip& strip) {
+  LeftWindow window;
+  int left_sum = 0;
+  std::size_t i = 0;
+  for (int dy = -kRadius; dy <= kRadius; ++dy) {
+    const std::uint8_t* row = left.ptr<std::uint8_t>(y + dy) + x;
+    for (int dx = -kRadius; dx <= kRadius; ++dx, ++i) left_sum += window[i] = row[dx];
+  }
+  std::array<std::uint16_t, kTriedLanes> sads;
+  zero_mean_sads(window, left_sum, strip, 0, sads.data());
+  zero_mean_sads(window, left_sum, strip, 8, sads.data() + 8);
+  return sads;
+}
+
+/// Column of `right` with the best window about `guess`; -1 where it is at the end of the search
+/// or of the picture.
+int search_whole(const cv::Mat& left, const cv::Mat& right, int x, int y, int guess) {
+  const int first = std::max(kRadius, guess - kSearch);
+  const int last = std::min(right.cols - 1 - kRadius, guess + kSearch);
+  if (first > last) return -1;
+  const auto sads = zero_mean_sads(left, x, y, cut_strip(right, first, last, y));
+  const auto end = sads.begin() + (last - first + 1);
+  const int best = first + static_cast<int>(std::min_element(sads.begin(), end) - sads.begin());
+  return best == first || best == last ? -1 : best;
+}
+
+/// Cubic interpolation (Catmull-Rom) at twelve places of a row. Four neighbours each are read as
+/// one word and taken apart in parallel.
+void sample(const std::uint8_t* row, const std::array<float, kPitch>& x, float* grey) {
+  static_assert(std::endian::native == std::endian::little);
+  std::array<std::int32_t, kPitch> whole;
+  std::array<std::uint32_t, kPitch> word;
+  for (std::size_t k = 0; k < kPitch; ++k) whole[k] = static_cast<std::int32_t>(x[k]);
+  for (std::size_t k = 0; k < kPitch; ++k) std::memcpy(&word[k], row + whole[k] - 1, 4);
+  for (std::size_t k = 0; k < kPitch; ++k) {
+    const auto tap = [&](int i) {
+      return static_cast<float>(static_cast<std::int32_t>((word[k] >> (8 * i)) & 255U));
+    };
+    const float f = x[k] - static_cast<float>(whole[k]);
+    const float a = tap(0);
+    const float b = tap(1);
+    const float c = tap(2);
+    const float d = tap(3);
+    grey[k] = b + 0.5F * f * (c - a + f * (2 * a - 5 * b + 4 * c - d + f * (3 * (b - c) + d - a)));
+  }
+}
+
+/// Right window under (position, slope along x, slope along y), less the left one.
+bool compare(const cv::Mat& right, int y, const Vector3f& p, const Window& left, Window& residual) {
+  const float reach = kRadius * (1 + std::abs(p[1]) + std::abs(p[2]));
+  if (!(p[0] - reach >= 1) || !(p[0] + reach < static_cast<float>(right.cols - 2))) return false;
+  std::array<float, kPitch> x;
+  for (int row = 0; row < kSide; ++row) {
+    const float centre = p[0] + p[2] * static_cast<float>(row - kRadius);
+    for (int k = 0; k < kPitch; ++k) {
+      x[static_cast<std::size_t>(k)] =
+          centre + (1 + p[1]) * static_cast<float>(std::min(k, kSide - 1) - kRadius);
+    }
+    sample(right.ptr<std::uint8_t>(y - kRadius + row), x,
+           &residual[static_cast<std::size_t>(row * kPitch)]);
+  }
+  for (std::size_t i = 0; i < residual.size(); ++i) residual[i] -= left[i];
+  return true;
+}
+
+}  // namespace
+
+std::optional<PatchAlignment> align_patch(const cv::Mat& left, const cv::Mat& right, int x, int y,
+                                          double guess) {
+  const cv::Rect inside(kRadius + 1, kRadius, left.cols - kSide - 1, left.rows - kSide + 1);
+  if (left.size() != right.size() || !inside.contains({x, y})) return std::nullopt;
+  const int whole = search_whole(left, right, x, y, static_cast<int>(std::lround(x - guess)));
+  if (whole < 0) return std::nullopt;
+
+  const Template t = make_template(left, x, y);
+  Eigen::Matrix3f normal = t.normal;
+  normal(1, 1) += static_cast<float>(kSlopePrior);
+  normal(2, 2) += static_cast<float>(kSlopePrior);
+  const Eigen::LLT<Eigen::Matrix3f> solver(normal);
+  if (solver.info() != Eigen::Success) return std::nullopt;
+
+  Vector3f p(static_cast<float>(whole), 0, 0);
+  Window residual;
+  bool converged = false;
+  for (int step = 0; step < kMaxSteps && !converged; ++step) {
+    if (!compare(right, y, p, t.grey, residual)) return std::nullopt;
+    Vector3f gradient(0, static_cast<float>(kSlopePrior) * p[1],
+                      static_cast<float>(kSlopePrior) * p[2]);
+    for (int k = 0; k < 3; ++k) {
+      gradient[k] += dot(t.derivative[static_cast<std::size_t>(k)], residual);
+    }
+    const Vector3f delta = solver.solve(gradient);
+    p -= delta;
+    if (!(std::abs(p[0] - static_cast<float>(whole)) < kMaxCorrection)) return std::nullopt;
+    converged = std::abs(delta[0]) < kConverged;
+  }
+  // Once converged, what is left before the last step is as good as what is left after it.
+  if (!converged && !compare(right, y, p, t.grey, residual)) return std::nullopt;
+  return PatchAlignment{static_cast<double>(x) - static_cast<double>(p[0]),
+                        -static_cast<double>(p[1]), -static_cast<double>(p[2]),
+                        static_cast<double>(deviation(residual)),
+                        static_cast<double>(deviation(t.grey))};
+}
+
+}  // namespace vinebench

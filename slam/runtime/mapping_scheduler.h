@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <future>
+#include <memory>
+#include <optional>
+
+#include "core/util/stage_timer.h"
+#include "slam/config.h"
+#include "slam/optimisation/bundle_adjustment.h"
+
+namespace vinebench {
+
+/// Runs local adjustments beside tracking, one at a time, on a thread of their own.
+class MappingScheduler {
+ public:
+  explicit MappingScheduler(const MappingConfig& config)
+      : schedule_(config.schedule), delay_(config.delay) {}
+
+  /// Begins to solve a job that moves `keyframe` among others. None may be under way. With a delay
+  /// of no frames in lockstep it is solved before this returns.
+  void start(std::unique_ptr<AdjustmentJob> job, int keyframe);
+
+  /// Counts a frame.
+  void tick() { ++frames_since_start_; }
+
+  bool busy() const { return job_ != nullptr; }
+
+  /// Whether the job's result is to be taken over now: in lockstep after the delay, live when it is
+  /// there.
+  bool due() const;
+
+  /// Waits for the job, writes its result into the map, adds its time to the stage "local
+  /// adjustment". Returns how the keyframe that it was started for moved: T_map_new T_map_old^-1.
+  /// Does nothing where there is no job.
+  Pose join(Map& map, StageTimes& times);
+
+ private:
+  MappingSchedule schedule_;
+  int delay_;
+  std::unique_ptr<AdjustmentJob> job_;
+  std::future<double> solved_;  ///< ms it took
+  int keyframe_ = 0;
+  int frames_since_start_ = 0;
+};
+
+}  // namespace vinebench

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "core/config/config_field.h"
+#include "core/geometry/camera.h"
+#include "slam/features/orb_extractor.h"
+#include "slam/patches/patch_alignment.h"
+
+namespace vinebench {
+
+struct StereoConfig {
+  double max_depth_baselines = 40;  ///< farther depths are not used (paper, Sect. III-A)
+  /// Where a map begins and fewer than this are near enough, on a road say, those beyond take part
+  /// too, up to far_depth_baselines.
+  int few = 200;
+  double far_depth_baselines = 150;
+  double min_depth = 0.15;   ///< m; nothing is nearer
+  double uniqueness = 1.15;  ///< the next best place must differ by this factor more
+  /// Mean difference of the aligned windows, as a share of their contrast, that is still a match.
+  /// Windows that show two depths, a stem before the ground, differ more: they would be biased
+  /// towards the nearer one.
+  double max_residual = 0.1;
+  bool self_calibration = true;  ///< corrects a pair's disparities where the map shows them off
+  double noise = 1.5;            ///< grey levels, difference that the sensor's noise alone explains
+
+  /// Whether aligned windows show the same thing.
+  bool accepts(const PatchAlignment& aligned) const {
+    return aligned.difference <= noise + max_residual * aligned.contrast;
+  }
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("max_depth_baselines", max_depth_baselines, Range::positive());
+    archive("few", few, Range::non_negative());
+    archive("far_depth_baselines", far_depth_baselines, Range::positive());
+    archive("min_depth", min_depth, Range::positive());
+    archive("uniqueness", uniqueness, Range::between(1, 10));
+    archive("max_residual", max_residual, Range::between(0.01, 2));
+    archive("self_calibration", self_calibration);
+    archive("noise", noise, Range::between(0, 50));
+  }
+};
+
+/// For each keypoint of the left picture.
+struct StereoMatch {
+  float x_right = -1;  ///< px in the right picture, sub-pixel; -1 without a match
+  float depth = -1;    ///< m along the optical axis; -1 without a match or beyond the limit
+  /// How the surface is slanted: change of the inverse depth along x and y, as a share of it a px.
+  float slant_x = 0;
+  float slant_y = 0;
+};
+
+/// Finds the left picture's keypoints in the right one of a rectified pair (same lens, same rows):
+/// search of the window about each along the epipolar line on its pyramid level, accepted where the
+/// place is unique and the search back from there finds the keypoint again; then sub-pixel
+/// alignment.
+///
+/// The search reads the right picture itself, not features extracted there: a plant's corners are
+/// often found in one eye only, and two thirds of the left ones would stay without a partner.
+std::vector<StereoMatch> match_stereo(const Extraction& left,
+                                      const std::vector<cv::Mat>& right_pyramid,
+                                      const PinholeCamera& camera, double baseline,
+                                      const OrbExtractor& extractor, const StereoConfig& config);
+
+/// Gives matches beyond the limit their depth where fewer than StereoConfig::few lie within it.
+/// They say little of the way but much of the heading, and are found again wherever the next frame
+/// looks, while what is near has left its place by more than a search without a known velocity
+/// reaches.
+void reach_farther(const Features& left, const PinholeCamera& camera, double baseline,
+                   const StereoConfig& config, std::vector<StereoMatch>& matches);
+
+}  // namespace vinebench

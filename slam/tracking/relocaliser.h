@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "slam/camera/estimator_rig.h"
+#include "slam/map/map.h"
+
+namespace vinebench {
+
+/// What is asked of a relocalisation. Rows of vines look alike: a false pose is worse than none.
+struct RelocaliserOptions {
+  int queries = 300;           ///< features of a frame that vote for keyframes
+  int candidates = 5;          ///< places in the map that are looked at closely
+  int max_hamming = 60;        ///< bits
+  double second_best = 0.85;   ///< the best must be below this share of the second best
+  int samples = 300;           ///< drawn of three matches each, a candidate
+  double pixel_limit = 4;      ///< px of the feature's level, of an inlier while sampling
+  int min_consensus = 15;      ///< inliers of the sampling
+  int min_inliers = 40;        ///< in the end, over all cameras
+  double min_share = 0.5;      ///< of the matches in the end, and of each camera's
+  double max_rival = 0.6;      ///< another place must have less than this share of the inliers
+  double max_speed = 2;        ///< m/s, between the two frames that must agree
+  double max_turn = 2;         ///< rad/s, likewise
+  double max_gap_seconds = 1;  ///< between the two frames
+};
+
+/// A pose found in one frame, with the evidence for it.
+struct Relocation {
+  Pose T_map_body;
+  int inliers = 0;
+};
+
+/// Where in the map a frame was taken, by its looks alone: its features vote for keyframes by the
+/// landmarks that resemble them; at each of the best places they are matched with the landmarks
+/// there, and a pose is sought that many of them agree on (three points in one camera: Gao et al.
+/// 2003; RANSAC: Fischler and Bolles 1981), then adjusted over all cameras. None unless the
+/// evidence is strong and no other place fits nearly as well. Draws depend on the frame's index
+/// alone.
+std::optional<Relocation> relocate(const Map& map, const EstimatorRig& rig,
+                                   const FrameFeatures& frame, const RelocaliserOptions& options);
+
+/// Believes a relocation once two frames in a row, each by itself, agree on it.
+class Relocaliser {
+ public:
+  explicit Relocaliser(const RelocaliserOptions& options = {}) : options_(options) {}
+
+  /// The body's pose in the map, or none (yet).
+  std::optional<Pose> find(const Map& map, const EstimatorRig& rig, const FrameFeatures& frame);
+
+ private:
+  bool agree(const Relocation& now, Stamp stamp) const;
+
+  RelocaliserOptions options_;
+  std::optional<Relocation> before_;
+  Stamp stamp_ = 0;
+};
+
+}  // namespace vinebench

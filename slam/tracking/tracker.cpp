@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/tracking/tracker.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "slam/matching/appearance_matcher.h"
+#include "slam/matching/match_refiner.h"
+#include "slam/matching/patch_follower.h"
+#include "slam/matching/projection_matcher.h"
+#include "slam/tracking/pose_sampling.h"
+
+namespace vinebench {
+namespace {
+
+/// Keyframes nearer than this that look the same way may show the same vines.
+constexpr double kNearby = 1.0;                                 // m
+constexpr double kSameHeading = 40.0 * std::numbers::pi / 180;  // rad
+
+/// What a pose found after a stretch without sight may differ from the dead-reckoned one: this many
+/// standard deviations, and what the found one's own error may be.
+constexpr double kMaxSigmas = 4;
+constexpr double kPoseNoise = 0.05;     // m
+constexpr double kHeadingNoise = 0.05;  // rad
+
+void add_landmarks_of(const Keyframe& keyframe, std::vector<char>& wanted) {
+  for (const std::vector<int>& view : keyframe.landmarks) {
+    for (const int id : view) {
+      if (id >= 0) wanted[static_cast<std::size_t>(id)] = 1;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<int> landmark_ids(const Associations& associations) {
+  std::vector<int> ids;
+  for (const std::vector<int>& view : associations) {
+    for (const int id : view) {
+      if (id >= 0) ids.push_back(id);
+    }
+  }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+std::vector<int> local_landmarks(const Map& map, const std::vector<int>& seen,
+                                 const Pose& T_map_body, int at_most_keyframes) {
+  std::vector<int> votes(map.keyframes().size(), 0);
+  for (const int id : seen) {
+    int last = -1;
+    for (const Observation& o : map.landmark(id).observations) {
+      if (o.keyframe != last) ++votes[static_cast<std::size_t>(o.keyframe)];
+      last = o.keyframe;
+    }
+  }
+  for (const Keyframe& keyframe : map.keyframes()) {
+    const Pose T_body_key = T_map_body.inverse() * keyframe.T_map_body;
+    const bool near =
+        T_body_key.translation.norm() < kNearby && angle_of(T_body_key.rotation) < kSameHeading;
+    if (near) ++votes[static_cast<std::size_t>(keyframe.id)];
+  }
+  std::vector<std::pair<int, int>> ranked;  // negated votes, negated id: the newest first
+  for (std::size_t k = 0; k < votes.size(); ++k) {
+    if (votes[k] > 0) ranked.emplace_back(-votes[k], -static_cast<int>(k));
+  }
+  std::sort(ranked.begin(), ranked.end());
+  if (ranked.size() > static_cast<std::size_t>(at_most_keyframes)) {
+    ranked.resize(static_cast<std::size_t>(at_most_keyframes));
+  }
+  std::vector<char> wanted(map.landmarks().size(), 0);
+  for (const auto& [vote, id] : ranked) add_landmarks_of(map.keyframe(-id), wanted);
+  std::vector<int> ids;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (wanted[i]) ids.push_back(static_cast<int>(i));
+  }
+  return ids;
+}
+
+void Tracker::start(const Pose& T_map_body, Stamp stamp) {
+  T_map_body_ = T_map_body;
+  stamp_ = stamp;
+  velocity_.setZero();
+  dark_.reset();
+}
+
+void Tracker::correct(const Pose& T_map_body) {
+  T_map_body_ = T_map_body;
+}
+
+Pose Tracker::predict(const FrameFeatures& frame) const {
+  if (dark_.active() && frame.wheels) return T_map_body_ * *frame.wheels;
+  return T_map_body_ * step_of(velocity_ * to_seconds(frame.stamp - stamp_));
+}
+
+/// The pose by landmarks near their projection. The radius grows while there are too few matches
+/// (paper, Sect. III-A), and while too few of them agree on a pose: where texture is alike all
+/// over, a small radius finds enough matches, all wrong.
+void Tracker::match_near(const Map& map, const std::vector<int>& landmarks, const Pose& predicted,
+                         TrackedFrame& tracked) const {
+  ProjectionSearch search{config_.radius, config_.max_hamming, config_.second_best};
+  for (int step = 1; step <= config_.radius_steps; ++step) {
+    tracked.associations = no_associations(*tracked.frame);
+    const int matches = match_by_projection(map, landmarks, *tracked.frame, predicted, rig_, search,
+                                            tracked.associations);
+    search.radius *= config_.radius_growth;
+    if (matches < config_.min_matches && step < config_.radius_steps) continue;
+    tracked.motion = estimate_motion(map, *tracked.frame, predicted, rig_, config_.min_inlier_share,
+                                     tracked.associations);
+    // The farther from the prediction, the more evidence is asked for.
+    if (tracked.motion.inliers >= std::min(step, 2) * config_.min_inliers) return;
+  }
+}
+
+void Tracker::match_anywhere(const Map& map, const Pose& predicted, TrackedFrame& tracked) const {
+  const std::vector<int> landmarks =
+      local_landmarks(map, last_landmarks_, predicted, config_.local_keyframes);
+  Associations associations =
+      match_by_appearance(map, landmarks, *tracked.frame, config_.max_hamming, config_.second_best);
+  const auto sampled = sample_pose(map, *tracked.frame, rig_, PoseSampling{}, 0, associations);
+  if (!sampled) return;
+  const double reach = std::max(config_.max_speed * to_seconds(tracked.frame->stamp - stamp_),
+                                kMaxSigmas * dark_.sigma_position());
+  if ((sampled->translation - predicted.translation).norm() > reach) return;
+  const MotionEstimate motion =
+      estimate_motion(map, *tracked.frame, *sampled, rig_, config_.min_inlier_share, associations);
+  // Rows look alike: a pose that nothing predicted needs twice the evidence.
+  if (motion.inliers < 2 * config_.min_inliers) return;
+  tracked.motion = motion;
+  tracked.associations = std::move(associations);
+}
+
+void Tracker::match_local_map(const Map& map, const std::vector<int>& local,
+                              TrackedFrame& tracked) const {
+  match_by_projection(map, local, *tracked.frame, tracked.motion.T_map_body, rig_,
+                      {config_.local_radius, config_.max_hamming, config_.second_best},
+                      tracked.associations);
+}
+
+TrackedFrame Tracker::track(std::shared_ptr<FrameFeatures> frame, const Map& map) {
+  TrackedFrame tracked;
+  tracked.frame = std::move(frame);
+  const Pose predicted = predict(*tracked.frame);
+  tracked.motion.T_map_body = predicted;
+  const bool from_map = dark_.active() || last_landmarks_.empty();
+  const std::vector<int> landmarks =
+      from_map ? local_landmarks(map, last_landmarks_, tracked.motion.T_map_body,
+                                 config_.local_keyframes)
+               : last_landmarks_;
+  match_near(map, landmarks, predicted, tracked);
+  if (tracked.motion.inliers < 2 * config_.min_inliers) match_anywhere(map, predicted, tracked);
+  if (tracked.motion.inliers >= config_.min_inliers / 2) {
+    const std::vector<int> local =
+        local_landmarks(map, landmark_ids(tracked.associations), tracked.motion.T_map_body,
+                        config_.local_keyframes);
+    match_local_map(map, local, tracked);
+    tracked.motion = estimate_motion(map, *tracked.frame, tracked.motion.T_map_body, rig_,
+                                     config_.min_inlier_share, tracked.associations);
+    refine_matches(map, tracked.motion.T_map_body, rig_, *tracked.frame, tracked.associations);
+    tracked.motion = estimate_motion(map, *tracked.frame, tracked.motion.T_map_body, rig_,
+                                     config_.min_inlier_share, tracked.associations);
+    follow_patches(map, local, tracked.motion.T_map_body, rig_, *tracked.frame,
+                   tracked.associations);
+    tracked.motion = estimate_motion(map, *tracked.frame, tracked.motion.T_map_body, rig_,
+                                     config_.min_inlier_share, tracked.associations);
+  }
+  tracked.tracked = is_credible(tracked, predicted);
+  tracked.tracked ? accept(tracked) : reckon(*tracked.frame);
+  return tracked;
+}
+
+bool Tracker::is_credible(const TrackedFrame& tracked, const Pose& predicted) const {
+  int matches = 0;
+  for (const int n : tracked.motion.matches_per_view) matches += n;
+  if (tracked.motion.inliers < config_.min_inliers ||
+      tracked.motion.inliers < config_.min_inlier_share * matches) {
+    return false;
+  }
+  if (!dark_.active()) return true;
+  const Pose off = predicted.inverse() * tracked.motion.T_map_body;
+  return off.translation.norm() <= kMaxSigmas * dark_.sigma_position() + kPoseNoise &&
+         angle_of(off.rotation) <= kMaxSigmas * dark_.sigma_rotation() + kHeadingNoise;
+}
+
+void Tracker::accept(const TrackedFrame& tracked) {
+  const double dt = to_seconds(tracked.frame->stamp - stamp_);
+  // After a stretch without sight the step holds the stretch's error too: the old velocity is
+  // truer.
+  if (dt > 0 && !dark_.active()) {
+    const Pose step = T_map_body_.inverse() * tracked.motion.T_map_body;
+    velocity_ << step.translation / dt, log_so3(step.rotation) / dt;
+  }
+  T_map_body_ = tracked.motion.T_map_body;
+  stamp_ = tracked.frame->stamp;
+  last_landmarks_ = landmark_ids(tracked.associations);
+  dark_.reset();
+}
+
+void Tracker::reckon(const FrameFeatures& frame) {
+  const double dt = to_seconds(frame.stamp - stamp_);
+  T_map_body_ = T_map_body_ * dark_.advance(frame.wheels, velocity_, dt);
+  stamp_ = frame.stamp;
+  if (frame.wheels && dt > 0) {
+    velocity_ << frame.wheels->translation / dt, log_so3(frame.wheels->rotation) / dt;
+  }
+  if (dark_.is_lost()) velocity_.setZero();
+}
+
+}  // namespace vinebench

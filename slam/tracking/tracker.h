@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "slam/camera/estimator_rig.h"
+#include "slam/config.h"
+#include "slam/map/map.h"
+#include "slam/optimisation/motion_only_ba.h"
+
+namespace vinebench {
+
+/// What tracking made of one frame.
+struct TrackedFrame {
+  std::shared_ptr<FrameFeatures> frame;
+  bool tracked = false;
+  /// Nothing ties this frame to the map but dead reckoning; it begins the map anew.
+  std::optional<OdometryLink> link;
+  MotionEstimate motion;
+  Associations associations;  ///< inliers only
+};
+
+/// Finds the body's pose frame by frame: constant-velocity prediction, landmarks projected into
+/// every camera, motion-only bundle adjustment.
+class Tracker {
+ public:
+  Tracker(const TrackingConfig& config, const DeadReckoningConfig& dead_reckoning,
+          const EstimatorRig& rig)
+      : config_(config), rig_(rig), dark_(dead_reckoning) {}
+
+  /// Starts at a pose, standing still.
+  void start(const Pose& T_map_body, Stamp stamp);
+
+  /// Tracks the next frame against the map. Where that fails the pose is dead-reckoned; sight that
+  /// comes back must agree with that within its uncertainty.
+  TrackedFrame track(std::shared_ptr<FrameFeatures> frame, const Map& map);
+
+  /// Takes over a pose that something else knows better (loop closing, a tag), moving what the
+  /// prediction rests on with it.
+  void correct(const Pose& T_map_body);
+
+  /// The landmarks to look for first in the next frame, ascending: those of a new keyframe.
+  void expect(std::vector<int> landmarks) { last_landmarks_ = std::move(landmarks); }
+
+  /// The last frame's pose, tracked or dead-reckoned.
+  const Pose& T_map_body() const { return T_map_body_; }
+  const DeadReckoning& dark() const { return dark_; }
+
+ private:
+  Pose predict(const FrameFeatures& frame) const;
+  void match_near(const Map& map, const std::vector<int>& landmarks, const Pose& predicted,
+                  TrackedFrame& tracked) const;
+  /// Matches by looks alone where the prediction led nowhere: after a start, a jolt or a gap.
+  void match_anywhere(const Map& map, const Pose& predicted, TrackedFrame& tracked) const;
+  void match_local_map(const Map& map, const std::vector<int>& local, TrackedFrame& tracked) const;
+  bool is_credible(const TrackedFrame& tracked, const Pose& predicted) const;
+  void accept(const TrackedFrame& tracked);
+  void reckon(const FrameFeatures& frame);
+
+  TrackingConfig config_;
+  const EstimatorRig& rig_;
+  Pose T_map_body_;
+  Stamp stamp_ = 0;
+  Vector6d velocity_ = Vector6d::Zero();  ///< of the body in its own frame, m/s and rad/s
+  std::vector<int> last_landmarks_;       ///< seen in the frame before, ascending
+  DeadReckoning dark_;                    ///< the stretch without sight, while there is one
+};
+
+/// Ids of landmarks that a frame may see: those of the keyframes that share most of `seen`, and of
+/// their covisible ones, and of those made nearby looking the same way; ascending.
+std::vector<int> local_landmarks(const Map& map, const std::vector<int>& seen,
+                                 const Pose& T_map_body, int at_most_keyframes);
+
+/// The landmarks of an association, ascending, each once.
+std::vector<int> landmark_ids(const Associations& associations);
+
+}  // namespace vinebench

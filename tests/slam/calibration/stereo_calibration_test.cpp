@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/calibration/stereo_calibration.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/aisle_map.h"
+
+namespace vinebench {
+namespace {
+
+using testing_support::AisleMap;
+using testing_support::SyntheticAisle;
+
+/// Poses of a drive of 2.4 m.
+std::vector<Pose> drive() {
+  std::vector<Pose> poses;
+  for (int i = 0; i < 12; ++i) {
+    poses.push_back({exp_so3({0, 0, 0.02 * i}), {0.2 * i, 0.01 * i, 0}});
+  }
+  return poses;
+}
+
+/// A map whose second pair measures disparities too small by `offset` px, with landmarks where that
+/// puts them.
+AisleMap map_with_offset(const SyntheticAisle& aisle, double offset) {
+  AisleMap made(aisle, {});
+  const EyeModel& eye = made.rig.eyes[1];
+  for (const Pose& pose : drive()) {
+    auto frame = aisle.frame(static_cast<std::int64_t>(made.map.keyframes().size()), pose);
+    StereoView& view = frame->views[1];
+    for (std::size_t f = 0; f < view.stereo.size(); ++f) {
+      StereoMatch& match = view.stereo[f];
+      match.x_right += static_cast<float>(offset);
+      match.depth = static_cast<float>(
+          eye.depth_of(static_cast<double>(view.features.keypoints[f].x - match.x_right)));
+    }
+    made.add(frame, pose);
+  }
+  for (Landmark& landmark : made.map.landmarks()) {
+    const Observation& o = landmark.observations.front();
+    const Keyframe& keyframe = made.map.keyframe(o.keyframe);
+    landmark.position =
+        made.rig.stereo_point(keyframe.frame->views[static_cast<std::size_t>(o.view)], o.view,
+                              o.feature, keyframe.T_map_body);
+  }
+  return made;
+}
+
+// Pixels are stored as floats, to 3e-5 px; the offset is tied to thousands of them.
+TEST(StereoCalibrationTest, FindsTheOffsetOfAPair) {
+  const SyntheticAisle aisle(0, 1, 800);
+  const AisleMap made = map_with_offset(aisle, 0.8);
+  const auto offsets = find_disparity_offsets(made.map, made.rig, {});
+  ASSERT_TRUE(offsets);
+  EXPECT_NEAR((*offsets)[0], 0, 1e-3);
+  EXPECT_NEAR((*offsets)[1], 0.8, 1e-3);
+}
+
+// Half a pixel of noise in thousands of pixels: a hundredth of a pixel, five times that at most.
+TEST(StereoCalibrationTest, FindsItAmongNoise) {
+  const SyntheticAisle aisle(0.5, 2, 800);
+  const AisleMap made = map_with_offset(aisle, -0.5);
+  const auto offsets = find_disparity_offsets(made.map, made.rig, {});
+  ASSERT_TRUE(offsets);
+  EXPECT_NEAR((*offsets)[0], 0, 0.05);
+  EXPECT_NEAR((*offsets)[1], -0.5, 0.05);
+}
+
+TEST(StereoCalibrationTest, ARightCalibrationStays) {
+  const SyntheticAisle aisle(0.5, 3, 800);
+  const AisleMap made = map_with_offset(aisle, 0);
+  EXPECT_FALSE(find_disparity_offsets(made.map, made.rig, {}));
+}
+
+// What was found before is where the search begins: nothing new is found.
+TEST(StereoCalibrationTest, WhatIsKnownIsNotFoundAgain) {
+  const SyntheticAisle aisle(0, 1, 800);
+  AisleMap made = map_with_offset(aisle, 0.8);
+  made.rig.set_disparity_offsets({0, 0.8});
+  EXPECT_FALSE(find_disparity_offsets(made.map, made.rig, {}));
+}
+
+TEST(StereoCalibrationTest, IsDueAtTwelveKeyframesAndEachTimeTheyHaveDoubled) {
+  Map map(1.2);
+  std::vector<int> due;
+  for (int i = 1; i < 400; ++i) {
+    map.add_keyframe(std::make_shared<FrameFeatures>(), {}, {});
+    if (calibration_due(map)) due.push_back(i);
+  }
+  EXPECT_EQ(due, (std::vector<int>{12, 24, 48, 96}));
+}
+
+}  // namespace
+}  // namespace vinebench

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/factors/robust_loss.h"
+
+#include <ceres/loss_function.h>
+#include <gtest/gtest.h>
+
+namespace vinebench {
+namespace {
+
+/// Ceres gives (cost, weight, its derivative) of the same losses.
+void expect_same(const RobustLoss& loss, const ceres::LossFunction& reference) {
+  for (const double s : {0.0, 0.3, 1.0, 4.0, 5.99, 6.01, 50.0, 1e6}) {
+    double rho[3];
+    reference.Evaluate(s, rho);
+    EXPECT_NEAR(loss.cost(s), rho[0], 1e-12 * (1 + rho[0])) << s;
+    EXPECT_NEAR(loss.weight(s), rho[1], 1e-12) << s;
+  }
+}
+
+TEST(RobustLossTest, AgreesWithCeres) {
+  expect_same(RobustLoss::huber(2.4477), ceres::HuberLoss(2.4477));
+  expect_same(RobustLoss::cauchy(1), ceres::CauchyLoss(1));
+  expect_same(RobustLoss::cauchy(2.5), ceres::CauchyLoss(2.5));
+}
+
+}  // namespace
+}  // namespace vinebench

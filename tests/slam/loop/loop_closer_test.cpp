@@ -1,0 +1,283 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/loop/loop_closer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/util/error.h"
+#include "slam/optimisation/bundle_adjustment.h"
+#include "tests/support/aisle_map.h"
+
+namespace vinebench {
+namespace {
+
+using testing_support::AisleMap;
+using testing_support::angle;
+using testing_support::distance;
+using testing_support::SyntheticAisle;
+
+constexpr int kSide = 4;  // index of the rover's tag camera
+
+class LoopCloserTest : public testing::Test {
+ protected:
+  LoopCloser closer(const std::vector<RegisteredTag>& tags = {}) const {
+    return {config_, rig_, tags};
+  }
+
+  /// A sighting of a tag that stands at T_body_tag.
+  TagSighting sighting(int id, const Pose& T_body_tag) const {
+    TagSighting seen;
+    seen.camera = kSide;
+    seen.family = "tag36h11";
+    seen.id = id;
+    seen.T_cam_tag = rig_.rig.cameras[kSide].T_body_cam.inverse() * T_body_tag;
+    return seen;
+  }
+
+  TagSighting with_corners(TagSighting seen) const {
+    const RigCamera& side = rig_.rig.cameras[kSide];
+    for (std::size_t c = 0; c < 4; ++c) {
+      seen.corners[c] = side.model.project(seen.T_cam_tag * tag_corners(0.161)[c]);
+    }
+    return seen;
+  }
+
+  std::shared_ptr<const FrameFeatures> frame(std::int64_t index,
+                                             const std::vector<TagSighting>& tags) const {
+    auto features = std::make_shared<FrameFeatures>();
+    features->index = index;
+    features->stamp = stamp_of_frame(index, 15);
+    features->tags = tags;
+    return features;
+  }
+
+  SyntheticAisle aisle_{0, 1, 600};
+  EstimatorRig rig_{aisle_.rig, OrbConfig{}};
+  SlamConfig config_;
+  Map map_{1.2};
+  const Pose T_body_tag_{exp_so3({-1.5, 0.2, 0.1}), {0.1, -0.7, 0.5}};
+  const Pose body_{exp_so3({0, 0, 0.4}), {2, 1, 0}};
+};
+
+TEST_F(LoopCloserTest, ALoadedMapLiesInTheWorldAsItsRegisteredTagSays) {
+  const Pose T_map_world{exp_so3({0, 0, 0.3}), {1, 2, 0}};
+  const RegisteredTag first{"tag36h11", 1, 0.161, Pose{{1, 0, 0, 0}, {3, 0, 0.5}}};
+  const RegisteredTag second{"tag36h11", 2, 0.161, Pose{{1, 0, 0, 0}, {5, 1, 0.5}}};
+  map_.tags().push_back({"tag36h11", 1, 0.161, T_map_world * first.T_world_tag, true});
+  LoopCloser loop = closer({first, second});
+  loop.take_over(map_);
+  // Seen by a body that believes itself a decimetre off, the tag stands where the world has it.
+  const Pose T_map_tag = T_map_world * second.T_world_tag;
+  Pose believed = T_map_tag * T_body_tag_.inverse();
+  believed.translation.x() += 0.1;
+  loop.note(*frame(0, {sighting(2, T_body_tag_)}), believed, 0, map_);
+  ASSERT_EQ(map_.tags().size(), 2u);
+  EXPECT_LT(distance(map_.tags()[1].T_map_tag, T_map_tag), 1e-12);
+}
+
+TEST_F(LoopCloserTest, AnUnregisteredTagIsMappedAtFirstSight) {
+  LoopCloser loop = closer();
+  loop.note(*frame(0, {sighting(3, T_body_tag_)}), body_, 0, map_);
+  ASSERT_EQ(map_.tags().size(), 1u);
+  const MapTag tag = map_.tags()[0];
+  EXPECT_EQ(tag.id, 3);
+  EXPECT_EQ(tag.size, config_.tags.size);
+  EXPECT_FALSE(tag.fixed);
+  EXPECT_LT(distance(tag.T_map_tag, body_ * T_body_tag_), 1e-14);
+  // Seen again from a place that is a little wrong, it stays.
+  loop.note(*frame(1, {sighting(3, T_body_tag_)}), Pose{}, 0, map_);
+  ASSERT_EQ(map_.tags().size(), 1u);
+  EXPECT_EQ(distance(map_.tags()[0].T_map_tag, tag.T_map_tag), 0);
+}
+
+TEST_F(LoopCloserTest, RegisteredTagsKeepTheirPlacesAgainstEachOther) {
+  const Pose T_world_a{exp_so3({0.1, 0.2, 0.3}), {10, 20, 0.5}};
+  const Pose T_world_b{exp_so3({0.3, 0.1, 0.2}), {11, 22, 0.7}};
+  LoopCloser loop = closer({{"tag36h11", 0, 0.2, T_world_a}, {"tag36h11", 1, 0.3, T_world_b}});
+  loop.note(*frame(0, {sighting(0, T_body_tag_)}), body_, 0, map_);
+  // The second is seen in a wrong place: what is known beforehand counts.
+  loop.note(*frame(1, {sighting(1, T_body_tag_)}), body_, 0, map_);
+  ASSERT_EQ(map_.tags().size(), 2u);
+  EXPECT_TRUE(map_.tags()[0].fixed);
+  EXPECT_EQ(map_.tags()[1].size, 0.3);
+  const Pose T_a_b = map_.tags()[0].T_map_tag.inverse() * map_.tags()[1].T_map_tag;
+  EXPECT_LT(distance(T_a_b, T_world_a.inverse() * T_world_b), 1e-12);
+  EXPECT_LT(distance(map_.tags()[0].T_map_tag, body_ * T_body_tag_), 1e-12);
+}
+
+TEST_F(LoopCloserTest, ATagTellsWhereTheBodyIs) {
+  const Pose T_world_tag{exp_so3({0.1, 0.2, 0.3}), {10, 20, 0.5}};
+  LoopCloser loop = closer({{"tag36h11", 0, 0.2, T_world_tag}});
+  const TagSighting known = sighting(0, T_body_tag_);
+  EXPECT_FALSE(loop.world_pose({sighting(9, T_body_tag_)}));
+  const auto in_world = loop.world_pose({sighting(9, Pose{}), known});
+  ASSERT_TRUE(in_world);
+  EXPECT_LT(distance(*in_world * T_body_tag_, T_world_tag), 1e-12);
+
+  EXPECT_FALSE(loop.map_pose({known}, map_));
+  loop.note(*frame(0, {known}), body_, 0, map_);
+  const auto in_map = loop.map_pose({known}, map_);
+  ASSERT_TRUE(in_map);
+  EXPECT_LT(distance(*in_map, body_), 1e-12);
+  EXPECT_LT(angle(*in_map, body_), 1e-7);
+}
+
+TEST_F(LoopCloserTest, ATagThatWasLeftAndIsSeenAgainIsALoop) {
+  LoopCloser loop = closer();
+  const auto first = frame(0, {sighting(3, T_body_tag_)});
+  EXPECT_FALSE(loop.sees_loop(*first, 0));
+  map_.add_keyframe(first, body_, {});
+  loop.note(*first, body_, 0, map_);
+  // Three seconds are 45 frames; the way is at least a metre.
+  EXPECT_FALSE(loop.sees_loop(*frame(44, {sighting(3, T_body_tag_)}), 5.0));
+  EXPECT_FALSE(loop.sees_loop(*frame(45, {sighting(3, T_body_tag_)}), 0.99));
+  EXPECT_TRUE(loop.sees_loop(*frame(45, {sighting(3, T_body_tag_)}), 1.0));
+  EXPECT_FALSE(loop.sees_loop(*frame(45, {sighting(4, T_body_tag_)}), 1.0));
+  EXPECT_FALSE(loop.sees_loop(*frame(45, {}), 1.0));
+  // It stays one until it is closed.
+  loop.note(*frame(45, {sighting(3, T_body_tag_)}), body_, 1.0, map_);
+  EXPECT_TRUE(loop.sees_loop(*frame(46, {sighting(3, T_body_tag_)}), 1.02));
+}
+
+TEST_F(LoopCloserTest, OutOfViewForAMomentIsNotLeft) {
+  LoopCloser loop = closer();
+  map_.add_keyframe(frame(0, {sighting(3, T_body_tag_)}), body_, {});
+  // In view for every third second while 8 m are driven past it.
+  for (int i = 0; i < 400; i += 30) {
+    const auto seen = frame(i, {sighting(3, T_body_tag_)});
+    EXPECT_FALSE(loop.sees_loop(*seen, 0.02 * i)) << i;
+    loop.note(*seen, body_, 0.02 * i, map_);
+  }
+}
+
+TEST_F(LoopCloserTest, WhatNoKeyframeSawIsNoLoopYet) {
+  LoopCloser loop = closer();
+  map_.add_keyframe(frame(0, {}), body_, {});
+  loop.note(*frame(1, {sighting(3, T_body_tag_)}), body_, 0, map_);  // a frame between keyframes
+  EXPECT_FALSE(loop.sees_loop(*frame(100, {sighting(3, T_body_tag_)}), 5));
+  const auto keyframe = frame(100, {sighting(3, T_body_tag_)});
+  map_.add_keyframe(keyframe, body_, {});
+  loop.note(*keyframe, body_, 5, map_);
+  loop.note(*frame(101, {sighting(3, T_body_tag_)}), body_, 5, map_);
+  EXPECT_TRUE(loop.sees_loop(*frame(200, {sighting(3, T_body_tag_)}), 10));
+}
+
+TEST_F(LoopCloserTest, CanBeSwitchedOff) {
+  config_.loop.enabled = false;
+  LoopCloser loop = closer();
+  const auto first = frame(0, {sighting(3, T_body_tag_)});
+  map_.add_keyframe(first, body_, {});
+  loop.note(*first, body_, 0, map_);
+  EXPECT_FALSE(loop.sees_loop(*frame(100, {sighting(3, T_body_tag_)}), 5));
+}
+
+/// Six keyframes along the aisle; the tag's last sighting is beside its first.
+class LoopClosureTest : public LoopCloserTest {
+ protected:
+  LoopClosureTest() : known_(aisle_, {}) {
+    for (int k = 0; k < 6; ++k) {
+      truth_.push_back({exp_so3({0, 0, 0.02 * k}), {0.08 * k, 0.01 * k, 0}});
+    }
+  }
+
+  /// Keyframe k at frame 30 k, with the tag in view of the first and the last, and `second`
+  /// in view of the last two.
+  std::shared_ptr<const FrameFeatures> keyframe(int k, bool second) const {
+    const auto i = static_cast<std::size_t>(k);
+    const bool sees = k == 0 || k == 5;
+    auto features = std::make_shared<FrameFeatures>(
+        *(sees ? aisle_.frame_with_tag(30 * k, truth_[i], T_world_tag_)
+               : aisle_.frame(30 * k, truth_[i])));
+    if (second && k >= 4) {
+      TagSighting other = sighting(1, truth_[i].inverse() * truth_[4] * T_body_tag_);
+      features->tags.insert(features->tags.begin(), with_corners(other));
+    }
+    return features;
+  }
+
+  /// Every keyframe drifts by 1 cm and 0.3 degrees more than the one before.
+  Pose drifted(int k) const {
+    const auto i = static_cast<std::size_t>(k);
+    return truth_[i] * Pose{exp_so3({0, 0, 0.005 * k}), {0.01 * k, 0, 0}};
+  }
+
+  LoopClosure drive_and_close(LoopCloser& loop, bool second) {
+    for (int k = 0; k < 6; ++k) {
+      const auto features = keyframe(k, second);
+      EXPECT_EQ(loop.sees_loop(*features, 0.5 * k), k == 5) << k;
+      const int id = known_.add(features, drifted(k));
+      if (k == 5) return loop.close(id, 0.5 * k, known_.map);
+      loop.note(*features, drifted(k), 0.5 * k, known_.map);
+    }
+    return {};
+  }
+
+  void expect_true_poses() const {
+    for (std::size_t k = 0; k < 6; ++k) {
+      EXPECT_LT(distance(known_.map.keyframes()[k].T_map_body, truth_[k]), 1e-5) << k;
+      EXPECT_LT(angle(known_.map.keyframes()[k].T_map_body, truth_[k]), 1e-5) << k;
+    }
+  }
+
+  const Pose T_world_tag_ = Pose{exp_so3({-1.5, 0.1, 0}), {0.25, -0.8, 0.5}};
+  std::vector<Pose> truth_;
+  AisleMap known_;
+};
+
+TEST_F(LoopClosureTest, TiesTheTwoVisitsTogether) {
+  LoopCloser loop = closer();
+  const LoopClosure closure = drive_and_close(loop, false);
+  EXPECT_EQ(closure.tag_id, 0);
+  EXPECT_EQ(closure.earlier, 0);
+  EXPECT_EQ(closure.later, stamp_of_frame(150, 15));
+  const Pose moved = truth_[0].inverse() * truth_[5];
+  EXPECT_LT(distance(closure.T_earlier_later, moved), 1e-12);
+  EXPECT_NEAR(closure.correction, 0.05, 1e-5);  // five steps of 1 cm
+  expect_true_poses();
+  // Closed, the visit goes on.
+  EXPECT_FALSE(loop.sees_loop(*keyframe(5, false), 2.5));
+}
+
+TEST_F(LoopClosureTest, TheTagThatWasLeftClosesItWhateverElseIsInView) {
+  LoopCloser loop = closer();
+  const LoopClosure closure = drive_and_close(loop, true);
+  EXPECT_EQ(closure.tag_id, 0);  // tag 1 was in view at the keyframe before
+  EXPECT_EQ(closure.earlier, 0);
+  expect_true_poses();
+}
+
+TEST_F(LoopClosureTest, ARegisteredTagThatIsNewClosesItWithTheLastOne) {
+  // Tag 0 is in view at the first keyframe only, tag 7 at the last only; the world is the map.
+  const Pose T_world_new = truth_[5] * T_body_tag_;
+  LoopCloser loop =
+      closer({{"tag36h11", 0, 0.161, T_world_tag_}, {"tag36h11", 7, 0.161, T_world_new}});
+  for (int k = 0; k < 5; ++k) {
+    const auto features = keyframe(k, false);
+    known_.add(features, drifted(k));
+    loop.note(*features, drifted(k), 0.5 * k, known_.map);
+  }
+  auto last = std::make_shared<FrameFeatures>(*aisle_.frame(150, truth_[5]));
+  last->tags.push_back(with_corners(sighting(7, T_body_tag_)));
+  ASSERT_TRUE(loop.sees_loop(*last, 2.5));
+  const LoopClosure closure = loop.close(known_.add(last, drifted(5)), 2.5, known_.map);
+  EXPECT_EQ(closure.tag_id, 7);
+  EXPECT_EQ(closure.earlier, 0);
+  // By way of two tags it is the adjusted map that says so, which comes back to 1e-6.
+  const Pose moved = truth_[0].inverse() * truth_[5];
+  EXPECT_LT(distance(closure.T_earlier_later, moved), 1e-6);
+  EXPECT_EQ(distance(closure.T_earlier_later, known_.map.keyframe(0).T_map_body.inverse() *
+                                                  known_.map.keyframe(5).T_map_body),
+            0);
+  expect_true_poses();
+}
+
+TEST_F(LoopClosureTest, WithoutALoopThereIsNothingToClose) {
+  LoopCloser loop = closer();
+  const int id = known_.add(keyframe(0, false), truth_[0]);
+  EXPECT_THAT([&] { loop.close(id, 0, known_.map); },
+              testing::ThrowsMessage<Error>(testing::HasSubstr("keyframe 0")));
+}
+
+}  // namespace
+}  // namespace vinebench

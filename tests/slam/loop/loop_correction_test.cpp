@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/loop/loop_correction.h"
+
+#include <gtest/gtest.h>
+
+namespace vinebench {
+namespace {
+
+/// Keyframes at these x, m, each with a landmark of its own one metre to its left.
+Map straight_map(const std::vector<double>& places) {
+  Map map(1.2);
+  for (const double x : places) {
+    auto frame = std::make_shared<FrameFeatures>();
+    frame->views.resize(1);
+    const int id = map.add_keyframe(frame, {Eigen::Quaterniond::Identity(), {x, 0, 0}}, {{}});
+    map.landmarks().emplace_back();
+    map.landmarks().back().id = id;
+    map.landmarks().back().first_keyframe = id;
+    map.landmarks().back().position = {x, 1, 0};
+  }
+  return map;
+}
+
+Eigen::Vector3d place(const Map& map, int id) {
+  return map.keyframe(id).T_map_body.translation;
+}
+
+Pose shifted(const Map& map, int id, const Eigen::Vector3d& shift) {
+  return {Eigen::Quaterniond::Identity(), place(map, id) + shift};
+}
+
+// Along the way turns do not matter: 0.3 m spread over steps of 1 and 2 m.
+TEST(SpreadCorrectionTest, SharesTheWayByItsLengthAndTakesLandmarksAlong) {
+  Map map = straight_map({0, 1, 2, 4});
+  spread_correction(map, 1, 3, shifted(map, 3, {0.3, 0, 0}), Matrix6d::Zero());
+  EXPECT_LT((place(map, 0) - Eigen::Vector3d(0, 0, 0)).norm(), 1e-12);
+  EXPECT_LT((place(map, 1) - Eigen::Vector3d(1, 0, 0)).norm(), 1e-12);
+  EXPECT_LT((place(map, 2) - Eigen::Vector3d(2.1, 0, 0)).norm(), 1e-9);
+  EXPECT_LT((place(map, 3) - Eigen::Vector3d(4.3, 0, 0)).norm(), 1e-9);
+  EXPECT_LT((map.landmark(1).position - Eigen::Vector3d(1, 1, 0)).norm(), 1e-12);
+  EXPECT_LT((map.landmark(2).position - Eigen::Vector3d(2.1, 1, 0)).norm(), 1e-9);
+}
+
+// The end is 1 cm to the side, its heading unknown. Of its variance across the way, 1e-6 m^2 is the
+// first step's own, as much the second's, and (2e-4 rad)^2 (1 m)^2 = 4e-8 m^2 comes by the first
+// step's turn: those are the shares of the centimetre.
+TEST(SpreadCorrectionTest, AnEarlyTurnSwingsWhatFollows) {
+  Map map = straight_map({0, 1, 2});
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance.bottomRightCorner<3, 3>() = 1e6 * Eigen::Matrix3d::Identity();
+  spread_correction(map, 0, 2, shifted(map, 2, {0, 0.01, 0}), covariance);
+  const double whole = 2 + 0.04;
+  // To first order: what is left out is the square of the turn, 4e-8.
+  EXPECT_NEAR(place(map, 1).y(), 0.01 / whole, 1e-7);
+  EXPECT_NEAR(yaw_of(map.keyframe(1).T_map_body.rotation), 0.01 * 0.04 / whole, 1e-7);
+  EXPECT_NEAR(place(map, 2).y(), 0.01, 1e-7);
+}
+
+// The heading is wrong by 10 mrad, and where the end stands is right: it stays there, to the second
+// order, 4 m (10 mrad)^2 / 2, and turns.
+TEST(SpreadCorrectionTest, ATurnLeavesTheEndInItsPlace) {
+  Map map = straight_map({0, 1, 2, 4});
+  const Eigen::Quaterniond turned(Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitZ()));
+  spread_correction(map, 0, 3, {turned, {4, 0, 0}}, Matrix6d::Zero());
+  EXPECT_LT((place(map, 3) - Eigen::Vector3d(4, 0, 0)).norm(), 2e-4);
+  EXPECT_NEAR(yaw_of(map.keyframe(3).T_map_body.rotation), 0.01, 1e-4);
+}
+
+// As uncertain as the way of 4 m itself, 4e-6 m^2, the tag is believed by half.
+TEST(SpreadCorrectionTest, AnUncertainTagIsBelievedInPart) {
+  Map map = straight_map({0, 1, 2, 4});
+  const Matrix6d covariance = 4e-6 * Matrix6d::Identity();
+  spread_correction(map, 0, 3, shifted(map, 3, {0.02, 0, 0}), covariance);
+  EXPECT_NEAR(place(map, 3).x(), 4.01, 1e-9);
+}
+
+// 10 cm of standard deviation against 1.7 mm of the other 3 m: the rest of the way gets 3 parts in
+// ten thousand of the correction.
+TEST(SpreadCorrectionTest, AStretchWithoutSightTakesIt) {
+  Map map = straight_map({0, 1, 2, 4});
+  map.keyframe(2).link = OdometryLink{1, {}, 0.01 * Matrix6d::Identity()};
+  spread_correction(map, 0, 3, shifted(map, 3, {0.2, 0, 0}), Matrix6d::Zero());
+  EXPECT_NEAR(place(map, 1).x(), 1, 1e-4);
+  EXPECT_NEAR(place(map, 2).x(), 2.2, 1e-4);
+  EXPECT_NEAR(place(map, 3).x(), 4.2, 1e-4);
+}
+
+}  // namespace
+}  // namespace vinebench

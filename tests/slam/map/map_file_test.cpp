@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/map/map_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/util/error.h"
+#include "core/util/files.h"
+#include "tests/support/aisle_map.h"
+#include "tests/support/test_folder.h"
+
+namespace vinebench {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing_support::AisleMap;
+using testing_support::SyntheticAisle;
+
+/// CRC-64/XZ bit by bit, as its definition has it.
+std::uint64_t slow_crc64(std::string_view bytes) {
+  std::uint64_t crc = ~0ULL;
+  for (const char byte : bytes) {
+    crc ^= static_cast<unsigned char>(byte);
+    for (int bit = 0; bit < 8; ++bit) {
+      crc = (crc >> 1) ^ ((crc & 1) != 0 ? 0xC96C5795D7870F42ULL : 0);
+    }
+  }
+  return ~crc;
+}
+
+/// The same bytes with a checksum that fits them.
+std::string sealed(std::string bytes) {
+  const std::size_t end = bytes.size() - 8;
+  const std::uint64_t crc = slow_crc64(std::string_view(bytes).substr(0, end));
+  for (std::size_t i = 0; i < 8; ++i) bytes[end + i] = static_cast<char>(crc >> (8 * i) & 0xffU);
+  return bytes;
+}
+
+/// A small map with one of everything: two keyframes, patches, placed features, a tag, a landmark
+/// that was removed.
+AisleMap small_map(const SyntheticAisle& aisle) {
+  AisleMap made(aisle, {Pose{}});
+  const Pose second{exp_so3({0, 0, 0.05}), {0.1, 0.02, 0}};
+  const Pose T_world_tag = made.rig.rig.cameras[4].T_body_cam * Pose{{1, 0, 0, 0}, {0, 0, 1}};
+  auto frame = aisle.frame_with_tag(1, second, T_world_tag);
+  for (StereoView& view : frame->views) {
+    view.placed.assign(view.features.size(), 0);
+    view.placed.front() = 1;
+  }
+  const int id = made.add(frame, second);
+  auto& patches = made.map.keyframe(id).patches;
+  for (const StereoView& view : frame->views) patches.emplace_back(view.features.size());
+  Patch grey;
+  grey.grey.fill(77);
+  patches[0].add(1, grey);
+  made.map.tags().push_back({"tag36h11", 0, 0.161, T_world_tag, true});
+  made.map.disparity_offsets() = {0, 0.25};
+  made.map.remove_landmark(made.map.keyframe(0).landmarks[0][2]);
+  return made;
+}
+
+class MapFileTest : public testing::Test {
+ protected:
+  Map parse(const std::string& bytes) const { return parse_map(bytes, made_.rig, "row.map"); }
+
+  /// The message of the Error that these bytes give; "" where they are a map.
+  std::string error_of(const std::string& bytes) const {
+    try {
+      parse(bytes);
+      return "";
+    } catch (const Error& error) {
+      return error.what();
+    }
+  }
+
+  SyntheticAisle aisle_{0.5, 1, 60};
+  AisleMap made_ = small_map(aisle_);
+  const std::string bytes_ = format_map(made_.map, made_.rig);
+};
+
+TEST_F(MapFileTest, TheChecksumIsCrc64Xz) {
+  EXPECT_EQ(slow_crc64("123456789"), 0x995DC9BBDF1939FAULL);  // the catalogue's check value
+  EXPECT_EQ(sealed(bytes_), bytes_);
+}
+
+TEST_F(MapFileTest, SavedLoadedAndSavedAgainItIsTheSame) {
+  EXPECT_EQ(format_map(parse(bytes_), made_.rig), bytes_);
+}
+
+TEST_F(MapFileTest, EverythingComesBack) {
+  const Map map = parse(bytes_);
+  ASSERT_EQ(map.keyframes().size(), 2u);
+  const Keyframe& then = made_.map.keyframe(1);
+  const Keyframe& now = map.keyframe(1);
+  EXPECT_EQ(now.T_map_body.translation, then.T_map_body.translation);
+  EXPECT_EQ(now.T_map_body.rotation.coeffs(), then.T_map_body.rotation.coeffs());
+  EXPECT_TRUE(now.inherited());
+  EXPECT_EQ(now.frame->stamp - map.keyframe(0).frame->stamp,
+            then.frame->stamp - made_.map.keyframe(0).frame->stamp);
+  EXPECT_EQ(now.covisible, then.covisible);
+  ASSERT_EQ(now.frame->tags.size(), 1u);
+  EXPECT_EQ(now.frame->tags[0].corners, then.frame->tags[0].corners);
+  EXPECT_EQ(now.patches[0].find(1)->grey[60], 77);
+  EXPECT_EQ(now.patches[0].find(0), nullptr);
+  const StereoView& view = now.frame->views[1];
+  EXPECT_EQ(view.placed, then.frame->views[1].placed);
+  EXPECT_EQ(view.features.descriptors, then.frame->views[1].features.descriptors);
+  EXPECT_EQ(view.stereo[3].depth, then.frame->views[1].stereo[3].depth);
+  const Keypoint& keypoint = view.features.keypoints[3];
+  std::vector<int> found;
+  view.grid.query(keypoint.x, keypoint.y, 0.1F, 0, 7, found);
+  EXPECT_THAT(found, testing::Contains(3));
+  ASSERT_EQ(map.tags().size(), 1u);
+  EXPECT_TRUE(map.tags()[0].fixed);
+  EXPECT_EQ(map.disparity_offsets(), (std::vector<double>{0, 0.25}));
+}
+
+TEST_F(MapFileTest, LandmarksKeepAllButTheirNumbers) {
+  const Map map = parse(bytes_);
+  EXPECT_EQ(map.landmarks().size() + 1, made_.map.landmarks().size());  // one was removed
+  for (const Keyframe& keyframe : made_.map.keyframes()) {
+    for (std::size_t v = 0; v < keyframe.landmarks.size(); ++v) {
+      for (std::size_t f = 0; f < keyframe.landmarks[v].size(); ++f) {
+        const int then = keyframe.landmarks[v][f];
+        const int now = map.keyframe(keyframe.id).landmarks[v][f];
+        ASSERT_EQ(then < 0, now < 0);
+        if (then < 0) continue;
+        EXPECT_EQ(map.landmark(now).id, now);
+        EXPECT_EQ(map.landmark(now).position, made_.map.landmark(then).position);
+        EXPECT_EQ(map.landmark(now).descriptor, made_.map.landmark(then).descriptor);
+        EXPECT_EQ(map.landmark(now).observations.size(),
+                  made_.map.landmark(then).observations.size());
+      }
+    }
+  }
+}
+
+TEST_F(MapFileTest, AnEmptyMapIsAMap) {
+  const std::string bytes = format_map(Map(1.2), made_.rig);
+  EXPECT_TRUE(parse(bytes).keyframes().empty());
+}
+
+TEST_F(MapFileTest, CutOffAnywhereItIsAnError) {
+  for (std::size_t n = 0; n < bytes_.size(); ++n) {
+    const std::string error = error_of(bytes_.substr(0, n));
+    ASSERT_THAT(error, HasSubstr("row.map: ")) << n;
+    ASSERT_THAT(error, HasSubstr(n < 8 ? "not a map" : "cut off")) << n;
+  }
+  EXPECT_THAT(error_of(bytes_ + "x"), HasSubstr("goes on after its end"));
+}
+
+TEST_F(MapFileTest, AnyAlteredByteIsAnError) {
+  for (std::size_t i = 0; i < bytes_.size(); ++i) {
+    std::string altered = bytes_;
+    altered[i] = static_cast<char>(altered[i] ^ (1 << (i % 8)));
+    ASSERT_THAT(error_of(altered), HasSubstr("row.map: ")) << i;
+  }
+}
+
+/// What a checksum does not tell: bytes altered before they were sealed. Either they are refused or
+/// what they make is a map that can be used.
+TEST_F(MapFileTest, AlteredBeforeSealingItIsAnErrorOrAMap) {
+  int refused = 0;
+  int accepted = 0;
+  for (std::size_t i = 20; i < bytes_.size() - 8; i += 3) {  // fields begin at any remainder
+    std::string altered = bytes_;
+    altered[i] = static_cast<char>(altered[i] ^ (i % 2 == 0 ? 0xff : 1 << (i % 8)));
+    altered = sealed(altered);
+    try {
+      Map map = parse(altered);
+      for (const Landmark& landmark : map.landmarks())
+        map.refresh(landmark.id, made_.rig.T_body_cams);
+      ASSERT_FALSE(format_map(map, made_.rig).empty());
+      ++accepted;
+    } catch (const Error&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 200);   // lengths, ties, levels, poses and all of the rig
+  EXPECT_GT(accepted, 200);  // descriptors, low bits of numbers
+}
+
+TEST_F(MapFileTest, AnotherVersionIsSaidSo) {
+  std::string other = bytes_;
+  other[8] = 1;  // version, low byte
+  EXPECT_THAT(error_of(sealed(other)),
+              AllOf(HasSubstr("version 1"), HasSubstr("expected version 3")));
+}
+
+TEST_F(MapFileTest, AnotherRigIsSaidSo) {
+  const Rig rover = load_rig(VINEBENCH_SOURCE_DIR "/models/csl-rover/rig.yaml");
+  const auto error_with = [&](const Rig& rig, const std::vector<std::string>& cameras) {
+    try {
+      parse_map(bytes_, EstimatorRig(make_stereo_rig(rig, cameras), OrbConfig{}), "row.map");
+      return std::string();
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(error_with(rover, {}), "");
+  EXPECT_THAT(error_with(rover, {"front"}), HasSubstr("another rig: it uses 2 stereo pairs"));
+  Rig moved = rover;
+  moved.cameras[4].T_body_cam.translation.x() += 0.01;
+  EXPECT_THAT(error_with(moved, {}), HasSubstr("camera 'side' sits elsewhere"));
+  Rig zoomed = rover;
+  for (RigCamera& camera : zoomed.cameras) camera.model.fx *= 1.01;
+  EXPECT_THAT(error_with(zoomed, {}), HasSubstr("camera 'front_left' has another lens"));
+  OrbConfig fewer;
+  fewer.levels = 6;
+  EXPECT_THROW(parse_map(bytes_, EstimatorRig(make_stereo_rig(rover, {}), fewer), "row.map"),
+               Error);
+}
+
+TEST_F(MapFileTest, FilesAreWrittenAndRead) {
+  const test::TestFolder folder;
+  const std::filesystem::path file = folder / "row.map";
+  save_map(made_.map, made_.rig, file);
+  EXPECT_EQ(read_file(file), bytes_);
+  EXPECT_EQ(load_map(file, made_.rig).keyframes().size(), 2u);
+  std::filesystem::remove(file);
+  EXPECT_THROW(load_map(file, made_.rig), Error);
+}
+
+}  // namespace
+}  // namespace vinebench

@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/tracking/relocaliser.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/aisle_map.h"
+
+namespace vinebench {
+namespace {
+
+using testing_support::AisleMap;
+using testing_support::angle;
+using testing_support::distance;
+using testing_support::SyntheticAisle;
+
+constexpr int kLandmarks = 1500;
+constexpr double kNoise = 0.5;  // px
+
+std::vector<Pose> along_the_aisle() {
+  std::vector<Pose> poses;
+  for (int i = 0; i < 14; ++i) poses.push_back({Eigen::Quaterniond::Identity(), {0.25 * i, 0, 0}});
+  return poses;
+}
+
+/// Of a frame, this share of the descriptors become those of drawn landmarks: wrong matches.
+void mislead(FrameFeatures& frame, const Map& map, int percent) {
+  const RandomStream random(9, "mislead");
+  std::uint64_t draw = 0;
+  for (StereoView& view : frame.views) {
+    for (Descriptor& descriptor : view.features.descriptors) {
+      if (random.uniform(draw++) * 100 >= percent) continue;
+      const double at = random.uniform(draw++) * static_cast<double>(map.landmarks().size());
+      descriptor = map.landmark(static_cast<int>(at)).descriptor;
+    }
+  }
+}
+
+/// Every descriptor differs from the landmark's in `bits` drawn bits, as real ones do.
+void blur(FrameFeatures& frame, int bits) {
+  const RandomStream random(10, "blur");
+  std::uint64_t draw = 0;
+  for (StereoView& view : frame.views) {
+    for (Descriptor& descriptor : view.features.descriptors) {
+      for (int b = 0; b < bits; ++b) {
+        const auto bit = static_cast<std::size_t>(random.uniform(draw++) * 256);
+        descriptor[bit / 64] ^= std::uint64_t{1} << (bit % 64);
+      }
+    }
+  }
+}
+
+class RelocaliserTest : public testing::Test {
+ protected:
+  std::optional<Relocation> find(const FrameFeatures& frame) const {
+    return relocate(made_.map, made_.rig, frame, {});
+  }
+
+  SyntheticAisle aisle_{kNoise, 1, kLandmarks};
+  AisleMap made_{aisle_, along_the_aisle()};
+  const Pose truth_{exp_so3({0, 0, 0.15}), {1.6, 0.08, 0}};
+};
+
+TEST_F(RelocaliserTest, FindsWhereAFrameWasTaken) {
+  const auto frame = aisle_.frame(100, truth_);
+  const auto found = find(*frame);
+  ASSERT_TRUE(found);
+  // 0.5 px at 263 px and one metre is 2 mm for one feature, a tenth of it for some hundred.
+  EXPECT_LT(distance(found->T_map_body, truth_), 0.002);
+  EXPECT_LT(angle(found->T_map_body, truth_), 0.002);
+  EXPECT_GT(found->inliers, 100);
+}
+
+TEST_F(RelocaliserTest, FindsItAmongWrongMatchesAndChangedLooks) {
+  const auto frame = aisle_.frame(100, truth_);
+  blur(*frame, 30);
+  mislead(*frame, made_.map, 40);
+  const auto found = find(*frame);
+  ASSERT_TRUE(found);
+  EXPECT_LT(distance(found->T_map_body, truth_), 0.003);
+}
+
+TEST_F(RelocaliserTest, FindsItTurnedAbout) {
+  // What the front pair mapped the back pair sees.
+  const Pose turned = truth_ * Pose{exp_so3({0, 0, 3.0}), Eigen::Vector3d::Zero()};
+  const auto found = find(*aisle_.frame(100, turned));
+  ASSERT_TRUE(found);
+  EXPECT_LT(distance(found->T_map_body, turned), 0.003);
+}
+
+TEST_F(RelocaliserTest, OnePairIsEnough) {
+  const auto found = find(*aisle_.frame(100, truth_, {1}));
+  ASSERT_TRUE(found);
+  EXPECT_LT(distance(found->T_map_body, truth_), 0.004);
+}
+
+TEST_F(RelocaliserTest, FindsNothingInAnotherAisle) {
+  const SyntheticAisle other(kNoise, 2, kLandmarks);
+  EXPECT_FALSE(find(*other.frame(100, truth_)));
+}
+
+TEST_F(RelocaliserTest, FindsNothingWhereLooksAgreeButPlacesDoNot) {
+  const auto frame = aisle_.frame(100, truth_);
+  mislead(*frame, made_.map, 100);
+  EXPECT_FALSE(find(*frame));
+}
+
+TEST_F(RelocaliserTest, FindsNothingWithoutFeaturesOrWithoutAMap) {
+  EXPECT_FALSE(find(*aisle_.frame(100, truth_, {0, 1})));
+  EXPECT_FALSE(relocate(Map(1.2), made_.rig, *aisle_.frame(100, truth_), {}));
+}
+
+/// Two stretches of a row that are the same to the last leaf: neither may be chosen.
+TEST_F(RelocaliserTest, FindsNothingWhereTwoPlacesLookTheSame) {
+  Map map(OrbConfig{}.scale);
+  for (const double shift : {0.0, 20.0}) {
+    std::map<int, int> landmark_of;
+    for (const Pose& pose : along_the_aisle()) {
+      const auto frame = aisle_.frame(static_cast<std::int64_t>(map.keyframes().size()), pose);
+      Pose moved = pose;
+      moved.translation.x() += shift;
+      const int id = map.add_keyframe(frame, moved, no_associations(*frame));
+      for (std::size_t v = 0; v < frame->views.size(); ++v) {
+        for (std::size_t f = 0; f < frame->views[v].features.size(); ++f) {
+          const int point = aisle_.point_of(frame->views[v].features.descriptors[f]);
+          const Observation seen{id, static_cast<int>(v), static_cast<int>(f)};
+          if (const auto known = landmark_of.find(point); known != landmark_of.end()) {
+            map.add_observation(known->second, seen);
+          } else {
+            const Eigen::Vector3d p = aisle_.point(point) + Eigen::Vector3d(shift, 0, 0);
+            landmark_of[point] = map.add_landmark(p, seen);
+          }
+        }
+      }
+    }
+    for (const auto& [point, landmark] : landmark_of) map.refresh(landmark, made_.rig.T_body_cams);
+  }
+  EXPECT_FALSE(relocate(map, made_.rig, *aisle_.frame(100, truth_), {}));
+}
+
+TEST_F(RelocaliserTest, TwoFramesInARowMustAgree) {
+  Relocaliser relocaliser;
+  EXPECT_FALSE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(100, truth_)));
+  const Pose next = truth_ * Pose{{1, 0, 0, 0}, {0.02, 0, 0}};
+  const auto found = relocaliser.find(made_.map, made_.rig, *aisle_.frame(101, next));
+  ASSERT_TRUE(found);
+  EXPECT_LT(distance(*found, next), 0.002);
+}
+
+TEST_F(RelocaliserTest, FramesThatDisagreeAreNotBelieved) {
+  Relocaliser relocaliser;
+  EXPECT_FALSE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(100, truth_)));
+  // 1.1 m within 67 ms.
+  EXPECT_FALSE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(101, along_the_aisle()[2])));
+  // A gap of a blind frame begins anew.
+  EXPECT_FALSE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(102, truth_, {0, 1})));
+  EXPECT_FALSE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(103, truth_)));
+  EXPECT_TRUE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(104, truth_)));
+}
+
+TEST_F(RelocaliserTest, TheSameFrameGivesTheSameBits) {
+  const auto frame = aisle_.frame(100, truth_);
+  const auto a = find(*frame);
+  const auto b = find(*frame);
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->T_map_body.translation, b->T_map_body.translation);
+  EXPECT_EQ(a->T_map_body.rotation.coeffs(), b->T_map_body.rotation.coeffs());
+}
+
+}  // namespace
+}  // namespace vinebench

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "slam/camera/estimator_rig.h"
+#include "slam/map/map.h"
+#include "tests/support/synthetic_aisle.h"
+
+namespace vinebench::testing_support {
+
+/// A map of the aisle as it is: keyframes at the true poses, landmarks at the true places, every
+/// feature tied to its own.
+struct AisleMap {
+  AisleMap(const SyntheticAisle& from, const std::vector<Pose>& poses)
+      : aisle(from), rig(from.rig, OrbConfig{}), map(OrbConfig{}.scale) {
+    for (const Pose& pose : poses) {
+      add(aisle.frame(static_cast<std::int64_t>(map.keyframes().size()), pose), pose);
+    }
+  }
+
+  /// Adds a keyframe, ties what is known and makes landmarks of the rest. Returns its id.
+  int add(const std::shared_ptr<const FrameFeatures>& frame, const Pose& T_map_body) {
+    const int id = map.add_keyframe(frame, T_map_body, associate(*frame));
+    for (std::size_t v = 0; v < frame->views.size(); ++v) {
+      const auto& descriptors = frame->views[v].features.descriptors;
+      for (std::size_t f = 0; f < descriptors.size(); ++f) {
+        const int point = aisle.point_of(descriptors[f]);
+        if (landmark_of.count(point) > 0) continue;
+        landmark_of[point] =
+            map.add_landmark(aisle.point(point), {id, static_cast<int>(v), static_cast<int>(f)});
+      }
+    }
+    for (const auto& [point, landmark] : landmark_of) map.refresh(landmark, rig.T_body_cams);
+    return id;
+  }
+
+  /// The true landmark of each feature, as far as the map has it.
+  Associations associate(const FrameFeatures& frame) const {
+    Associations associations = no_associations(frame);
+    for (std::size_t v = 0; v < frame.views.size(); ++v) {
+      for (std::size_t f = 0; f < associations[v].size(); ++f) {
+        const auto found = landmark_of.find(aisle.point_of(frame.views[v].features.descriptors[f]));
+        if (found != landmark_of.end()) associations[v][f] = found->second;
+      }
+    }
+    return associations;
+  }
+
+  const SyntheticAisle& aisle;
+  EstimatorRig rig;
+  Map map;
+  std::map<int, int> landmark_of;  ///< by point of the aisle
+};
+
+/// Distance of two poses' origins, m, and angle between them, rad.
+inline double distance(const Pose& a, const Pose& b) {
+  return (a.translation - b.translation).norm();
+}
+inline double angle(const Pose& a, const Pose& b) {
+  return angle_of(a.rotation.conjugate() * b.rotation);
+}
+
+}  // namespace vinebench::testing_support

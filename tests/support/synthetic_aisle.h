@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/geometry/rig.h"
+#include "core/util/random.h"
+#include "slam/camera/estimator_rig.h"
+#include "slam/camera/stereo_rig.h"
+#include "slam/map/map.h"
+
+namespace vinebench::testing_support {
+
+/// An aisle of random landmarks on two walls, and the features that a rig would extract there: the
+/// back end is tested on these, without pictures. World frame: the aisle runs along x at y = 0.
+class SyntheticAisle {
+ public:
+  SyntheticAisle(double noise_px, std::uint64_t seed, int landmarks = 6000)
+      : noise_(noise_px), seed_(seed) {
+    rig = make_stereo_rig(load_rig(VINEBENCH_SOURCE_DIR "/models/csl-rover/rig.yaml"), {});
+    RandomSequence random(RandomStream(seed, "aisle"));
+    for (int i = 0; i < landmarks; ++i) {
+      const double side = i % 2 == 0 ? 0.5 : -0.5;
+      points_.emplace_back(random.uniform(-4, 8), side + random.uniform(-0.1, 0.1),
+                           random.uniform(0.0, 1.4));
+      Descriptor descriptor;
+      const RandomStream bits(seed, "descriptor", static_cast<std::uint64_t>(i));
+      for (std::size_t w = 0; w < 4; ++w) descriptor[w] = bits.bits(w);
+      descriptors_.push_back(descriptor);
+      index_[descriptor] = i;
+    }
+  }
+
+  /// Which point a feature is of, and where that is in the world.
+  int point_of(const Descriptor& descriptor) const { return index_.at(descriptor); }
+  const Eigen::Vector3d& point(int index) const { return points_[static_cast<std::size_t>(index)]; }
+
+  /// Pairs listed in `blind` see nothing.
+  std::shared_ptr<FrameFeatures> frame(std::int64_t index, const Pose& T_world_body,
+                                       const std::vector<std::size_t>& blind = {}) const {
+    auto features = std::make_shared<FrameFeatures>();
+    features->index = index;
+    features->stamp = stamp_of_frame(index, 15);
+    features->views.resize(rig.pairs.size());
+    for (std::size_t v = 0; v < rig.pairs.size(); ++v) {
+      const bool sees = std::find(blind.begin(), blind.end(), v) == blind.end();
+      if (sees) fill(*features, v, T_world_body);
+      StereoView& view = features->views[v];
+      view.grid =
+          FeatureGrid(view.features.keypoints, rig.pairs[v].lens.width, rig.pairs[v].lens.height);
+    }
+    return features;
+  }
+
+  /// The same with a tag in the side camera's view.
+  std::shared_ptr<FrameFeatures> frame_with_tag(std::int64_t index, const Pose& T_world_body,
+                                                const Pose& T_world_tag) const {
+    auto features = std::make_shared<FrameFeatures>(*frame(index, T_world_body));
+    const int camera = rig.tag_cameras.front();
+    const RigCamera& side = rig.cameras[static_cast<std::size_t>(camera)];
+    TagSighting sighting;
+    sighting.camera = camera;
+    sighting.family = "tag36h11";
+    sighting.id = 0;
+    sighting.T_cam_tag = (T_world_body * side.T_body_cam).inverse() * T_world_tag;
+    const double h = 0.161 / 2;
+    const Eigen::Vector3d corners[] = {{-h, h, 0}, {h, h, 0}, {h, -h, 0}, {-h, -h, 0}};
+    for (std::size_t c = 0; c < 4; ++c) {
+      sighting.corners[c] = side.model.project(sighting.T_cam_tag * corners[c]);
+    }
+    features->tags.push_back(sighting);
+    return features;
+  }
+
+  StereoRig rig;
+
+ private:
+  void fill(FrameFeatures& features, std::size_t v, const Pose& T_world_body) const {
+    const StereoEye& eye = rig.pairs[v];
+    const Pose T_cam_world = eye.T_cam_body * T_world_body.inverse();
+    const RandomStream draw(seed_, "noise" + std::to_string(v),
+                            static_cast<std::uint64_t>(features.index));
+    StereoView& view = features.views[v];
+    for (std::size_t i = 0; i < points_.size() && view.features.size() < 1000; ++i) {
+      const Eigen::Vector3d p = T_cam_world * points_[i];
+      if (p.z() < 0.15 || p.z() > 4.8) continue;
+      const Eigen::Vector2d pixel = eye.lens.project(p);
+      if (!eye.lens.contains(pixel, 19)) continue;
+      const int level =
+          std::clamp(static_cast<int>(std::lround(std::log(2.0 / p.norm()) / std::log(1.2))), 0, 7);
+      const double sigma = noise_ * std::pow(1.2, level);
+      Keypoint keypoint;
+      keypoint.x = static_cast<float>(pixel.x() + sigma * draw.normal(3 * i));
+      keypoint.y = static_cast<float>(pixel.y() + sigma * draw.normal(3 * i + 1));
+      keypoint.level = level;
+      const double disparity =
+          eye.lens.fx * eye.baseline / p.z() + 0.5 * sigma * draw.normal(3 * i + 2);
+      StereoMatch match;
+      match.x_right = static_cast<float>(keypoint.x - disparity);
+      match.depth = static_cast<float>(eye.lens.fx * eye.baseline / disparity);
+      view.features.keypoints.push_back(keypoint);
+      view.features.descriptors.push_back(descriptors_[i]);
+      view.stereo.push_back(match);
+    }
+  }
+
+  double noise_;
+  std::uint64_t seed_;
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<Descriptor> descriptors_;
+  std::map<Descriptor, int> index_;
+};
+
+}  // namespace vinebench::testing_support
