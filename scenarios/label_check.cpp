@@ -12,7 +12,7 @@
 #include "scenarios/calibration_file.h"
 #include "scenarios/coco_check.h"
 #include "scenarios/dataset_format.h"
-#include "sim/scene.h"
+#include "sim/scene/scene.h"
 
 namespace vinebench {
 namespace {

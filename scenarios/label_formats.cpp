@@ -11,7 +11,7 @@
 #include "scenarios/label_table.h"
 #include "scenarios/slam_settings.h"
 #include "scenarios/truth_colours.h"
-#include "sim/rover_motion.h"
+#include "sim/rover/rover_flow.h"
 
 namespace vinebench {
 namespace {

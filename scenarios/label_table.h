@@ -7,7 +7,7 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
-#include "sim/scene.h"
+#include "sim/scene/scene.h"
 
 namespace vinebench {
 

@@ -8,7 +8,7 @@
 #include "scenarios/measurement.h"
 #include "scenarios/run_scenario.h"
 #include "scenarios/snapshot.h"
-#include "sim/mujoco_renderer.h"
+#include "sim/render/mujoco/mujoco_renderer.h"
 
 namespace vinebench {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "scenarios/label_table.h"
 #include "scenarios/run_length.h"
-#include "sim/scene_index.h"
-#include "sim/truth_images.h"
+#include "sim/scene/scene_index.h"
+#include "sim/truth/truth_images.h"
 
 namespace vinebench {
 

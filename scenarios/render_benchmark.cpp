@@ -14,8 +14,8 @@
 #include "scenarios/mujoco_benchmark.h"
 #include "scenarios/run_scenario.h"
 #include "scenarios/snapshot.h"
-#include "sim/renderer.h"
-#include "sim/terrain.h"
+#include "sim/render/renderer.h"
+#include "sim/world/terrain.h"
 
 namespace vinebench {
 namespace {

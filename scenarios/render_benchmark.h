@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/geometry/rig.h"
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace vinebench {
 

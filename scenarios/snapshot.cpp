@@ -15,7 +15,7 @@
 #include "core/util/files.h"
 #include "scenarios/label_table.h"
 #include "scenarios/run_scenario.h"
-#include "sim/renderer.h"
+#include "sim/render/renderer.h"
 
 namespace vinebench {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "core/geometry/camera.h"
 #include "scenarios/scenario.h"
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace vinebench {
 

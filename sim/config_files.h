@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "sim/rover.h"
-#include "sim/world.h"
+#include "sim/rover/rover.h"
+#include "sim/world/world.h"
 
 namespace vinebench {
 

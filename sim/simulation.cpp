@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "core/config/validate.h"
-#include "sim/driven_rover.h"
-#include "sim/rover_asset.h"
-#include "sim/truth.h"
+#include "sim/rover/driven_rover.h"
+#include "sim/rover/rover_asset.h"
+#include "sim/truth/truth.h"
 
 namespace vinebench {
 namespace {

@@ -15,13 +15,13 @@
 #include "core/slam_system.h"
 #include "core/util/stage_timer.h"
 #include "core/util/worker_pool.h"
-#include "sim/renderer.h"
-#include "sim/route.h"
-#include "sim/rover.h"
-#include "sim/scene_index.h"
-#include "sim/sensors.h"
-#include "sim/truth_images.h"
-#include "sim/world.h"
+#include "sim/render/renderer.h"
+#include "sim/rover/route.h"
+#include "sim/rover/rover.h"
+#include "sim/scene/scene_index.h"
+#include "sim/sensors/sensors.h"
+#include "sim/truth/truth_images.h"
+#include "sim/world/world.h"
 
 namespace vinebench {
 

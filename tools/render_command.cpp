@@ -12,10 +12,10 @@
 #include "scenarios/snapshot.h"
 #include "scenarios/truth_colours.h"
 #include "sim/config_files.h"
-#include "sim/renderer.h"
-#include "sim/rover.h"
-#include "sim/rover_asset.h"
-#include "sim/truth_images.h"
+#include "sim/render/renderer.h"
+#include "sim/rover/rover.h"
+#include "sim/rover/rover_asset.h"
+#include "sim/truth/truth_images.h"
 #include "tools/commands.h"
 
 namespace vinebench {

@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 #include <opencv2/core/utility.hpp>
 
-#include "sim/gl_context.h"
+#include "sim/render/gl/platform/gl_context.h"
 #include "vinebench/version.h"
 
 namespace vinebench {

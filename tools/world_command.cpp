@@ -10,7 +10,7 @@
 #include "core/util/error.h"
 #include "core/util/files.h"
 #include "sim/config_files.h"
-#include "sim/world_generator.h"
+#include "sim/world/world_generator.h"
 #include "tools/commands.h"
 
 namespace vinebench {

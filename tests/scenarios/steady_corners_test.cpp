@@ -17,7 +17,7 @@
 #include "scenarios/render_benchmark.h"
 #include "scenarios/run_scenario.h"
 #include "sim/config_files.h"
-#include "sim/renderer.h"
+#include "sim/render/renderer.h"
 #include "slam/features/orb_extractor.h"
 
 namespace vinebench {

@@ -11,8 +11,8 @@
 #include "core/geometry/rig.h"
 #include "scenarios/run_scenario.h"
 #include "sim/config_files.h"
-#include "sim/renderer.h"
-#include "sim/world.h"
+#include "sim/render/renderer.h"
+#include "sim/world/world.h"
 #include "slam/tags/tag_detector.h"
 
 namespace vinebench {

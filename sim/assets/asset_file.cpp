@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/assets/asset_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+
+#include "core/util/error.h"
+#include "core/util/files.h"
+#include "sim/assets/image_size.h"
+
+namespace vinebench {
+namespace {
+
+constexpr float kFarthest = 1e5f;  // m; what lies further from its origin is no plant
+
+std::string problem_of(const Vertex& v) {
+  if (!v.position.allFinite() || !v.uv.allFinite() || !v.normal.allFinite() ||
+      !std::isfinite(v.occlusion)) {
+    return "is not a finite number";
+  }
+  if (v.position.cwiseAbs().maxCoeff() <= kFarthest) return "";
+  return fmt::format("lies more than {} m from the origin", kFarthest);
+}
+
+void check(const Primitive& primitive, std::size_t materials, const std::string& file) {
+  for (std::size_t i = 0; i < primitive.vertices.size(); ++i) {
+    const std::string problem = problem_of(primitive.vertices[i]);
+    if (!problem.empty()) fail("{}: vertex {} {}", file, i, problem);
+  }
+  for (const std::uint32_t index : primitive.indices) {
+    if (index >= primitive.vertices.size()) {
+      fail("{}: a triangle names vertex {} of {}", file, index, primitive.vertices.size());
+    }
+  }
+  if (primitive.material < 0 || static_cast<std::size_t>(primitive.material) >= materials) {
+    fail("{}: names material {} of {}", file, primitive.material, materials);
+  }
+}
+
+void check(const Material& material, std::size_t textures, const std::string& file) {
+  if (!material.colour.allFinite() || material.colour.minCoeff() < 0 ||
+      material.colour.maxCoeff() > 1) {
+    fail("{}: material '{}': expected a colour of numbers from 0 to 1", file, material.name);
+  }
+  if (material.texture < -1 || material.texture >= static_cast<int>(textures)) {
+    fail("{}: names texture {} of {}", file, material.texture, textures);
+  }
+}
+
+void check(const Asset& asset, const std::string& file) {
+  for (const Material& material : asset.materials) check(material, asset.textures.size(), file);
+  for (const LevelOfDetail& level : asset.model.levels) {
+    for (const Primitive& primitive : level.primitives) {
+      check(primitive, asset.materials.size(), file);
+    }
+    if (triangle_count(level) == 0) fail("{}: expected a mesh, found no triangles", file);
+  }
+  if (asset.model.levels.empty()) fail("{}: expected a mesh, found no triangles", file);
+}
+
+/// Foreign normals are seldom exactly of length one; ours stay as they are.
+void normalise(Asset& asset) {
+  for (LevelOfDetail& level : asset.model.levels) {
+    for (Primitive& primitive : level.primitives) {
+      for (Vertex& vertex : primitive.vertices) {
+        const float length = vertex.normal.stableNorm();
+        if (length < 1e-6f || !std::isfinite(length)) {
+          vertex.normal = Eigen::Vector3f::UnitZ();
+        } else if (std::abs(length - 1) > 1e-4f) {
+          vertex.normal /= length;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+namespace {
+
+constexpr const char* kPictures = "expected a picture (PNG, JPEG, TIFF)";
+
+/// A few bytes can ask for gigabytes of pixels.
+void check_size(std::string_view bytes, const std::string& where) {
+  constexpr double kLargest = 16384, kMost = 1 << 24;  // px, on a side and in all
+  const std::optional<cv::Size2d> size = picture_size(bytes);
+  if (!size) fail("{}: {}, found something else", where, kPictures);
+  if (size->width >= 1 && size->height >= 1 && std::max(size->width, size->height) <= kLargest &&
+      size->area() <= kMost) {
+    return;
+  }
+  fail("{}: expected a picture of 1 to {} pixels a side and {} in all, found {} x {}", where,
+       kLargest, kMost, size->width, size->height);
+}
+
+cv::Mat decode(std::string_view bytes) {
+  const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
+  cv::Mat picture = cv::imdecode(raw, cv::IMREAD_UNCHANGED);
+  if (picture.depth() == CV_16U) picture.convertTo(picture, CV_8U, 1 / 257.0);
+  if (picture.empty() || picture.depth() != CV_8U) return {};
+  cv::Mat rgba;
+  const int channels = picture.channels();
+  cv::cvtColor(picture, rgba,
+               channels == 4   ? cv::COLOR_BGRA2RGBA
+               : channels == 3 ? cv::COLOR_BGR2RGBA
+                               : cv::COLOR_GRAY2RGBA);
+  return rgba;
+}
+
+}  // namespace
+
+std::string read_mesh_file(const std::filesystem::path& file) {
+  constexpr std::uintmax_t kMost = std::uintmax_t{1} << 30;
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  // A pipe or a device may never end.
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+      !std::filesystem::is_directory(status)) {
+    fail("{}: expected a file, found a pipe or a device", file.string());
+  }
+  if (const auto size = std::filesystem::file_size(file, error); !error && size > kMost) {
+    fail("{}: expected at most 1 GiB, found {} bytes", file.string(), size);
+  }
+  std::string bytes = read_file(file);
+  if (bytes.empty()) fail("{}: expected a mesh or its parts, found an empty file", file.string());
+  return bytes;
+}
+
+cv::Mat decode_picture(std::string_view bytes, const std::string& where) {
+  check_size(bytes, where);
+  cv::Mat rgba;
+  try {
+    rgba = decode(bytes);
+  } catch (const cv::Exception&) {
+    rgba.release();
+  }
+  if (rgba.empty()) fail("{}: {} of 8 or 16 bits a channel, found a broken one", where, kPictures);
+  return rgba;
+}
+
+void compute_normals(Primitive& primitive) {
+  for (Vertex& vertex : primitive.vertices) vertex.normal.setZero();
+  for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+    const std::uint32_t* corner = &primitive.indices[i];
+    const auto size = primitive.vertices.size();
+    if (corner[0] >= size || corner[1] >= size || corner[2] >= size) continue;
+    const Eigen::Vector3f& a = primitive.vertices[corner[0]].position;
+    const Eigen::Vector3f across = (primitive.vertices[corner[1]].position - a)
+                                       .cross(primitive.vertices[corner[2]].position - a);
+    for (int k = 0; k < 3; ++k) primitive.vertices[corner[k]].normal += across;
+  }
+  for (Vertex& vertex : primitive.vertices) vertex.normal.stableNormalize();
+}
+
+Asset load_asset(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return std::tolower(c); });
+  Asset asset;
+  if (extension == ".glb" || extension == ".gltf") {
+    asset = read_gltf(file);
+  } else if (extension == ".obj" || extension == ".stl" || extension == ".dae") {
+    asset = import_mesh(file);
+  } else {
+    fail("{}: expected a mesh of .glb, .gltf, .obj, .stl or .dae", file.string());
+  }
+  check(asset, file.string());
+  normalise(asset);
+  asset.update_bounds();
+  return asset;
+}
+
+}  // namespace vinebench

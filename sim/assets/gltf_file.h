@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "sim/assets/gltf.h"
+
+namespace vinebench {
+
+/// The parts of a .glb or .gltf file with its buffers; pictures stay as the bytes of their files.
+/// What the parts say of each other is not checked. Throws Error that names the file.
+tinygltf::Model parse_gltf(const std::filesystem::path& file);
+
+}  // namespace vinebench

@@ -1,0 +1,293 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "core/util/error.h"
+#include "sim/assets/asset_file.h"
+#include "sim/assets/gltf.h"
+#include "sim/assets/gltf_accessor.h"
+#include "sim/assets/gltf_file.h"
+
+namespace vinebench {
+namespace {
+
+using tinygltf::Value;
+
+/// glTF's y up to z up.
+Eigen::Matrix4f z_up() {
+  Eigen::Matrix4f m = Eigen::Matrix4f::Zero();
+  m(0, 0) = m(2, 1) = m(3, 3) = 1;
+  m(1, 2) = -1;
+  return m;
+}
+
+class GltfReader {
+ public:
+  explicit GltfReader(const std::filesystem::path& file)
+      : file_(file.string()), model_(parse_gltf(file)) {}
+
+  Asset read() {
+    for (const tinygltf::Texture& texture : model_.textures) add(texture);
+    for (const tinygltf::Material& material : model_.materials) add(material);
+    asset_.model.name = std::filesystem::path(file_).stem().string();
+    add_levels();
+    return std::move(asset_);
+  }
+
+ private:
+  void add(const tinygltf::Texture& from) {
+    const tinygltf::Image& image = at(model_.images, from.source, "picture");
+    Texture texture;
+    texture.name = image.name.empty() ? image.uri : image.name;
+    const std::string where = fmt::format("{}: picture \"{}\"", file_, texture.name);
+    if (image.bufferView >= 0) {
+      texture.rgba = decode_picture(gltf_view(model_, image.bufferView, file_), where);
+    } else if (image.image.empty()) {
+      fail("{}: the file {} cannot be read", where, image.uri);
+    } else {
+      const auto* bytes = reinterpret_cast<const char*>(image.image.data());
+      texture.rgba = decode_picture({bytes, image.image.size()}, where);
+    }
+    if (from.sampler >= 0) {
+      const tinygltf::Sampler& sampler = at(model_.samplers, from.sampler, "sampler");
+      texture.repeat = sampler.wrapS != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    }
+    asset_.add(std::move(texture));
+  }
+
+  void add(const tinygltf::Material& from) {
+    const tinygltf::PbrMetallicRoughness& look = from.pbrMetallicRoughness;
+    Material material = make_material(from.name, Label::kLeaf, look.baseColorTexture.index);
+    if (material.texture >= 0) at(model_.textures, material.texture, "texture");
+    for (int i = 0; i < 3 && look.baseColorFactor.size() >= 3; ++i) {
+      material.colour[i] = static_cast<float>(look.baseColorFactor[static_cast<std::size_t>(i)]);
+    }
+    material.cutout = from.alphaMode != "OPAQUE";
+    material.double_sided = from.doubleSided;
+    if (from.extras.Has(kLabel)) {
+      const double last = static_cast<int>(Label::kPerson);
+      material.label =
+          static_cast<Label>(static_cast<int>(number(from.extras.Get(kLabel), kLabel, 0, last)));
+    }
+    if (from.extras.Has(kTranslucency)) {
+      material.translucency =
+          static_cast<float>(number(from.extras.Get(kTranslucency), kTranslucency, 0, 1));
+    }
+    asset_.add(std::move(material));
+  }
+
+  void add_levels() {
+    std::vector<int> roots = scene_roots();
+    LevelOfDetail finest;
+    for (const int root : roots) add_node(root, z_up(), 0, finest);
+    asset_.model.levels.push_back(std::move(finest));
+    if (roots.size() != 1) return;
+    const tinygltf::Node& node = at(model_.nodes, roots[0], "node");
+    asset_.model.name = node.name.empty() ? asset_.model.name : node.name;
+    const Value until = node.extras.Has(kUntil) ? node.extras.Get(kUntil) : Value();
+    const auto extension = node.extensions.find(kLevelsExtension);
+    if (until.ArrayLen() > 0) asset_.model.levels[0].until = distance(until.Get(0));
+    if (extension == node.extensions.end() || !extension->second.Has("ids")) return;
+    const Value& ids = extension->second.Get("ids");
+    // Without our distances, only the finest level can be used.
+    if (until.ArrayLen() != ids.ArrayLen() + 1) return;
+    for (int i = 0; i < static_cast<int>(ids.ArrayLen()); ++i) {
+      LevelOfDetail level{distance(until.Get(i + 1)), {}};
+      const double last = static_cast<double>(model_.nodes.size()) - 1;
+      add_node(static_cast<int>(number(ids.Get(i), kLevelsExtension, 0, last)), z_up(), 0, level);
+      asset_.model.levels.push_back(std::move(level));
+    }
+  }
+
+  /// A number within bounds; `what` names it.
+  double number(const Value& value, const char* what, double least, double most) const {
+    const double found = value.IsNumber() ? value.GetNumberAsDouble() : std::nan("");
+    if (!(found >= least && found <= most)) {
+      fail("{}: {}: expected a number from {} to {}, found {}", file_, what, least, most,
+           value.IsNumber() ? fmt::format("{}", found) : "none");
+    }
+    return found;
+  }
+
+  double distance(const Value& value) const { return number(value, kUntil, 0, 1e9); }
+
+  std::vector<int> scene_roots() const {
+    if (!model_.scenes.empty()) {
+      return at(model_.scenes, std::max(0, model_.defaultScene), "scene").nodes;
+    }
+    std::vector<bool> is_child(model_.nodes.size());
+    for (const tinygltf::Node& node : model_.nodes) {
+      for (const int child : node.children) {
+        at(model_.nodes, child, "node");
+        is_child[static_cast<std::size_t>(child)] = true;
+      }
+    }
+    std::vector<int> roots;
+    for (std::size_t i = 0; i < is_child.size(); ++i) {
+      if (!is_child[i]) roots.push_back(static_cast<int>(i));
+    }
+    return roots;
+  }
+
+  void add_node(int index, const Eigen::Matrix4f& T_model_parent, int depth, LevelOfDetail& level) {
+    constexpr int kDeepest = 64, kMost = 100000;
+    if (depth > kDeepest) fail("{}: nodes lie more than {} deep in each other", file_, kDeepest);
+    if (++visited_ > kMost) fail("{}: more than {} nodes", file_, kMost);
+    const tinygltf::Node& node = at(model_.nodes, index, "node");
+    const Eigen::Matrix4f T_model_node = T_model_parent * matrix_of(node);
+    if (node.mesh >= 0) {
+      for (const tinygltf::Primitive& primitive : at(model_.meshes, node.mesh, "mesh").primitives) {
+        level.primitives.push_back(part(primitive, T_model_node));
+      }
+    }
+    for (const int child : node.children) add_node(child, T_model_node, depth + 1, level);
+  }
+
+  /// tinygltf keeps what it could read of a list that is broken.
+  void expect_size(const std::vector<double>& numbers, std::size_t size, const char* what) const {
+    if (numbers.empty() || numbers.size() == size) return;
+    fail("{}: {} of {} numbers, expected {}", file_, what, numbers.size(), size);
+  }
+
+  Eigen::Matrix4f matrix_of(const tinygltf::Node& node) const {
+    expect_size(node.matrix, 16, "matrix");
+    expect_size(node.translation, 3, "translation");
+    expect_size(node.rotation, 4, "rotation");
+    expect_size(node.scale, 3, "scale");
+    if (node.matrix.size() == 16) {
+      return Eigen::Map<const Eigen::Matrix4d>(node.matrix.data()).cast<float>();
+    }
+    Eigen::Affine3d T = Eigen::Affine3d::Identity();
+    if (node.translation.size() == 3) {
+      T.translate(Eigen::Map<const Eigen::Vector3d>(node.translation.data()));
+    }
+    if (node.rotation.size() == 4) {
+      T.rotate(
+          Eigen::Quaterniond(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2])
+              .normalized());
+    }
+    if (node.scale.size() == 3) T.scale(Eigen::Map<const Eigen::Vector3d>(node.scale.data()));
+    return T.matrix().cast<float>();
+  }
+
+  Primitive part(const tinygltf::Primitive& from, const Eigen::Matrix4f& T_model_node) {
+    if (from.mode != TINYGLTF_MODE_TRIANGLES && from.mode != -1) {
+      fail("{}: a mesh of mode {}, expected triangles ({})", file_, from.mode,
+           TINYGLTF_MODE_TRIANGLES);
+    }
+    Primitive primitive;
+    primitive.material = from.material >= 0 ? from.material : default_material();
+    at(asset_.materials, primitive.material, "material");
+    const bool has_normals = read_vertices(from, primitive);
+    read_indices(from, primitive);
+    if (!has_normals) compute_normals(primitive);
+    transform(primitive, T_model_node);
+    return primitive;
+  }
+
+  /// Whether they have normals.
+  bool read_vertices(const tinygltf::Primitive& from, Primitive& primitive) {
+    const auto attribute = [&](const char* name) {
+      const auto it = from.attributes.find(name);
+      return it == from.attributes.end() ? -1 : it->second;
+    };
+    if (attribute("POSITION") < 0) fail("{}: a mesh has no positions", file_);
+    const GltfNumbers positions(model_, attribute("POSITION"), TINYGLTF_TYPE_VEC3, file_);
+    take(sizeof(Primitive) + positions.size() * sizeof(Vertex));
+    primitive.vertices.resize(positions.size());
+    const auto read = [&](const char* name, int type, auto set) {
+      if (attribute(name) < 0) return false;
+      const GltfNumbers numbers(model_, attribute(name), type, file_);
+      name == kPart ? numbers.expect_whole(file_) : numbers.expect_real(file_);
+      if (numbers.size() != positions.size()) {
+        fail("{}: {} of {} vertices, expected {}", file_, name, numbers.size(), positions.size());
+      }
+      for (std::size_t i = 0; i < numbers.size(); ++i) set(primitive.vertices[i], numbers, i);
+      return true;
+    };
+    read("POSITION", TINYGLTF_TYPE_VEC3, [](Vertex& v, const GltfNumbers& n, std::size_t i) {
+      v.position = {n.real(i, 0), n.real(i, 1), n.real(i, 2)};
+    });
+    read("TEXCOORD_0", TINYGLTF_TYPE_VEC2, [](Vertex& v, const GltfNumbers& n, std::size_t i) {
+      v.uv = {n.real(i, 0), n.real(i, 1)};
+    });
+    read(kOcclusion, TINYGLTF_TYPE_SCALAR,
+         [](Vertex& v, const GltfNumbers& n, std::size_t i) { v.occlusion = n.real(i, 0); });
+    read(kPart, TINYGLTF_TYPE_SCALAR, [&](Vertex& v, const GltfNumbers& n, std::size_t i) {
+      if (n.whole(i) > 255) fail("{}: part {}, expected 0 to 255", file_, n.whole(i));
+      v.part = static_cast<std::uint8_t>(n.whole(i));
+    });
+    return read("NORMAL", TINYGLTF_TYPE_VEC3, [](Vertex& v, const GltfNumbers& n, std::size_t i) {
+      v.normal = {n.real(i, 0), n.real(i, 1), n.real(i, 2)};
+    });
+  }
+
+  /// Nodes may show one mesh many times: what is small in the file could fill the memory.
+  void take(std::size_t bytes) {
+    constexpr std::size_t kMost = 512;  // MiB
+    taken_ += bytes;
+    if (taken_ > kMost << 20) fail("{}: its meshes take more than {} MiB", file_, kMost);
+  }
+
+  void read_indices(const tinygltf::Primitive& from, Primitive& primitive) {
+    if (from.indices < 0) {
+      for (std::uint32_t i = 0; i < primitive.vertices.size(); ++i) primitive.indices.push_back(i);
+    } else {
+      const GltfNumbers numbers(model_, from.indices, TINYGLTF_TYPE_SCALAR, file_);
+      take(numbers.size() * sizeof(std::uint32_t));
+      numbers.expect_whole(file_);
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+        primitive.indices.push_back(numbers.whole(i));
+    }
+    if (primitive.indices.size() % 3 != 0) {
+      fail("{}: {} indices, expected three for each triangle", file_, primitive.indices.size());
+    }
+  }
+
+  /// Exact where the node does not turn or scale: our own files come back to the last bit.
+  void transform(Primitive& primitive, const Eigen::Matrix4f& m) const {
+    const Eigen::Matrix3f turn = m.topLeftCorner<3, 3>();
+    const float volume = turn.determinant();
+    if (!(std::abs(volume) > 0)) fail("{}: a node flattens its mesh", file_);
+    const Eigen::Matrix3f across = std::abs(volume) * turn.inverse().transpose();
+    for (Vertex& vertex : primitive.vertices) {
+      vertex.position = (turn * vertex.position + m.topRightCorner<3, 1>()).eval();
+      vertex.normal = (across * vertex.normal).eval();
+    }
+    if (volume > 0) return;
+    for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+      std::swap(primitive.indices[i + 1], primitive.indices[i + 2]);
+    }
+  }
+
+  int default_material() {
+    if (default_material_ < 0) {
+      default_material_ = asset_.add(make_material("default", Label::kLeaf, -1));
+    }
+    return default_material_;
+  }
+
+  template <class T>
+  const T& at(const std::vector<T>& items, int index, const char* what) const {
+    if (index < 0 || static_cast<std::size_t>(index) >= items.size()) {
+      fail("{}: names {} {} of {}", file_, what, index, items.size());
+    }
+    return items[static_cast<std::size_t>(index)];
+  }
+
+  std::string file_;
+  tinygltf::Model model_;
+  Asset asset_;
+  int default_material_ = -1;
+  int visited_ = 0;
+  std::size_t taken_ = 0;  ///< bytes of memory, by the meshes so far
+};
+
+}  // namespace
+
+Asset read_gltf(const std::filesystem::path& file) {
+  return GltfReader(file).read();
+}
+
+}  // namespace vinebench

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include <assimp/config.h>
+#include <assimp/material.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cctype>
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "core/util/error.h"
+#include "sim/assets/asset_file.h"
+#include "sim/assets/collada_check.h"
+
+namespace vinebench {
+namespace {
+
+constexpr double kMostVertices = 10e6;
+
+float linear(float srgb) {
+  return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
+}
+
+class MeshImporter {
+ public:
+  explicit MeshImporter(const std::filesystem::path& file) : file_(file) {
+    const std::string kind = file.extension().string();
+    is_collada_ = kind.size() == 4 && std::tolower(kind[1]) == 'd';
+  }
+
+  Asset read() {
+    const std::string text = read_mesh_file(file_);
+    if (is_collada_) check_collada(text, file_.string());
+    importer_.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
+                                 aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    const aiScene* scene =
+        loaded(importer_.ReadFile(file_.string(), aiProcess_ValidateDataStructure));
+    check_vertices(*scene);
+    if (vertices_below(*scene, *scene->mRootNode) > kMostVertices) {
+      fail("{}: expected at most {} vertices", file_.string(), kMostVertices);
+    }
+    scene = loaded(importer_.ApplyPostProcessing(
+        aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenSmoothNormals |
+        aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices));
+    Asset asset;
+    asset.model.name = file_.stem().string();
+    for (unsigned i = 0; i < scene->mNumMaterials; ++i) add(*scene->mMaterials[i], asset);
+    LevelOfDetail level;
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i)
+      level.primitives.push_back(part(*scene->mMeshes[i]));
+    asset.model.levels.push_back(std::move(level));
+    return asset;
+  }
+
+ private:
+  const aiScene* loaded(const aiScene* scene) const {
+    if (scene == nullptr || (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0) {
+      fail("{}: expected a mesh: {}", file_.string(), importer_.GetErrorString());
+    }
+    return scene;
+  }
+
+  /// Before assimp joins vertices: it would drop one that is no number as like its neighbour.
+  void check_vertices(const aiScene& scene) const {
+    for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+      const aiMesh& mesh = *scene.mMeshes[i];
+      for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+        if (!std::isfinite(mesh.mVertices[v].SquareLength())) {
+          fail("{}: vertex {} is not a finite number", file_.string(), v);
+        }
+      }
+    }
+  }
+
+  /// These formats do not say what has one side only: leaves of other tools are often sheets.
+  /// Of all meshes that the nodes show; nodes may show one mesh many times.
+  static double vertices_below(const aiScene& scene, const aiNode& node) {
+    double count = 0;
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+      count += scene.mMeshes[node.mMeshes[i]]->mNumVertices;
+    }
+    for (unsigned i = 0; i < node.mNumChildren; ++i) {
+      count += vertices_below(scene, *node.mChildren[i]);
+    }
+    return count;
+  }
+
+  void add(const aiMaterial& from, Asset& asset) const {
+    aiString name("material"), picture;
+    from.Get(AI_MATKEY_NAME, name);
+    Material material = make_material(name.C_Str(), Label::kLeaf, -1);
+    material.double_sided = true;
+    aiColor3D colour(0.6f, 0.6f, 0.6f);
+    from.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
+    material.colour = {linear(colour.r), linear(colour.g), linear(colour.b)};
+    if (from.GetTexture(aiTextureType_DIFFUSE, 0, &picture) == aiReturn_SUCCESS) {
+      Texture texture = load_texture(picture.C_Str());
+      cv::Mat alpha;
+      cv::extractChannel(texture.rgba, alpha, 3);
+      double lowest = 255;
+      cv::minMaxLoc(alpha, &lowest);
+      material.cutout = lowest < 128;
+      material.texture = asset.add(std::move(texture));
+    }
+    asset.add(std::move(material));
+  }
+
+  Texture load_texture(std::string name) const {
+    std::ranges::replace(name, '\\', '/');
+    const std::filesystem::path path = file_.parent_path() / name;
+    const std::string where = fmt::format("{}: picture {}", file_.string(), path.string());
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) fail("{}: no such file", where);
+    return {name, decode_picture(read_mesh_file(path), where), true};
+  }
+
+  Primitive part(const aiMesh& mesh) const {
+    Primitive primitive;
+    primitive.material = static_cast<int>(mesh.mMaterialIndex);
+    const auto z_up = [&](const aiVector3D& v) {
+      // Assimp turns a .dae to y up, whatever it says of itself, and leaves the others as they are.
+      return is_collada_ ? Eigen::Vector3f(v.x, -v.z, v.y) : Eigen::Vector3f(v.x, v.y, v.z);
+    };
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+      Vertex vertex;
+      vertex.position = z_up(mesh.mVertices[i]);
+      // Of a triangle without area.
+      const bool has_normal = mesh.HasNormals() && std::isfinite(mesh.mNormals[i].SquareLength());
+      vertex.normal = has_normal ? z_up(mesh.mNormals[i]) : Eigen::Vector3f::UnitZ();
+      if (mesh.HasTextureCoords(0)) {
+        vertex.uv = {mesh.mTextureCoords[0][i].x, 1 - mesh.mTextureCoords[0][i].y};
+      }
+      primitive.vertices.push_back(vertex);
+    }
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+      const aiFace& face = mesh.mFaces[i];
+      if (face.mNumIndices != 3) continue;
+      primitive.indices.insert(primitive.indices.end(), face.mIndices, face.mIndices + 3);
+    }
+    return primitive;
+  }
+
+  std::filesystem::path file_;
+  bool is_collada_ = false;
+  Assimp::Importer importer_;
+};
+
+}  // namespace
+
+Asset import_mesh(const std::filesystem::path& file) {
+  return MeshImporter(file).read();
+}
+
+}  // namespace vinebench

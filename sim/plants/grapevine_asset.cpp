@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+
+#include "sim/plants/grapevine_mesh.h"
+#include "sim/textures/textures.h"
+
+namespace vinebench {
+namespace {
+
+constexpr std::array<MeshDetail, 3> kNear{{{0.5, 11000, 9, 4, 1, true, 2, true},
+                                           {1.15, 4600, 7, 3, 1, false, 1, false},
+                                           {3.3, 2500, 5, 3, 2, false, 0, false}}};
+
+std::vector<Material> plant_materials() {
+  std::vector<Material> materials(kPlantMaterials);
+  materials[kTrunkMaterial] = make_material("bark", Label::kTrunk, kBarkTexture);
+  materials[kCaneMaterial] = make_material("cane", Label::kCane, kCaneTexture);
+  materials[kBunchMaterial] = make_material("bunch", Label::kBunch, kBunchTexture);
+  Material& leaf = materials[kLeafMaterial] = make_material("leaf", Label::kLeaf, kLeafTexture);
+  leaf.double_sided = true;
+  leaf.translucency = 0.35f;
+  Material& foliage = materials[kFoliageMaterial] = leaf;
+  foliage.name = "foliage";
+  foliage.texture = kFoliageTexture;
+  foliage.cutout = true;
+  Material& shelter = materials[kShelterMaterial] = make_material("grow tube", Label::kTrunk, -1);
+  shelter.colour = {0.42f, 0.52f, 0.30f};
+  shelter.double_sided = true;
+  shelter.translucency = 0.4f;
+  return materials;
+}
+
+}  // namespace
+
+std::vector<Texture> plant_textures(const Cultivar& cultivar, const GrowthStage& stage,
+                                    std::uint64_t seed) {
+  return {bark_texture(seed), cane_texture(seed, stage), leaf_texture(seed, cultivar, stage),
+          bunch_texture(seed, cultivar, stage)};
+}
+
+std::vector<Asset> mesh_grapevines(const std::vector<Grapevine>& plants,
+                                   const std::vector<Texture>& textures) {
+  const std::vector<Material> materials = plant_materials();
+  const FarPlants far(plants, textures, materials);
+  std::vector<Asset> assets;
+  for (std::size_t i = 0; i < plants.size(); ++i) {
+    Asset& asset = assets.emplace_back();
+    asset.textures = textures;
+    asset.textures.push_back(far.texture());
+    asset.materials = materials;
+    asset.model.name = "grapevine";
+    const CanopyLight light(plants[i].leaves);
+    for (const MeshDetail& detail : kNear) {
+      asset.model.levels.push_back(mesh_near(plants[i], detail, light));
+    }
+    for (LevelOfDetail& level : far.levels(i)) asset.model.levels.push_back(std::move(level));
+    asset.update_bounds();
+  }
+  return assets;
+}
+
+}  // namespace vinebench

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "sim/plants/grapevine.h"
+#include "sim/plants/grapevine_light.h"
+
+namespace vinebench {
+
+// How grapevines become triangles; mesh_grapevines puts it together.
+
+enum PlantTexture { kBarkTexture, kCaneTexture, kLeafTexture, kBunchTexture, kFoliageTexture };
+enum PlantMaterial {
+  kTrunkMaterial,
+  kCaneMaterial,
+  kLeafMaterial,
+  kBunchMaterial,
+  kFoliageMaterial,
+  kShelterMaterial,
+  kPlantMaterials
+};
+
+/// How finely a near plant is drawn.
+struct MeshDetail {
+  double until;   ///< m
+  int triangles;  ///< for a metre of row; berries get what the rest leaves
+  int wood_sides;
+  int cane_sides;
+  int stride;   ///< points of a path from one ring to the next
+  bool stalks;  ///< petioles, tendrils, stalks of bunches
+  int leaf;     ///< detail of a blade's outline
+  bool fine_berries;
+};
+
+/// A level of meshes, its occlusion baked.
+LevelOfDetail mesh_near(const Grapevine& plant, const MeshDetail& detail, const CanopyLight& light);
+
+/// The level that far ones are painted from: all but the trunk and the grow tube.
+std::vector<Primitive> mesh_to_paint(const Grapevine& plant, const CanopyLight& light);
+
+/// Trunk, arms and shelter, in a few triangles; `bunches` of them as solids.
+void add_far_wood(LevelOfDetail& level, const Grapevine& plant, int stride, int sides);
+void add_far_bunches(LevelOfDetail& level, const Grapevine& plant, int triangles);
+
+/// The plants as they look from both sides and from the row's end, all in one picture.
+class FarPlants {
+ public:
+  FarPlants(const std::vector<Grapevine>& plants, const std::vector<Texture>& textures,
+            const std::vector<Material>& materials);
+
+  const Texture& texture() const { return texture_; }
+
+  /// Levels for plants from 4.5 m to the horizon: curved cards at first, crossed ones later.
+  std::vector<LevelOfDetail> levels(std::size_t plant) const;
+
+ private:
+  struct Card {
+    TextureCell cell;
+    Eigen::Vector2f from, to;  ///< m, along x (or y for a slab) and z
+    float place = 0;           ///< m, along y (or x for a slab)
+    float occlusion = 1;
+    std::vector<float> relief;  ///< m along y, kReliefColumns + 1 by kReliefRows + 1, top first
+    bool empty = true;
+  };
+  struct Cards {
+    std::array<Card, 2> sides;  ///< the halves of the canopy at -y and +y
+    std::array<Card, 2> slabs;  ///< those at -x and +x, seen along the row
+  };
+
+  void paint(std::size_t plant, const std::vector<Texture>& textures,
+             const std::vector<Material>& materials);
+  Card paint_card(const Grapevine& part, const CanopyLight& light, bool slab, float sign,
+                  const cv::Rect& cell, const std::vector<Texture>& textures,
+                  const std::vector<Material>& materials);
+  static void add_side(Primitive& to, const Card& card, float sign, int columns, int rows);
+  static void add_slab(Primitive& to, const Card& card);
+
+  const std::vector<Grapevine>& plants_;
+  std::vector<Cards> cards_;
+  Texture texture_;
+};
+
+}  // namespace vinebench

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "sim/assets/asset.h"
+#include "sim/world/vines.h"
+
+namespace vinebench {
+
+/// The plants of a world, one for each template.
+struct PlantSet {
+  std::vector<Asset> grown;
+  std::vector<Asset> young;  ///< of the second year; none where the world has none
+};
+
+/// Read from the folder `cache`, or grown from the seed and kept there as .glb files. Their names
+/// hold a hash of all that shapes them; when one is missing or damaged all are grown anew. Throws
+/// Error when the folder cannot be written or the cultivar's file cannot be read.
+PlantSet cached_plants(const VinesConfig& vines, std::uint64_t seed,
+                       const std::filesystem::path& cache);
+
+}  // namespace vinebench

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "sim/render/renderer.h"
+
+namespace vinebench {
+
+struct GlFunctions;
+
+/// The seam to the platform: an off-screen GL 4.2 core context. Current in one thread at a time.
+class GlContext {
+ public:
+  using Function = void (*)();
+  GlContext();
+  GlContext(const GlContext&) = delete;
+  GlContext& operator=(const GlContext&) = delete;
+  virtual ~GlContext();
+  virtual void make_current() = 0;
+  /// Leaves no context current in the calling thread, so that another may take it.
+  virtual void release() = 0;
+  /// The entry point of that name, null when there is none.
+  virtual Function function(const char* name) const = 0;
+  /// All that sim/render/gl/platform/gl.h names, loaded at the first call, when the context must be
+  /// current. Throws Error that names what this OpenGL has not.
+  const GlFunctions& functions();
+
+ private:
+  std::unique_ptr<GlFunctions> functions_;
+};
+
+/// Whether this build has that platform.
+bool has_osmesa();
+bool has_egl();
+
+/// A software context through OSMesa. Throws Error when there is none to be had.
+std::unique_ptr<GlContext> make_osmesa_context();
+
+/// A context through EGL without any surface: Mesa's software renderer, or the driver of a GPU.
+/// Throws Error when there is none to be had.
+std::unique_ptr<GlContext> make_egl_context();
+
+/// The one place that chooses a platform. Throws Error when that one was not built or does not
+/// work.
+std::unique_ptr<GlContext> make_gl_context(GlBackend backend = GlBackend::kAuto);
+
+/// What OpenGL says of itself: "4.5 (Core Profile) Mesa 22.3.6".
+std::string gl_version();
+
+/// Makes a context current for a scope, and its functions those of sim/render/gl/platform/gl.h.
+class CurrentContext {
+ public:
+  explicit CurrentContext(GlContext& context);
+  ~CurrentContext() { context_.release(); }
+  CurrentContext(const CurrentContext&) = delete;
+  CurrentContext& operator=(const CurrentContext&) = delete;
+
+ private:
+  GlContext& context_;
+};
+
+}  // namespace vinebench

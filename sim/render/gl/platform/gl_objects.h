@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/render/gl/platform/gl.h"
+
+namespace vinebench {
+
+/// Owns one GL name; the context must be current when it dies.
+template <void (*destroy)(GLuint)>
+class GlName {
+ public:
+  GlName() = default;
+  explicit GlName(GLuint name) : name_(name) {}
+  GlName(GlName&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+  GlName& operator=(GlName&& other) noexcept {
+    std::swap(name_, other.name_);
+    return *this;
+  }
+  ~GlName() {
+    if (name_ != 0) destroy(name_);
+  }
+  GLuint get() const { return name_; }
+  explicit operator bool() const { return name_ != 0; }
+
+ private:
+  GLuint name_ = 0;
+};
+
+void destroy_buffer(GLuint name);
+void destroy_texture(GLuint name);
+void destroy_vertex_array(GLuint name);
+void destroy_framebuffer(GLuint name);
+void destroy_renderbuffer(GLuint name);
+void destroy_program(GLuint name);
+void destroy_sampler(GLuint name);
+
+using GlBuffer = GlName<destroy_buffer>;
+using GlTexture = GlName<destroy_texture>;
+using GlVertexArray = GlName<destroy_vertex_array>;
+using GlFramebuffer = GlName<destroy_framebuffer>;
+using GlRenderbuffer = GlName<destroy_renderbuffer>;
+using GlSampler = GlName<destroy_sampler>;
+
+GlBuffer make_buffer(GLenum target, const void* data, std::size_t bytes);
+template <class T>
+GlBuffer make_buffer(GLenum target, const std::vector<T>& data) {
+  return make_buffer(target, data.data(), data.size() * sizeof(T));
+}
+GlVertexArray make_vertex_array();
+
+/// A texture of the given mip levels (CV_8UC4, finest first), of which the nearest is sampled:
+/// bilinearly where `smooth`, else one texel, at two thirds of the cost.
+GlTexture make_texture(const std::vector<cv::Mat>& levels, bool repeat, bool smooth = true);
+
+/// Makes it the texture of that unit, and the unit the active one.
+void bind_texture(GLint unit, const GlTexture& texture);
+
+/// A depth texture to draw into and to compare with; 1 (nothing there) outside of it.
+GlTexture make_depth_texture(int size);
+
+/// Compares with one texel of a depth texture in place of four.
+GlSampler make_coarse_depth_sampler();
+
+/// Enables attribute `index` of `components` floats of the bound array and buffer.
+void vertex_attribute(GLuint index, int components, std::size_t stride, std::size_t offset,
+                      int divisor = 0);
+
+/// Enables attribute `index` of one byte, read as a float of 0 to 255.
+void byte_attribute(GLuint index, std::size_t stride, std::size_t offset);
+
+/// Enables attribute `index` of one unsigned 32-bit integer.
+void integer_attribute(GLuint index, std::size_t stride, std::size_t offset, int divisor);
+
+/// Vertex and fragment shader, linked. Throws Error with the compiler's log.
+class GlProgram {
+ public:
+  GlProgram() = default;
+  GlProgram(const std::string& name, const std::string& vertex, const std::string& fragment);
+  void use() const;
+  GLint uniform(const char* name) const;
+
+ private:
+  GlName<destroy_program> program_;
+};
+
+/// Where pictures are drawn: RGBA8 colour and 32-bit depth; for the truth also RGBA8 for who is
+/// seen and two RGBA32F for normals and motion.
+class GlTarget {
+ public:
+  GlTarget(int width, int height, bool truth);
+  void bind() const;
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+ private:
+  void attach(GLenum place, GLenum format, const GlRenderbuffer& buffer) const;
+
+  int width_;
+  int height_;
+  std::vector<GlRenderbuffer> colours_;
+  GlRenderbuffer depth_;
+  GlFramebuffer framebuffer_;
+};
+
+/// Throws Error when GL has met one since the last call.
+void check_gl(const char* where);
+
+}  // namespace vinebench

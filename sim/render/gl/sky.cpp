@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/render/gl/sky.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/util/random.h"
+#include "sim/render/gl/view_block.h"
+
+namespace vinebench {
+namespace {
+
+constexpr int kSize = 512;      // pixels a side
+constexpr double kReach = 1.4;  // of the parabolic map; the horizon is at 1
+
+double smooth_step(double low, double high, double x) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+/// Value noise on a lattice: smooth, 0 to 1.
+double value_noise(const RandomStream& stream, double x, double y) {
+  const double fx = std::floor(x);
+  const double fy = std::floor(y);
+  const double tx = smooth_step(0, 1, x - fx);
+  const double ty = smooth_step(0, 1, y - fy);
+  const auto at = [&](double ix, double iy) {
+    const auto column = static_cast<std::uint64_t>(static_cast<std::int64_t>(ix) + 4096);
+    const auto row = static_cast<std::uint64_t>(static_cast<std::int64_t>(iy) + 4096);
+    return stream.uniform(row * 8192 + column);
+  };
+  const double top = at(fx, fy) * (1 - tx) + at(fx + 1, fy) * tx;
+  const double bottom = at(fx, fy + 1) * (1 - tx) + at(fx + 1, fy + 1) * tx;
+  return top * (1 - ty) + bottom * ty;
+}
+
+/// How much cloud is in that direction, 0 to 1; none near the horizon.
+double cloud(const RandomStream& stream, const Eigen::Vector3d& ray) {
+  if (ray.z() < 0.05) return 0;
+  const Eigen::Vector2d p = ray.head<2>() / (ray.z() + 0.25);
+  const double shape = 0.60 * value_noise(stream, 1.4 * p.x(), 1.4 * p.y()) +
+                       0.28 * value_noise(stream, 3.1 * p.x() + 50, 3.1 * p.y() - 50) +
+                       0.12 * value_noise(stream, 6.7 * p.x() - 90, 6.7 * p.y() + 90);
+  return smooth_step(0.48, 0.85, shape) * smooth_step(0.05, 0.3, ray.z());
+}
+
+/// Linear light from that direction of a clear sky with a few clouds.
+Eigen::Vector3d clear_sky(const Light& light, const RandomStream& stream,
+                          const Eigen::Vector3d& ray) {
+  const Eigen::Vector3d sky = light.sky.cast<double>();
+  const Eigen::Vector3d zenith = sky.cwiseProduct(Eigen::Vector3d(0.50, 0.75, 1.15));
+  const Eigen::Vector3d horizon = sky.cwiseProduct(Eigen::Vector3d(1.55, 1.50, 1.35));
+  Eigen::Vector3d c = horizon + (zenith - horizon) * std::sqrt(std::clamp(ray.z(), 0.0, 1.0));
+  const double towards_sun = std::max(0.0, ray.dot(light.towards_sun.cast<double>()));
+  c += light.sun.cast<double>() *
+       (0.25 * std::pow(towards_sun, 12) + 0.6 * std::pow(towards_sun, 200));
+  const Eigen::Vector3d white = 0.55 * light.sun.cast<double>() + 0.6 * sky;
+  return c + (white - c) * (0.75 * cloud(stream, ray));
+}
+
+/// Linear light from that direction.
+Eigen::Vector3d sky_light(const Light& light, const RandomStream& stream,
+                          const Eigen::Vector3d& ray) {
+  Eigen::Vector3d c = clear_sky(light, stream, ray);
+  if (light.overcast > 0) {
+    // Moon and Spencer's overcast sky, brighter towards the zenith, with a little structure.
+    const double height = std::clamp(ray.z(), 0.0, 1.0);
+    const double grey = (1 + 2 * height) / 2.2 * (0.92 + 0.16 * cloud(stream, ray));
+    c += light.overcast * (grey * 1.1 * light.sky.cast<double>() - c);
+  }
+  Eigen::Vector3d land = light.bounce.cast<double>().cwiseProduct(Eigen::Vector3d(0.8, 0.95, 0.8));
+  if (light.haze > 0) {
+    const Eigen::Vector3d haze = horizon_light(light).cast<double>();
+    // The air thins upwards within about a kilometre.
+    const double thickness = 1000 * static_cast<double>(light.haze) / std::max(0.02, ray.z());
+    c += (haze - c) * (1 - std::exp(-thickness));
+    land = haze;
+  }
+  return c + (land - c) * (1 - smooth_step(-0.05, 0.015, ray.z()));
+}
+
+}  // namespace
+
+cv::Mat sky_picture(const Light& light, std::uint64_t seed) {
+  const RandomStream stream(seed, "renderer.clouds");
+  cv::Mat picture(kSize, kSize, CV_8UC4);
+  for (int row = 0; row < kSize; ++row) {
+    for (int column = 0; column < kSize; ++column) {
+      const Eigen::Vector2d p =
+          kReach * (2 * Eigen::Vector2d(column + 0.5, row + 0.5) / kSize - Eigen::Vector2d::Ones());
+      const double q = p.squaredNorm();
+      const Eigen::Vector3d ray(2 * p.x() / (1 + q), 2 * p.y() / (1 + q), (1 - q) / (1 + q));
+      const Eigen::Vector3d c = sky_light(light, stream, ray);
+      cv::Vec4b& pixel = picture.at<cv::Vec4b>(row, column);
+      for (int i = 0; i < 3; ++i) {
+        pixel[i] = cv::saturate_cast<std::uint8_t>(255 / kSkyBrightest *
+                                                   std::pow(std::max(0.0, c[i]), 1 / 2.2));
+      }
+      pixel[3] = 255;
+    }
+  }
+  return picture;
+}
+
+}  // namespace vinebench

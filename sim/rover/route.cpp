@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/rover/route.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/config/validate.h"
+
+namespace vinebench {
+namespace {
+
+constexpr double kStandstill = 1e-9;      // m or rad: a way shorter than this is none
+constexpr double kKinkSeconds = 0.1;      // of acceleration, at once, where a waypoint is passed
+constexpr double kCorrection = 2;         // 1/s
+constexpr double kMaxCorrection = 0.3;    // m/s
+constexpr double kMaxTurnCorrection = 1;  // rad/s
+
+double radians(double degrees) {
+  return degrees * std::numbers::pi / 180;
+}
+
+Eigen::Vector3d pose_of(const RouteConfig::Waypoint& waypoint) {
+  return {waypoint.position.x(), waypoint.position.y(), radians(waypoint.heading_deg)};
+}
+
+/// Greatest speed from which `end_speed` is reached within the way.
+double braking_speed(double end_speed, double acceleration, double way) {
+  return std::sqrt(end_speed * end_speed + 2 * acceleration * way);
+}
+
+Eigen::Vector2d limited(const Eigen::Vector2d& vector, double limit) {
+  const double norm = vector.norm();
+  return norm > limit ? Eigen::Vector2d(vector * (limit / norm)) : vector;
+}
+
+}  // namespace
+
+double Route::Leg::peak() const {
+  const double reachable =
+      std::sqrt(acceleration * way + 0.5 * (speed_in * speed_in + speed_out * speed_out));
+  return std::min(speed, reachable);
+}
+
+double Route::Leg::seconds() const {
+  const double top = peak();
+  const double ramps = (2 * top - speed_in - speed_out) / acceleration;
+  const double way_of_ramps =
+      (2 * top * top - speed_in * speed_in - speed_out * speed_out) / (2 * acceleration);
+  return ramps + std::max(0.0, way - way_of_ramps) / top;
+}
+
+Route::Reference Route::Leg::at(double t) const {
+  const double top = peak();
+  const double remaining = seconds() - t;
+  const double braking = (top - speed_out) / acceleration;
+  double s = 0;
+  double v = top;
+  if (remaining < braking) {
+    v = speed_out + acceleration * remaining;
+    s = way - 0.5 * (v + speed_out) * remaining;
+  } else if (t < (top - speed_in) / acceleration) {
+    v = speed_in + acceleration * t;
+    s = 0.5 * (v + speed_in) * t;
+  } else {
+    s = way - 0.5 * (top + speed_out) * braking - top * (remaining - braking);
+  }
+  return {from + std::clamp(s, 0.0, way) * direction, v * direction};
+}
+
+Route::Leg Route::make_leg(const RouteConfig& config, std::size_t index) {
+  const RouteConfig::Waypoint& waypoint = config.waypoints[index];
+  Leg leg;
+  leg.from = pose_of(config.waypoints[index - 1]);
+  leg.wait = waypoint.wait;
+  const Eigen::Vector3d change = pose_of(waypoint) - leg.from;
+  const double distance = change.head<2>().norm();
+  const double turn = std::abs(change.z());
+  leg.turns_only = distance < kStandstill;
+  leg.way = leg.turns_only ? turn : distance;
+  if (leg.way < kStandstill) return leg;
+  leg.direction = change / leg.way;
+  const double turn_rate = radians(config.turn_rate_deg);
+  const double turn_acceleration = radians(config.turn_acceleration_deg);
+  if (leg.turns_only) {
+    leg.speed = turn_rate;
+    leg.acceleration = turn_acceleration;
+    return leg;
+  }
+  leg.speed = waypoint.speed.value_or(config.speed);
+  leg.acceleration = config.acceleration;
+  if (turn > kStandstill) {
+    leg.speed = std::min(leg.speed, turn_rate * distance / turn);
+    leg.acceleration = std::min(leg.acceleration, turn_acceleration * distance / turn);
+  }
+  return leg;
+}
+
+double Route::passing_speed(const RouteConfig& config, const Leg& in, const Leg& out) {
+  if (in.turns_only != out.turns_only || out.way < kStandstill) return 0;
+  const Eigen::Vector3d kink = out.direction - in.direction;
+  double speed = std::min(in.speed, out.speed);
+  const double along = kink.head<2>().norm();
+  const double turn = std::abs(kink.z());
+  if (along > kStandstill) speed = std::min(speed, config.acceleration * kKinkSeconds / along);
+  if (turn > kStandstill) {
+    speed = std::min(speed, radians(config.turn_acceleration_deg) * kKinkSeconds / turn);
+  }
+  return speed;
+}
+
+void Route::set_passing_speeds(const RouteConfig& config) {
+  for (std::size_t i = legs_.size(); i-- > 1;) {
+    const RouteConfig::Waypoint& between = config.waypoints[i];
+    Leg& in = legs_[i - 1];
+    Leg& out = legs_[i];
+    if (!between.pass || between.wait > 0) continue;
+    in.speed_out = std::min(passing_speed(config, in, out),
+                            braking_speed(out.speed_out, out.acceleration, out.way));
+  }
+  for (std::size_t i = 1; i < legs_.size(); ++i) {
+    Leg& in = legs_[i - 1];
+    in.speed_out = std::min(in.speed_out, braking_speed(in.speed_in, in.acceleration, in.way));
+    legs_[i].speed_in = in.speed_out;
+  }
+}
+
+void Route::schedule(double first_wait) {
+  Stamp time = from_seconds(first_wait);
+  for (Leg& leg : legs_) {
+    leg.begin = time;
+    leg.end = time + (leg.way < kStandstill ? 0 : from_seconds(leg.seconds()));
+    time = leg.end + from_seconds(leg.wait);
+  }
+  duration_ = time;
+}
+
+Route::Route(const RouteConfig& config) {
+  validate(config);
+  start_ = pose_of(config.waypoints.front());
+  for (std::size_t i = 1; i < config.waypoints.size(); ++i) legs_.push_back(make_leg(config, i));
+  set_passing_speeds(config);
+  schedule(config.waypoints.front().wait);
+}
+
+Route::Reference Route::at(Stamp stamp) const {
+  Reference reference{start_, Eigen::Vector3d::Zero()};
+  for (const Leg& leg : legs_) {
+    if (stamp < leg.begin) break;
+    if (stamp < leg.end) return leg.at(to_seconds(stamp - leg.begin));
+    reference.pose = leg.to();
+  }
+  return reference;
+}
+
+double Route::length() const {
+  double sum = 0;
+  for (const Leg& leg : legs_) sum += leg.turns_only ? 0 : leg.way;
+  return sum;
+}
+
+Eigen::Vector3d follow(const Route::Reference& reference, const Pose& T_world_body) {
+  const double yaw = yaw_of(T_world_body.rotation);
+  const Eigen::Vector2d error = reference.pose.head<2>() - T_world_body.translation.head<2>();
+  const double yaw_error = std::remainder(reference.pose.z() - yaw, 2 * std::numbers::pi);
+  const Eigen::Vector2d v_world =
+      reference.velocity.head<2>() + limited(kCorrection * error, kMaxCorrection);
+  const double turn = reference.velocity.z() +
+                      std::clamp(kCorrection * yaw_error, -kMaxTurnCorrection, kMaxTurnCorrection);
+  const double c = std::cos(yaw);
+  const double s = std::sin(yaw);
+  return {c * v_world.x() + s * v_world.y(), c * v_world.y() - s * v_world.x(), turn};
+}
+
+}  // namespace vinebench

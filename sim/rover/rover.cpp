@@ -1,0 +1,303 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/rover/rover.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/util/error.h"
+#include "core/util/random.h"
+#include "sim/rover/physics_world.h"
+#include "sim/rover/wheel_controller.h"
+#include "sim/world/terrain.h"
+
+namespace vinebench {
+namespace {
+
+constexpr std::array<const char*, 4> kWheelNames{"front_left", "front_right", "rear_left",
+                                                 "rear_right"};
+constexpr Stamp kSettling = 3 * kNanosecondsPerSecond;  // springs and speed loops come to rest
+constexpr double kGeometryTolerance = 0.002;            // m, between model and configuration
+constexpr double kSpread = 0.01;                        // of motors and friction, from seed to seed
+
+Eigen::Vector3d vector_of(const mjtNum* numbers) {
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+}  // namespace
+
+/// The physics runs in steps of exact length, up to one step past `now`. Between two steps the
+/// truth is linear, which is what a semi-implicit Euler step means: the velocity of its end holds
+/// through all of it.
+struct Rover::Physics {
+  Physics(const RoverConfig& rover, const WorldConfig& world_config, std::uint64_t seed);
+
+  void find_parts();
+  void check_geometry() const;
+  void vary(std::uint64_t seed);
+  void settle(const Eigen::Vector3d& start);
+  void place(const Eigen::Vector3d& start);
+  void drop_on_ground(const Eigen::Vector3d& start);
+  void check_clear(const Eigen::Vector3d& start) const;
+  void check_on_ground() const;
+  void step();
+  void sample(Stamp until, std::vector<ImuSample>& imu, std::vector<WheelSample>& wheels);
+
+  Pose pose() const;
+  WheelArray angles() const;
+  Pose pose_at(Stamp stamp) const { return interpolate(previous_pose, pose(), fraction(stamp)); }
+  ImuSample imu_at(Stamp stamp) const;
+  WheelSample wheels_at(Stamp stamp) const;
+  double fraction(Stamp stamp) const {
+    return 1.0 - static_cast<double>(time - stamp) / static_cast<double>(step_length);
+  }
+
+  RoverConfig config;
+  Terrain terrain;
+  PhysicsWorld world;
+  MecanumDrive drive;
+  std::vector<SpeedLoop> loops;
+  WheelArray motor_gain{1, 1, 1, 1};
+  WheelArray wanted{};      ///< rad/s
+  WheelArray zero_angle{};  ///< rad, of the hubs at t = 0
+
+  int chassis = 0;              ///< joint
+  std::array<int, 4> wheels{};  ///< joints
+  std::array<int, 4> motors{};
+  int gyro = 0;
+  int accelerometer = 0;
+
+  Stamp step_length = 0;
+  Stamp time = 0;  ///< of the physics; at least `now`, less than one step ahead
+  Stamp now = 0;
+  Pose previous_pose;  ///< one step before `time`
+  WheelArray previous_angles{};
+  std::int64_t imu_count = 0;  ///< samples given so far
+  std::int64_t wheel_count = 0;
+};
+
+Rover::Physics::Physics(const RoverConfig& rover, const WorldConfig& world_config,
+                        std::uint64_t seed)
+    : config(rover),
+      terrain(world_config),
+      world(rover.model, world_config, seed),
+      drive{rover.wheel_radius, rover.half_track, rover.half_wheelbase},
+      step_length(from_seconds(world.model().opt.timestep)) {
+  SpeedLoopConfig loop;
+  loop.max_torque = rover.max_torque;
+  loops.assign(kWheelNames.size(), SpeedLoop(loop));
+  find_parts();
+  world.refresh();
+  check_geometry();
+  vary(seed);
+}
+
+void Rover::Physics::find_parts() {
+  chassis = world.find(mjOBJ_JOINT, "chassis");
+  gyro = world.sensor_address("gyro");
+  accelerometer = world.sensor_address("accelerometer");
+  for (std::size_t i = 0; i < kWheelNames.size(); ++i) {
+    wheels[i] = world.find(mjOBJ_JOINT, kWheelNames[i]);
+    motors[i] = world.find(mjOBJ_ACTUATOR, kWheelNames[i]);
+  }
+}
+
+/// A configuration that disagrees with the model would drive at wrong speeds without a word.
+void Rover::Physics::check_geometry() const {
+  for (std::size_t i = 0; i < kWheelNames.size(); ++i) {
+    const Eigen::Vector3d expected(i < 2 ? config.half_wheelbase : -config.half_wheelbase,
+                                   i % 2 == 0 ? config.half_track : -config.half_track,
+                                   config.wheel_radius);
+    const Eigen::Vector3d found =
+        pose().inverse() * vector_of(&world.state().xanchor[3 * wheels[i]]);
+    if ((found - expected).cwiseAbs().maxCoeff() > kGeometryTolerance) {
+      fail(
+          "{}: wheel {} is at ({:.4f}, {:.4f}, {:.4f}) m of the body, expected ({:.4f}, {:.4f}, "
+          "{:.4f}) from half_wheelbase, half_track and wheel_radius",
+          config.model.string(), kWheelNames[i], found.x(), found.y(), found.z(), expected.x(),
+          expected.y(), expected.z());
+    }
+  }
+}
+
+/// No two rovers are alike: motors and bearings differ by up to 1 %, one draw a seed.
+void Rover::Physics::vary(std::uint64_t seed) {
+  const RandomStream gain(seed, "rover.motor_gain");
+  const RandomStream friction(seed, "rover.wheel_friction");
+  mjModel& model = world.model();
+  for (std::size_t i = 0; i < kWheelNames.size(); ++i) {
+    motor_gain[i] = gain.uniform(i, 1 - kSpread, 1 + kSpread);
+    model.dof_frictionloss[model.jnt_dofadr[wheels[i]]] *=
+        friction.uniform(i, 1 - kSpread, 1 + kSpread);
+    model.actuator_ctrlrange[2 * motors[i]] = -config.max_torque;
+    model.actuator_ctrlrange[2 * motors[i] + 1] = config.max_torque;
+  }
+}
+
+/// Lets the rover sink into its springs; it starts from there, as it stands.
+void Rover::Physics::settle(const Eigen::Vector3d& start) {
+  drop_on_ground(start);
+  place(start);
+  check_on_ground();
+  check_clear(start);
+  for (Stamp t = 0; t < kSettling; t += step_length) step();
+  world.check();
+  place(start);
+  zero_angle = angles();
+  previous_angles = angles();
+  previous_pose = pose();
+  time = 0;
+}
+
+/// Sets it just above uneven ground, leaned as its wheels will find it.
+void Rover::Physics::drop_on_ground(const Eigen::Vector3d& start) {
+  if (terrain.flat()) return;
+  const Pose lying = terrain.lie(start.head<2>(), start.z(), config.half_track);
+  double lift = 0;  // m, until no wheel is below the ground
+  for (const double x : {-config.half_wheelbase, config.half_wheelbase}) {
+    for (const double y : {-config.half_track, config.half_track}) {
+      const Eigen::Vector3d foot = lying * Eigen::Vector3d(x, y, 0);
+      lift = std::max(lift, terrain.height(foot.head<2>()) - foot.z());
+    }
+  }
+  mjtNum* position = &world.state().qpos[world.model().jnt_qposadr[chassis]];
+  position[2] = lying.translation.z() + lift;
+  const Eigen::Quaterniond& q = lying.rotation;
+  const std::array<double, 4> turned{q.w(), q.x(), q.y(), q.z()};
+  std::copy(turned.begin(), turned.end(), position + 3);
+}
+
+/// Moves the rover over the ground; height, roll and pitch stay.
+void Rover::Physics::place(const Eigen::Vector3d& start) {
+  const Pose here = pose();
+  const Eigen::Quaterniond turn = from_roll_pitch_yaw({0, 0, start.z() - yaw_of(here.rotation)});
+  const Eigen::Quaterniond rotation = (turn * here.rotation).normalized();
+  mjtNum* position = &world.state().qpos[world.model().jnt_qposadr[chassis]];
+  mjtNum* velocity = &world.state().qvel[world.model().jnt_dofadr[chassis]];
+  const Eigen::Vector3d linear = turn * vector_of(velocity);
+  const std::array<double, 7> placed{start.x(),    start.y(),    here.translation.z(), rotation.w(),
+                                     rotation.x(), rotation.y(), rotation.z()};
+  std::copy(placed.begin(), placed.end(), position);
+  std::copy(linear.begin(), linear.end(), velocity);
+  world.refresh();
+}
+
+void Rover::Physics::check_clear(const Eigen::Vector3d& start) const {
+  const int ground = world.find(mjOBJ_GEOM, "ground");
+  for (int i = 0; i < world.state().ncon; ++i) {
+    const mjContact& contact = world.state().contact[i];
+    if (contact.geom1 == ground || contact.geom2 == ground) continue;
+    const mjModel& model = world.model();
+    const bool first = model.geom_bodyid[contact.geom1] == model.jnt_bodyid[chassis];
+    fail("the rover cannot start at ({:.3f}, {:.3f}) m: it stands in {} of the world", start.x(),
+         start.y(), mj_id2name(&model, mjOBJ_GEOM, first ? contact.geom2 : contact.geom1));
+  }
+}
+
+void Rover::Physics::check_on_ground() const {
+  if (terrain.flat()) return;
+  const Eigen::Vector2d here = pose().translation.head<2>();
+  if (terrain.box().contains(terrain.frame().from_world(here))) return;
+  fail(
+      "the rover left the uneven ground at ({:.2f}, {:.2f}) m: make the world's terrain.margin "
+      "larger or the route shorter",
+      here.x(), here.y());
+}
+
+void Rover::Physics::step() {
+  previous_pose = pose();
+  previous_angles = angles();
+  const double dt = to_seconds(step_length);
+  for (std::size_t i = 0; i < kWheelNames.size(); ++i) {
+    const double speed = world.state().qvel[world.model().jnt_dofadr[wheels[i]]];
+    world.state().ctrl[motors[i]] = motor_gain[i] * loops[i].torque(wanted[i], speed, dt);
+  }
+  world.step();
+  time += step_length;
+}
+
+void Rover::Physics::sample(Stamp until, std::vector<ImuSample>& imu,
+                            std::vector<WheelSample>& wheel_samples) {
+  for (;; ++imu_count) {
+    const Stamp stamp = stamp_of_frame(imu_count + 1, config.imu_rate_hz);
+    if (stamp > until) break;
+    imu.push_back(imu_at(stamp));
+  }
+  for (;; ++wheel_count) {
+    const Stamp stamp = stamp_of_frame(wheel_count + 1, config.wheel_rate_hz);
+    if (stamp > until) break;
+    wheel_samples.push_back(wheels_at(stamp));
+  }
+}
+
+Pose Rover::Physics::pose() const {
+  const mjtNum* q = &world.state().qpos[world.model().jnt_qposadr[chassis]];
+  return {Eigen::Quaterniond(q[3], q[4], q[5], q[6]).normalized(), vector_of(q)};
+}
+
+WheelArray Rover::Physics::angles() const {
+  WheelArray result{};
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    result[i] = world.state().qpos[world.model().jnt_qposadr[wheels[i]]];
+  }
+  return result;
+}
+
+/// Velocity and acceleration hold through a step, so the reading does not depend on where in the
+/// step it is taken.
+ImuSample Rover::Physics::imu_at(Stamp stamp) const {
+  const mjtNum* data = world.state().sensordata;
+  return {stamp, vector_of(data + gyro), vector_of(data + accelerometer)};
+}
+
+WheelSample Rover::Physics::wheels_at(Stamp stamp) const {
+  WheelSample result;
+  result.stamp = stamp;
+  const WheelArray current = angles();
+  for (std::size_t i = 0; i < current.size(); ++i) {
+    const double angle = previous_angles[i] + fraction(stamp) * (current[i] - previous_angles[i]);
+    result.angle[i] = angle - zero_angle[i];
+    result.velocity[i] = world.state().qvel[world.model().jnt_dofadr[wheels[i]]];
+  }
+  return result;
+}
+
+Rover::Rover(const RoverConfig& config, const WorldConfig& world, const Eigen::Vector3d& start,
+             std::uint64_t seed)
+    : physics_(std::make_unique<Physics>(config, world, seed)) {
+  physics_->settle(start);
+}
+
+Rover::Rover(Rover&&) noexcept = default;
+Rover& Rover::operator=(Rover&&) noexcept = default;
+Rover::~Rover() = default;
+
+void Rover::command(const Eigen::Vector3d& twist) {
+  physics_->wanted = physics_->drive.wheel_speeds(twist);
+}
+
+void Rover::advance_to(Stamp stamp, std::vector<ImuSample>& imu, std::vector<WheelSample>& wheels) {
+  Physics& physics = *physics_;
+  if (stamp < physics.now) {
+    fail("cannot advance the rover to {} s: it is already at {} s", format_seconds(stamp),
+         format_seconds(physics.now));
+  }
+  physics.sample(std::min(stamp, physics.time), imu, wheels);
+  while (physics.time < stamp) {
+    physics.step();
+    physics.sample(std::min(stamp, physics.time), imu, wheels);
+  }
+  physics.world.check();
+  physics.check_on_ground();
+  physics.now = stamp;
+}
+
+Stamp Rover::now() const {
+  return physics_->now;
+}
+
+Pose Rover::T_world_body() const {
+  return physics_->pose_at(physics_->now);
+}
+
+}  // namespace vinebench

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/rover/rover_flow.h"
+
+#include "sim/scene/scene.h"
+
+namespace vinebench {
+
+void move_rover(const PinholeCamera& camera, const Pose& T_world_cam, const Pose& T_world_rover,
+                const Pose& T_world_rover_other, const cv::Mat& labels, const cv::Mat& depth,
+                cv::Mat& motion) {
+  if (motion.empty()) motion = cv::Mat(depth.size(), CV_32FC3, cv::Scalar::all(0));
+  const Pose other_from_this = T_world_rover_other * T_world_rover.inverse();
+  for (int y = 0; y < depth.rows; ++y) {
+    const auto* label = labels.ptr<std::uint8_t>(y);
+    auto* moved = motion.ptr<cv::Vec3f>(y);
+    for (int x = 0; x < depth.cols; ++x) {
+      if (label[x] != static_cast<std::uint8_t>(Label::kRover)) continue;
+      const double z = static_cast<double>(depth.at<float>(y, x));
+      const Eigen::Vector3d p = T_world_cam * (z * camera.unproject({x, y}));
+      const Eigen::Vector3f way = (other_from_this * p - p).cast<float>();
+      moved[x] = {way.x(), way.y(), way.z()};
+    }
+  }
+}
+
+}  // namespace vinebench

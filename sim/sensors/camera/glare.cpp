@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/sensors/camera/glare.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace vinebench {
+namespace {
+
+constexpr double kGamma = 2.2;
+constexpr double kDegree = 3.14159265358979 / 180;
+constexpr double kDisc = 0.27 * kDegree;  // rad, the sun's radius
+
+/// Linear light added at an angle (rad) from the sun, per unit of its light: the disc with its
+/// bloom, a halo of scattering glass, and a veil. Shaped after the glare spread of a clean lens.
+double spread(double angle) {
+  const double degrees = angle / kDegree;
+  const double bloom = 6.0 * std::exp(-degrees * degrees / (0.8 * 0.8));
+  const double halo = 0.22 / (1 + std::pow(degrees / 5.0, 2));
+  return bloom + halo + 0.02;
+}
+
+/// Share of the sun's disc (at least a few pixels of it) that shows sky.
+double uncovered(const cv::Mat& labels, const PinholeCamera& camera, const Eigen::Vector2d& sun) {
+  const int reach = std::max(2, static_cast<int>(std::ceil(kDisc * camera.fx)));
+  const auto cx = static_cast<int>(std::lround(sun.x()));
+  const auto cy = static_cast<int>(std::lround(sun.y()));
+  int open = 0;
+  int all = 0;
+  for (int y = std::max(0, cy - reach); y <= std::min(labels.rows - 1, cy + reach); ++y) {
+    for (int x = std::max(0, cx - reach); x <= std::min(labels.cols - 1, cx + reach); ++x) {
+      ++all;
+      if (labels.at<std::uint8_t>(y, x) == static_cast<std::uint8_t>(Label::kSky)) ++open;
+    }
+  }
+  return all == 0 ? 0 : static_cast<double>(open) / all;
+}
+
+std::array<float, 256> decoding_table() {
+  std::array<float, 256> table{};
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    table[i] = static_cast<float>(std::pow(static_cast<double>(i) / 255, kGamma));
+  }
+  return table;
+}
+
+/// Light of 0 to 1 in equal steps of its square root, where the eye's and the table's steps are
+/// about even, to a byte.
+constexpr int kSteps = 4096;
+std::array<std::uint8_t, kSteps + 1> encoding_table() {
+  std::array<std::uint8_t, kSteps + 1> table{};
+  for (int i = 0; i <= kSteps; ++i) {
+    const double light = std::pow(static_cast<double>(i) / kSteps, 2);
+    table[static_cast<std::size_t>(i)] =
+        static_cast<std::uint8_t>(std::lround(255 * std::pow(light, 1 / kGamma)));
+  }
+  return table;
+}
+
+}  // namespace
+
+void add_glare(cv::Mat& rgb, const cv::Mat& labels, const PinholeCamera& camera,
+               const Eigen::Vector3d& towards_sun, const Light& light, double exposure) {
+  if (light.glare <= 0 || light.sun.maxCoeff() <= 0 || towards_sun.z() <= 0.05) return;
+  const Eigen::Vector2d sun = camera.project(towards_sun);
+  if (!camera.contains(sun)) return;
+  const double strength =
+      static_cast<double>(light.glare) * exposure * uncovered(labels, camera, sun);
+  if (strength <= 0) return;
+  static const std::array<float, 256> decoded = decoding_table();
+  static const std::array<std::uint8_t, kSteps + 1> encoded_byte = encoding_table();
+  const Eigen::Vector3d direction = towards_sun.normalized();
+  for (int y = 0; y < rgb.rows; ++y) {
+    auto* row = rgb.ptr<cv::Vec3b>(y);
+    for (int x = 0; x < rgb.cols; ++x) {
+      const Eigen::Vector3d ray((x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy, 1);
+      const double angle = std::acos(std::clamp(ray.normalized().dot(direction), -1.0, 1.0));
+      const auto added = static_cast<float>(strength * spread(angle));
+      for (int c = 0; c < 3; ++c) {
+        const float sum = std::min(1.0f, decoded[row[x][c]] + added * light.sun[c]);
+        row[x][c] = encoded_byte[static_cast<std::size_t>(std::lround(kSteps * std::sqrt(sum)))];
+      }
+    }
+  }
+}
+
+}  // namespace vinebench

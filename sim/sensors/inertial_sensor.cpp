@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/sensors/inertial_sensor.h"
+
+#include <cmath>
+
+namespace vinebench {
+
+InertialAxes::InertialAxes(const InertialAxesConfig& config, const std::string& name,
+                           double rate_hz, std::uint64_t seed)
+    : config_(config),
+      period_(1 / rate_hz),
+      noise_(seed, name + ".noise"),
+      walk_(seed, name + ".bias_walk"),
+      wander_(seed, name + ".bias_wander"),
+      bias_(config.initial_bias * draw(RandomStream(seed, name + ".initial_bias"), 0)),
+      wandering_bias_(config.bias_instability * draw(wander_, 0)) {}
+
+Eigen::Vector3d InertialAxes::draw(const RandomStream& stream, std::uint64_t index) const {
+  return {stream.normal(3 * index), stream.normal(3 * index + 1), stream.normal(3 * index + 2)};
+}
+
+/// A reading is the mean over its period, so the white noise's variance is N^2 / period.
+Eigen::Vector3d InertialAxes::measure(const Eigen::Vector3d& truth) {
+  const Eigen::Vector3d white = config_.noise_density / std::sqrt(period_) * draw(noise_, index_);
+  Eigen::Vector3d reading = truth + bias_ + wandering_bias_ + white;
+  if (config_.range > 0) {
+    reading = reading.cwiseMax(-config_.range).cwiseMin(config_.range);
+  }
+  ++index_;
+  bias_ += config_.bias_random_walk * std::sqrt(period_) * draw(walk_, index_);
+  const double kept = std::exp(-period_ / config_.correlation_time);
+  wandering_bias_ = kept * wandering_bias_ +
+                    config_.bias_instability * std::sqrt(1 - kept * kept) * draw(wander_, index_);
+  return reading;
+}
+
+InertialSensor::InertialSensor(const InertialSensorConfig& config, double rate_hz,
+                               std::uint64_t seed)
+    : gyroscope_(config.gyroscope, "imu.gyroscope", rate_hz, seed),
+      accelerometer_(config.accelerometer, "imu.accelerometer", rate_hz, seed) {}
+
+void InertialSensor::measure(ImuSample& sample) {
+  sample.angular_velocity = gyroscope_.measure(sample.angular_velocity);
+  sample.specific_force = accelerometer_.measure(sample.specific_force);
+}
+
+}  // namespace vinebench

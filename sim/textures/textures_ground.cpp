@@ -1,0 +1,288 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+#include "sim/textures/textures.h"
+#include "sim/textures/textures_paint.h"
+
+namespace vinebench {
+namespace {
+
+/// Of the nearest pixel; beyond the last one comes the first.
+float value_at(const cv::Mat& share, const cv::Point2d& at) {
+  const cv::Point nearest = at;
+  return share.at<float>(nearest.y % share.rows, nearest.x % share.cols);
+}
+
+/// Each stone with the shadow it throws and the light on its upper side.
+void scatter_stones(cv::Mat& rgb, RandomSequence& random, int count, double min_px, double max_px,
+                    const cv::Mat* share = nullptr) {
+  for (int i = 0; i < count; ++i) {
+    const cv::Point2d at = somewhere(random, rgb);
+    if (share && value_at(*share, at) < 0.5f) continue;
+    const double size = min_px * std::pow(max_px / min_px, std::pow(random.uniform(), 2.5));
+    const cv::Size2d axes(size, size * random.uniform(0.55, 0.95));
+    const double angle = random.uniform(0, 180);
+    const cv::Scalar skin = jitter(random, {138, 126, 108}, 0.3);
+    draw_wrapped(rgb, at, 2 * size, [&](const cv::Point2d& p) {
+      const auto oval = [&](const cv::Point2d& shift, double scale, const cv::Scalar& colour) {
+        cv::ellipse(
+            rgb,
+            cv::RotatedRect(p + shift, cv::Size2d(2 * scale * axes.width, 2 * scale * axes.height),
+                            angle),
+            colour, cv::FILLED, cv::LINE_AA);
+      };
+      oval({0.25 * size, 0.25 * size}, 1.1, {48, 38, 28});
+      oval({0, 0}, 1.0, skin);
+      oval({-0.2 * size, -0.2 * size}, 0.55, skin * 1.18);
+    });
+  }
+}
+
+/// Bits of straw and twigs.
+void scatter_straws(cv::Mat& rgb, RandomSequence& random, int count, const cv::Vec3d& colour,
+                    double length) {
+  for (int i = 0; i < count; ++i) {
+    const cv::Point2d at = somewhere(random, rgb);
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    const double reach = length * random.uniform(0.3, 1.0);
+    const cv::Point2d along(reach * std::cos(angle), reach * std::sin(angle));
+    const cv::Point2d bend(-along.y * random.uniform(-0.3, 0.3), along.x * 0.2);
+    const cv::Scalar skin = jitter(random, colour, 0.3);
+    const int width = random.below(3) == 0 ? 2 : 1;
+    draw_wrapped(rgb, at, 2 * length, [&](const cv::Point2d& p) {
+      cv::line(rgb, p, p + 0.5 * along + bend, skin, width, cv::LINE_AA);
+      cv::line(rgb, p + 0.5 * along + bend, p + along, skin, width, cv::LINE_AA);
+    });
+  }
+}
+
+/// Fallen vine leaves: the outline of one, shrivelled and brown.
+void scatter_leaves(cv::Mat& rgb, RandomSequence& random, int count, double size_px) {
+  for (int i = 0; i < count; ++i) {
+    const cv::Point2d at = somewhere(random, rgb);
+    const double size = size_px * random.uniform(0.5, 1.1);
+    const double turn = random.uniform(0, 2 * std::numbers::pi);
+    const double squeeze = random.uniform(0.5, 1.0);
+    const cv::Scalar skin = jitter(random, {126, 88, 50}, 0.35);
+    draw_wrapped(rgb, at, 2 * size, [&](const cv::Point2d& p) {
+      std::vector<cv::Point> outline, shadow;
+      for (const Eigen::Vector2f& o : leaf_outline(2)) {
+        const double x = o.x() * squeeze, y = o.y();
+        const cv::Point2d q(p.x + size * (std::cos(turn) * x - std::sin(turn) * y),
+                            p.y + size * (std::sin(turn) * x + std::cos(turn) * y));
+        outline.push_back(q);
+        shadow.push_back(q + cv::Point2d(0.08 * size, 0.08 * size));
+      }
+      const cv::Point tip(cvRound(p.x - size * 0.9 * std::sin(turn)),
+                          cvRound(p.y + size * 0.9 * std::cos(turn)));
+      cv::fillPoly(rgb, std::vector<std::vector<cv::Point>>{shadow}, {44, 34, 26}, cv::LINE_AA);
+      cv::fillPoly(rgb, std::vector<std::vector<cv::Point>>{outline}, skin, cv::LINE_AA);
+      cv::line(rgb, p, tip, skin * 0.6, 2, cv::LINE_AA);
+    });
+  }
+}
+
+/// Fine noise of a piece of a picture, laid side by side until it fills it.
+cv::Mat repeated_noise(cv::Size size, cv::Size pieces, cv::Size cells, int octaves, double gain,
+                       std::uint64_t seed, std::string_view name) {
+  const cv::Size piece(size.width / pieces.width, size.height / pieces.height);
+  return cv::repeat(fractal_noise(piece, cells, octaves, gain, seed, name), pieces.height,
+                    pieces.width);
+}
+
+/// Coarse noise, made small and enlarged; `gain` as for fractal_noise.
+cv::Mat coarse_noise(cv::Size size, cv::Size cells, int octaves, double gain, std::uint64_t seed,
+                     std::string_view name) {
+  constexpr int kRim = 4;  // px of the next tile, so that the enlarged picture has no seam
+  const cv::Size small(size.width / 4, size.height / 4);
+  cv::Mat wrapped, large;
+  cv::copyMakeBorder(fractal_noise(small, cells, octaves, gain, seed, name), wrapped, kRim, kRim,
+                     kRim, kRim, cv::BORDER_WRAP);
+  cv::resize(wrapped, large, wrapped.size() * 4, 0, 0, cv::INTER_LINEAR);
+  return large(cv::Rect(cv::Point(4 * kRim, 4 * kRim), size)).clone();
+}
+
+/// Short grass seen from above, without its single blades.
+cv::Mat turf(cv::Size size, int cells, std::uint64_t seed, std::string_view name) {
+  const cv::Size grid(cells, cells * size.height / size.width);
+  return blend(fractal_noise(size, grid, 6, 0.85, seed, name), {30, 40, 14}, {132, 136, 72});
+}
+
+/// Blades of grass, 2 to 7 cm long, where `share` says so.
+void scatter_blades(cv::Mat& rgb, RandomSequence& random, const cv::Mat& share, int count,
+                    double scale) {
+  for (int i = 0; i < count; ++i) {
+    const cv::Point2d at = somewhere(random, rgb);
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    const double length = scale * random.uniform(0.02, 0.07);
+    const cv::Vec3d fresh(random.uniform(74, 112), random.uniform(98, 132), random.uniform(34, 58));
+    const cv::Vec3d dry(random.uniform(130, 160), random.uniform(124, 146), 80);
+    const cv::Scalar skin = jitter(random, random.below(6) == 0 ? dry : fresh, 0.25);
+    const bool grows = random.uniform() < value_at(share, at);
+    if (!grows) continue;
+    const cv::Point2d way(length * std::cos(angle), length * std::sin(angle));
+    draw_wrapped(rgb, at, 2 * length,
+                 [&](const cv::Point2d& p) { cv::line(rgb, p, p + way, skin, 1, cv::LINE_AA); });
+  }
+}
+
+/// Tufts as they look from above: a dark heart and bright tips all round, `reach` m at most.
+void scatter_tufts(cv::Mat& rgb, RandomSequence& random, const cv::Mat& share, int count,
+                   double reach_px) {
+  for (int i = 0; i < count; ++i) {
+    const cv::Point2d at = somewhere(random, rgb);
+    const double reach = reach_px * random.uniform(0.35, 1.0);
+    const cv::Vec3d tip(random.uniform(78, 126), random.uniform(96, 134), random.uniform(40, 66));
+    const cv::Vec3d heart(34, 46, 18);
+    const double first = random.uniform(0, 2 * std::numbers::pi);
+    const int blades = 12 + random.below(10);
+    if (value_at(share, at) < random.uniform()) continue;
+    draw_wrapped(rgb, at, 2 * reach, [&](const cv::Point2d& p) {
+      cv::circle(rgb, p, cvRound(0.2 * reach), heart, cv::FILLED, cv::LINE_AA);
+    });
+    for (int b = 0; b < blades; ++b) {
+      const double turn = first + 2 * std::numbers::pi * b / blades + random.uniform(-0.3, 0.3);
+      const double length = reach * random.uniform(0.5, 1.0);
+      const cv::Point2d way(length * std::cos(turn), length * std::sin(turn));
+      const cv::Scalar skin = jitter(random, tip, 0.3);
+      draw_wrapped(rgb, at, 2 * reach, [&](const cv::Point2d& p) {
+        cv::line(rgb, p + 0.25 * way, p + way, skin, 1 + b % 2, cv::LINE_AA);
+      });
+    }
+  }
+}
+
+void scatter_flowers(cv::Mat& rgb, RandomSequence& random, int count) {
+  for (int i = 0; i < count; ++i) {
+    const cv::Point2d at = somewhere(random, rgb);
+    const bool white = random.below(2) == 0;
+    const cv::Scalar petals = white ? cv::Scalar(214, 212, 200) : cv::Scalar(206, 176, 52);
+    draw_wrapped(rgb, at, 6, [&](const cv::Point2d& p) {
+      cv::circle(rgb, p, 2 + i % 2, petals, cv::FILLED, cv::LINE_AA);
+    });
+  }
+}
+
+/// From 1 below `edge` to 0 above, softly.
+float below_edge(double value, double edge, double softness) {
+  return static_cast<float>(std::clamp(0.5 + (edge - value) / softness, 0.0, 1.0));
+}
+
+/// Share of grass on an aisle: none under the vines, worn in the wheel tracks, edges frayed.
+cv::Mat grass_share(cv::Size size, const AisleProfile& aisle, std::uint64_t seed) {
+  const cv::Mat fray = coarse_noise(size, {12, 24}, 5, 0.7, seed, "fray");
+  cv::Mat share(size, CV_32F);
+  for (int x = 0; x < size.width; ++x) {
+    const double off = std::abs((x + 0.5) / size.width - 0.5) * aisle.width;  // m from the middle
+    const double edge = aisle.width / 2 - aisle.bare_strip / 2;
+    const double from_track = std::abs(off - aisle.track_gauge / 2);
+    for (int y = 0; y < size.height; ++y) {
+      const double frayed = 0.24 * (fray.at<float>(y, x) - 0.5);
+      const float mown = below_edge(off + frayed, edge, 0.08);
+      const float worn = below_edge(from_track + frayed, aisle.track_width / 2, 0.12);
+      share.at<float>(y, x) = mown * (1 - 0.8f * worn);
+    }
+  }
+  return share;
+}
+
+cv::Mat track_share(cv::Size size, const AisleProfile& aisle, std::uint64_t seed) {
+  const cv::Mat fray = coarse_noise(size, {6, 12}, 4, 0.6, seed, "track");
+  cv::Mat share(size, CV_32F);
+  for (int x = 0; x < size.width; ++x) {
+    const double off = std::abs((x + 0.5) / size.width - 0.5) * aisle.width;
+    const double from_track = std::abs(off - aisle.track_gauge / 2);
+    for (int y = 0; y < size.height; ++y) {
+      const double frayed = 0.1 * (fray.at<float>(y, x) - 0.5);
+      share.at<float>(y, x) = 0.8f * below_edge(from_track + frayed, aisle.track_width / 2, 0.1);
+    }
+  }
+  return share;
+}
+
+}  // namespace
+
+Texture soil_texture(std::uint64_t seed) {
+  const cv::Size size(2048, 2048);
+  const cv::Mat clods = fractal_noise(size, {24, 24}, 7, 0.72, seed, "clods");
+  const cv::Mat damp = fractal_noise(size, {3, 3}, 4, 0.55, seed, "damp");
+  cv::Mat rgb = mix(damp, blend(clods, {56, 40, 28}, {164, 132, 98}),
+                    blend(clods, {74, 56, 38}, {192, 164, 128}));
+  RandomSequence random(RandomStream(seed, "soil"));
+  scatter_straws(rgb, random, 500, {150, 130, 88}, 60);
+  scatter_stones(rgb, random, 1800, 3, 34);
+  scatter_leaves(rgb, random, 30, 50);
+  scatter_straws(rgb, random, 350, {84, 104, 46}, 40);
+  return {"soil", to_rgba(rgb), true};
+}
+
+Texture meadow_texture(std::uint64_t seed) {
+  const cv::Size size(1024, 1024);
+  cv::Mat rgb = mix(fractal_noise(size, {3, 3}, 4, 0.6, seed, "meadow patches"),
+                    turf(size, 10, seed, "meadow"), 1.2 * turf(size, 10, seed, "meadow dry"));
+  RandomSequence random(RandomStream(seed, "meadow"));
+  const cv::Mat everywhere(size, CV_32F, cv::Scalar(1));
+  scatter_blades(rgb, random, everywhere, 9000, size.width / kSoilTile);
+  scatter_tufts(rgb, random, everywhere, 420, 0.09 * size.width / kSoilTile);
+  scatter_straws(rgb, random, 160, {150, 136, 84}, 40);
+  scatter_flowers(rgb, random, 40);
+  return {"meadow", to_rgba(rgb), true};
+}
+
+Texture aisle_texture(std::uint64_t seed, const AisleProfile& profile) {
+  const cv::Size size(1536, static_cast<int>(1536 * kAisleLength));
+  const double scale = size.width / profile.width;  // px per m
+  const cv::Size pieces(2, 4);
+  const cv::Mat grass = grass_share(size, profile, seed);
+  const cv::Mat track = track_share(size, profile, seed);
+  const cv::Mat clods = repeated_noise(size, pieces, {18, 18}, 6, 0.72, seed, "aisle clods");
+  const cv::Mat damp = coarse_noise(size, {2, 4}, 4, 0.55, seed, "aisle damp");
+  const cv::Mat soil = mix(damp, blend(clods, {50, 36, 24}, {166, 134, 100}),
+                           blend(clods, {66, 50, 34}, {194, 166, 130}));
+  // Wheels press clods flat and leave them paler.
+  const cv::Mat pressed = blend(clods, {112, 92, 70}, {156, 132, 104});
+  cv::Mat rgb = mix(grass, mix(track, soil, pressed),
+                    cv::repeat(turf(size / 2, 6, seed, "aisle turf"), 2, 2));
+  RandomSequence random(RandomStream(seed, "aisle"));
+  const cv::Mat bare = 1 - grass;
+  scatter_stones(rgb, random, 3200, 0.003 * scale, 0.028 * scale, &bare);
+  scatter_leaves(rgb, random, 70, 0.05 * scale);
+  scatter_blades(rgb, random, grass, 30000, scale);
+  scatter_tufts(rgb, random, grass, 1500, 0.075 * scale);
+  scatter_straws(rgb, random, 500, {150, 134, 88}, 0.09 * scale);
+  return {"aisle", to_rgba(rgb), true};
+}
+
+Texture grass_texture(std::uint64_t seed) {
+  const cv::Mat streaks = fractal_noise({64, 64}, {8, 2}, 3, 0.6, seed, "grass");
+  return {"grass", to_rgba(blend(streaks, {62, 84, 28}, {142, 154, 72})), true};
+}
+
+Texture stone_texture(std::uint64_t seed) {
+  const cv::Mat grain = fractal_noise({128, 128}, {4, 4}, 5, 0.75, seed, "stone");
+  return {"stone", to_rgba(blend(grain, {84, 78, 68}, {186, 176, 158})), true};
+}
+
+Texture hedge_texture(std::uint64_t seed) {
+  const cv::Size size(2048, 256);
+  const cv::Mat leaves = fractal_noise(size, {64, 12}, 5, 0.8, seed, "hedge leaves");
+  const cv::Mat crowns = fractal_noise(size, {24, 3}, 3, 0.6, seed, "hedge crowns");
+  const cv::Mat shade = 0.55 * leaves + 0.45 * crowns;
+  const cv::Mat rgb = blend(shade, {22, 34, 18}, {118, 136, 74});
+  const cv::Mat skyline = fractal_noise({size.width, 16}, {20, 1}, 5, 0.6, seed, "skyline").row(8);
+  cv::Mat alpha(size, CV_8UC1);
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      const float top = 0.15f + 0.6f * skyline.at<float>(0, x) + 0.12f * leaves.at<float>(y, x);
+      alpha.at<uchar>(y, x) =
+          static_cast<float>(size.height - y) / size.height < 1.0f - top ? 255 : 0;
+    }
+  }
+  return {"hedge", to_rgba(rgb, alpha), true};
+}
+
+}  // namespace vinebench

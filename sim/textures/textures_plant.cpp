@@ -1,0 +1,289 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+#include "sim/textures/textures.h"
+
+namespace vinebench {
+namespace {
+
+constexpr int kLeafPixels = 256;
+constexpr int kPaintScale = 2;  // leaves are painted larger and averaged down
+constexpr int kBunchPixels = 128;
+
+/// Point of a blade (in sizes) to pixels of a square picture.
+cv::Point2f leaf_pixel(const Eigen::Vector2f& p, int side) {
+  return {(p.x() + kLeafHalf) / (2 * kLeafHalf) * side,
+          (1 - (p.y() - kLeafBottom) / (2 * kLeafHalf)) * side};
+}
+
+cv::Point fixed(const cv::Point2f& p) {
+  return {cvRound(p.x * 16), cvRound(p.y * 16)};
+}
+
+/// The outline with the small teeth that a mesh leaves out.
+cv::Mat leaf_alpha(int side, const Cultivar::Leaf& look, RandomSequence& random) {
+  const std::vector<Eigen::Vector2f>& coarse = leaf_outline(2, static_cast<float>(look.lobes));
+  const auto height = static_cast<float>(0.09 * look.teeth);
+  std::vector<cv::Point> outline;
+  for (std::size_t i = 0; i < coarse.size(); ++i) {
+    const Eigen::Vector2f& a = coarse[i];
+    const Eigen::Vector2f& b = coarse[(i + 1) % coarse.size()];
+    constexpr int kTeeth = 3;
+    for (int t = 0; t < kTeeth; ++t) {
+      const Eigen::Vector2f on = a + (b - a) * (static_cast<float>(t) / kTeeth);
+      const Eigen::Vector2f tip = a + (b - a) * ((t + 0.75f) / kTeeth);
+      const float reach = 1 + height * static_cast<float>(random.uniform(0.2, 0.8));
+      outline.push_back(fixed(leaf_pixel(on * (1 - 0.5f * height), side)));
+      outline.push_back(fixed(leaf_pixel(tip * reach, side)));
+    }
+  }
+  cv::Mat alpha(side, side, CV_8UC1, cv::Scalar(0));
+  cv::fillPoly(alpha, std::vector<std::vector<cv::Point>>{outline}, 255, cv::LINE_AA, 4);
+  return alpha;
+}
+
+void draw_vein(cv::Mat& veins, const Eigen::Vector2f& from, const Eigen::Vector2f& to, int width) {
+  cv::line(veins, fixed(leaf_pixel(from, veins.cols)), fixed(leaf_pixel(to, veins.cols)),
+           cv::Scalar(1), width, cv::LINE_AA, 4);
+}
+
+/// 1 on a vein, 0 between: five from the foot into the lobes, with side veins.
+cv::Mat leaf_veins(int side) {
+  cv::Mat veins8(side, side, CV_8UC1, cv::Scalar(0));
+  cv::Mat veins(side, side, CV_32F, cv::Scalar(0));
+  const std::array<std::pair<float, float>, 5> lobes{
+      {{0, 1.0f}, {60, 0.84f}, {-60, 0.84f}, {128, 0.6f}, {-128, 0.6f}}};
+  for (const auto& [degrees, length] : lobes) {
+    const float angle = (90 + degrees) * std::numbers::pi_v<float> / 180;
+    const Eigen::Vector2f along(std::cos(angle), std::sin(angle));
+    const Eigen::Vector2f across(-along.y(), along.x());
+    draw_vein(veins, Eigen::Vector2f::Zero(), length * along, side / 85);
+    for (int i = 1; i <= 5; ++i) {
+      const float at = length * i / 6.5f, reach = 0.42f * (length - at) + 0.04f;
+      for (const float s : {-1.0f, 1.0f}) {
+        draw_vein(veins, at * along, (at + 0.75f * reach) * along + s * reach * across, side / 256);
+      }
+    }
+  }
+  cv::GaussianBlur(veins, veins, {}, side / 300.0);
+  return cv::min(veins, 1.0f);
+}
+
+cv::Vec3f bytes(const Eigen::Vector3d& colour) {
+  return 255.0f * cv::Vec3f(static_cast<float>(colour.x()), static_cast<float>(colour.y()),
+                            static_cast<float>(colour.z()));
+}
+
+struct LeafColours {
+  cv::Vec3f dark, light, vein, edge;
+  float edge_share;  // how much of the rim has turned
+};
+
+/// How one of the atlas' leaves differs from the cultivar's colours.
+struct LeafAge {
+  float brightness;
+  float yellow;    // of young growth
+  float autumn;    // share of the autumn colour
+  float withered;  // share of brown
+  float edge_share;
+};
+
+constexpr std::array<LeafAge, kLeafVariants> kSummer{{{1.00f, 0.00f, 0.00f, 0.00f, 0.05f},
+                                                      {1.14f, 0.08f, 0.00f, 0.00f, 0.08f},
+                                                      {0.86f, 0.00f, 0.00f, 0.00f, 0.03f},
+                                                      {1.24f, 0.14f, 0.00f, 0.00f, 0.05f},
+                                                      {1.06f, 0.04f, 0.08f, 0.00f, 0.38f},
+                                                      {0.92f, 0.00f, 0.05f, 0.00f, 0.12f},
+                                                      {1.40f, 0.35f, 0.00f, 0.00f, 0.00f},
+                                                      {1.10f, 0.05f, 0.40f, 0.00f, 0.55f}}};
+constexpr std::array<LeafAge, kLeafVariants> kAutumn{{{1.05f, 0.10f, 0.25f, 0.00f, 0.30f},
+                                                      {1.15f, 0.10f, 0.45f, 0.00f, 0.35f},
+                                                      {1.00f, 0.00f, 0.20f, 0.05f, 0.20f},
+                                                      {1.15f, 0.10f, 0.60f, 0.00f, 0.20f},
+                                                      {1.10f, 0.00f, 0.95f, 0.00f, 0.15f},
+                                                      {1.00f, 0.00f, 0.90f, 0.35f, 0.40f},
+                                                      {0.90f, 0.00f, 0.80f, 0.75f, 0.30f},
+                                                      {1.15f, 0.00f, 0.80f, 0.10f, 0.30f}}};
+
+LeafColours leaf_colours(const Cultivar::Leaf& look, const LeafAge& age) {
+  const cv::Vec3f autumn = bytes(look.autumn), withered(112, 78, 46), yellow(176, 190, 80);
+  const auto aged = [&](const cv::Vec3f& green, float shade) {
+    cv::Vec3f c = age.brightness * green;
+    c += age.yellow * (shade * yellow - c);
+    c += age.autumn * (shade * autumn - c);
+    return c + age.withered * (shade * withered - c);
+  };
+  const cv::Vec3f dark = aged(bytes(look.dark), 0.72f), light = aged(bytes(look.light), 1.05f);
+  return {dark, light, 0.55f * light + 0.45f * cv::Vec3f(196, 204, 128),
+          0.85f * autumn + 0.15f * withered, age.edge_share};
+}
+
+cv::Mat paint_leaf(std::uint64_t seed, int variant, const Cultivar::Leaf& look,
+                   const LeafColours& colours) {
+  const int side = kLeafPixels * kPaintScale;
+  RandomSequence random(RandomStream(seed, "leaf", variant));
+  const std::string name = "leaf" + std::to_string(variant);
+  const cv::Mat mottle = fractal_noise({side, side}, {5, 5}, 6, 0.62, seed, name);
+  cv::Mat rgb = blend(mottle, colours.dark, colours.light);
+  const cv::Mat alpha = leaf_alpha(side, look, random);
+  cv::Mat inside, rim;
+  cv::distanceTransform(alpha > 127, inside, cv::DIST_L2, 3);
+  cv::Mat turned = 1.6 * colours.edge_share - inside / (0.16 * side) + (mottle - 0.5) * 1.2;
+  turned = cv::min(cv::max(turned, 0.0f), 1.0f);
+  rgb = mix(turned, rgb, cv::Mat(rgb.size(), CV_32FC3, cv::Scalar(colours.edge)));
+  const cv::Mat vein = 0.5 * leaf_veins(side);
+  rgb = mix(vein, rgb, cv::Mat(rgb.size(), CV_32FC3, cv::Scalar(colours.vein)));
+  const int spots = 2 + random.below(6);
+  for (int i = 0; i < spots; ++i) {
+    const cv::Point2d at(random.uniform(0.2, 0.8) * side, random.uniform(0.1, 0.8) * side);
+    const cv::Scalar brown(random.uniform(60, 110), random.uniform(50, 70), random.uniform(20, 35));
+    cv::circle(rgb, at, 1 + random.below(side / 90), brown, cv::FILLED, cv::LINE_AA);
+  }
+  cv::Mat small;
+  cv::resize(to_rgba(rgb, alpha), small, {kLeafPixels, kLeafPixels}, 0, 0, cv::INTER_AREA);
+  return small;
+}
+
+/// Skin of a berry that has its colour to the share `ripe`; pink on the way.
+cv::Vec3f berry_colour(const Cultivar::Berry& look, float ripe) {
+  const cv::Vec3f green = bytes(look.green), full = bytes(look.ripe);
+  const bool red = look.ripe.y() < look.green.y() - 0.15;
+  const cv::Vec3f middle = red ? cv::Vec3f(150, 92, 104) : 0.5f * (green + full);
+  return ripe < 0.5f ? green + 2 * ripe * (middle - green)
+                     : middle + (2 * ripe - 1) * (full - middle);
+}
+
+/// The colours of the atlas' four berries: at veraison some are green, some have turned.
+std::array<cv::Vec3f, kBerryVariants> berry_colours(const Cultivar& cultivar,
+                                                    const GrowthStage& stage) {
+  std::array<cv::Vec3f, kBerryVariants> colours;
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    const float ripe = std::clamp(stage.ripe * kBerryVariants - static_cast<float>(i), 0.0f, 1.0f);
+    const bool turning = stage.ripe > 0 && stage.ripe < 1;
+    colours.at(i) = berry_colour(cultivar.berry, turning && i == 1 ? 0.55f : ripe);
+    colours.at(i) *= 0.9f + 0.07f * static_cast<float>(i);
+    if (stage.bunch > 0 && stage.berry < 0.4f) colours.at(i) = {188, 198, 122};  // flowers
+  }
+  return colours;
+}
+
+/// One berry over a picture: darker towards its rim, where its neighbours shade it.
+void paint_berry(cv::Mat& rgb, const cv::Point2d& at, const cv::Size2d& radius,
+                 const cv::Vec3f& skin, double rim) {
+  constexpr int kRings = 8;
+  for (int i = 0; i < kRings; ++i) {
+    const double out = 1 - static_cast<double>(i) / kRings;
+    const cv::Size axes(cvRound(radius.width * out * 16), cvRound(radius.height * out * 16));
+    const cv::Scalar shade = cv::Scalar(skin) * (rim + (1.2 - rim) * std::sqrt(1 - out * out));
+    const cv::Point2d lifted = at - cv::Point2d(0, 0.12 * radius.height * (1 - out));
+    cv::ellipse(rgb, fixed(lifted), axes, 0, 0, 360, shade, cv::FILLED, cv::LINE_AA, 4);
+  }
+}
+
+/// Berries shoulder to shoulder, without a seam round the bunch.
+cv::Mat paint_packed(std::uint64_t seed, const Cultivar& cultivar, const GrowthStage& stage) {
+  const auto colours = berry_colours(cultivar, stage);
+  const int side = kBunchPixels;
+  cv::Mat rgb(side, side, CV_32FC3, cv::Scalar(0.22f * colours[1]));
+  const double berry = cultivar.berry.diameter * std::max(0.2f, stage.berry);
+  const auto width = cultivar.bunch.width * static_cast<double>(stage.bunch_width());
+  const int columns = std::clamp(cvRound(2.6 * width / berry), 5, 24);
+  const int rows = std::clamp(cvRound(1.15 * cultivar.bunch.length * stage.bunch / berry), 4, 40);
+  const cv::Size2d step(static_cast<double>(side) / columns, static_cast<double>(side) / rows);
+  RandomSequence random(RandomStream(seed, "bunch"));
+  for (int i = 0; i < columns * rows; ++i) {
+    const double shift = 0.5 * (i / columns % 2);
+    const cv::Point2d at((i % columns + shift + random.uniform(-0.15, 0.15)) * step.width,
+                         (i / columns + 0.5 + random.uniform(-0.15, 0.15)) * step.height);
+    const double size = random.uniform(0.50, 0.60);
+    const cv::Vec3f skin = static_cast<float>(random.uniform(0.8, 1.05)) *
+                           colours.at(static_cast<std::size_t>(random.below(kBerryVariants)));
+    for (const double wrap : {-1.0, 0.0, 1.0}) {
+      paint_berry(rgb, at + cv::Point2d(wrap * side, 0), step * size, skin, 0.42);
+    }
+  }
+  return rgb;
+}
+
+/// Cells of an atlas of that many columns and rows, kept half a texel from the neighbours.
+TextureCell atlas_cell(int index, int columns, int rows, float rim) {
+  const Eigen::Vector2f size(1.0f / columns, 1.0f / rows);
+  const Eigen::Vector2f from(size.x() * (index % columns), size.y() * (index / columns));
+  return {from + rim * size, from + (1 - rim) * size};
+}
+
+}  // namespace
+
+Texture leaf_texture(std::uint64_t seed, const Cultivar& cultivar, const GrowthStage& stage) {
+  Texture texture{"leaf", cv::Mat(2 * kLeafPixels, 4 * kLeafPixels, CV_8UC4), false};
+  for (int i = 0; i < kLeafVariants; ++i) {
+    const LeafAge& age = (stage.autumn > 0.5f ? kAutumn : kSummer).at(static_cast<std::size_t>(i));
+    const cv::Rect cell((i % 4) * kLeafPixels, (i / 4) * kLeafPixels, kLeafPixels, kLeafPixels);
+    paint_leaf(seed, i, cultivar.leaf, leaf_colours(cultivar.leaf, age)).copyTo(texture.rgba(cell));
+  }
+  return texture;
+}
+
+TextureCell leaf_cell(int variant) {
+  return atlas_cell(variant, 4, 2, 0.5f / kLeafPixels);
+}
+
+Texture bark_texture(std::uint64_t seed) {
+  const cv::Size size(256, 512);
+  const cv::Mat fibres = fractal_noise(size, {16, 4}, 5, 0.7, seed, "bark");
+  const cv::Mat patches = fractal_noise(size, {4, 6}, 4, 0.6, seed, "bark patches");
+  cv::Mat ridges = cv::abs(fibres - 0.5) * 2.4;  // cracks where the noise crosses its middle
+  ridges = cv::min(ridges, 1.0f);
+  const cv::Mat bark = blend(ridges, {36, 28, 22}, {132, 112, 92});
+  const cv::Mat grey = blend(ridges, {52, 46, 40}, {164, 152, 136});
+  return {"bark", to_rgba(mix(patches, bark, grey)), true};
+}
+
+Texture cane_texture(std::uint64_t seed, const GrowthStage& stage) {
+  const cv::Size half(32, 128);
+  const cv::Mat streaks = fractal_noise(half, {8, 4}, 3, 0.6, seed, "cane");
+  const cv::Mat green = blend(streaks, {82, 104, 40}, {142, 158, 76});
+  const cv::Mat brown = blend(streaks, {94, 62, 38}, {164, 120, 78});
+  const cv::Mat patches = fractal_noise(half, {2, 6}, 3, 0.6, seed, "lignified");
+  cv::Mat wood =
+      cv::min(cv::max(4 * (patches - 0.5) + 4 * (stage.lignified - 0.5) + 0.5, 0.0), 1.0);
+  cv::Mat both;
+  cv::hconcat(mix(wood, green, brown), brown, both);
+  return {"cane", to_rgba(both), true};
+}
+
+Texture bunch_texture(std::uint64_t seed, const Cultivar& cultivar, const GrowthStage& stage) {
+  const int side = kBunchPixels, cell = side / 2;
+  cv::Mat rgb(side, 2 * side, CV_32FC3, cv::Scalar::all(0));
+  paint_packed(seed, cultivar, stage).copyTo(rgb(cv::Rect(0, 0, side, side)));
+  const auto colours = berry_colours(cultivar, stage);
+  for (int i = 0; i < kBerryVariants; ++i) {
+    cv::Mat of_berry = rgb(cv::Rect(side + (i % 2) * cell, (i / 2) * cell, cell, cell));
+    const cv::Vec3f& skin = colours.at(static_cast<std::size_t>(i));
+    of_berry.setTo(cv::Scalar(0.5f * skin));
+    const double middle = 0.5 * (cell - 1);
+    paint_berry(of_berry, {middle, middle}, {0.5 * cell, 0.5 * cell}, skin, 0.5);
+    // The bloom, a whitish wax, is rubbed off in places.
+    const cv::Mat bloom =
+        0.28 * fractal_noise({cell, cell}, {3, 3}, 5, 0.6, seed, "berry" + std::to_string(i));
+    const cv::Mat wax(of_berry.size(), CV_32FC3, cv::Scalar(0.55f * skin + cv::Vec3f(72, 74, 80)));
+    mix(bloom, of_berry, wax).copyTo(of_berry);
+  }
+  return {"bunch", to_rgba(rgb), false};
+}
+
+TextureCell berry_cell(int variant) {
+  // Columns 2 and 3 of four, rows 0 and 1 of two.
+  return atlas_cell(2 + variant % 2 + 4 * (variant / 2 % 2), 4, 2, 1.0f / kBunchPixels);
+}
+
+TextureCell packed_berries_cell() {
+  return atlas_cell(0, 2, 1, 0.5f / kBunchPixels);
+}
+
+}  // namespace vinebench

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
+#include "sim/world/world.h"
+
+namespace vinebench {
+
+/// Share of pixels (0 to 1) that show `wanted` in a picture of labels (CV_8UC1 of Label).
+double label_share(const cv::Mat& labels, Label wanted);
+
+/// Whether a tag's black square is wholly in the picture, at least `min_side` px large along its
+/// shortest side, with its centre and corners unoccluded by the labels. A tag seen from behind or
+/// from more than 75 degrees off its normal does not count.
+bool is_tag_visible(const WorldConfig::Tag& tag, const PinholeCamera& camera,
+                    const Pose& T_world_cam, const cv::Mat& labels, double min_side = 24);
+
+}  // namespace vinebench

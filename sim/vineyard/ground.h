@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "sim/scene/scene.h"
+#include "sim/world/terrain.h"
+#include "sim/world/world.h"
+
+namespace vinebench {
+
+/// The soil and its mown strips: tiles of the terrain's own grid, coarser with the distance, and an
+/// apron round them to the ground's edge.
+void add_ground(Scene& scene, const WorldConfig& world, const Terrain& terrain, std::uint64_t seed);
+
+/// What lies and grows on it: weeds under the rows, mown grass or fallen leaves and pebbles in the
+/// aisles, grass round the vineyard.
+void add_ground_cover(Scene& scene, const WorldConfig& world, const Terrain& terrain,
+                      std::uint64_t seed);
+
+/// A hedge at the edge of the ground and hills behind it.
+void add_backdrop(Scene& scene, const WorldConfig& world, const Terrain& terrain,
+                  std::uint64_t seed);
+
+}  // namespace vinebench

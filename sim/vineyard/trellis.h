@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "sim/scene/scene.h"
+#include "sim/world/terrain.h"
+#include "sim/world/world.h"
+
+namespace vinebench {
+
+/// What holds an end post: a strut within the row or a wire to an anchor outside it.
+struct Brace {
+  Eigen::Vector3d foot;  ///< m, world
+  Eigen::Vector3d head;  ///< m, world; on the post
+  double radius = 0;     ///< m
+};
+
+/// The braces of all end posts, in the posts' order; none where the world has none.
+std::vector<Brace> trellis_braces(const WorldConfig& world, const Terrain& terrain);
+
+/// Posts, braces, wires and drip lines of every row.
+void add_trellis(Scene& scene, const WorldConfig& world, const Terrain& terrain,
+                 std::uint64_t seed);
+
+}  // namespace vinebench

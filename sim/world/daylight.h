@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/config/config_field.h"
+#include "sim/scene/scene.h"
+
+namespace vinebench {
+
+/// Where the sun stands: said outright, or by place and time.
+struct SunConfig {
+  struct At {
+    double latitude_deg = 45;   ///< north
+    double longitude_deg = 10;  ///< east
+    std::string date = "2026-09-15";
+    std::string time = "12:00";  ///< UTC
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive("latitude_deg", latitude_deg, Range::between(-90, 90));
+      archive("longitude_deg", longitude_deg, Range::between(-180, 180));
+      archive("date", date);
+      archive("time", time);
+      archive.require(is_date(date), "date", "expected YYYY-MM-DD");
+      archive.require(is_time(time), "time", "expected HH:MM or HH:MM:SS");
+    }
+  };
+  double azimuth_deg = 140;   ///< heading from north over east, where the sun stands
+  double elevation_deg = 50;  ///< above the horizon; below it, twilight
+  std::optional<At> at;       ///< in place of azimuth and elevation
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("azimuth_deg", azimuth_deg, Range::between(-360, 360));
+    archive("elevation_deg", elevation_deg, Range::between(-12, 90));
+    archive("at", at);
+  }
+
+  static bool is_date(const std::string& text);
+  static bool is_time(const std::string& text);
+};
+
+struct SkyConfig {
+  double overcast = 0;               ///< share of the sky under cloud, 0 to 1
+  std::optional<double> visibility;  ///< m at which 2 % of a contrast is left; clear where absent
+  double glare = 1;  ///< light that a sun in the picture scatters in the lens, 0: none
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("overcast", overcast, Range::between(0, 1));
+    archive("visibility", visibility, Range::between(5, 100000));
+    archive("glare", glare, Range::between(0, 10));
+  }
+};
+
+struct WindConfig {
+  double speed = 0;        ///< m/s at the canopy; 0 is still air
+  double heading_deg = 0;  ///< where it blows to, from east over north
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("speed", speed, Range::between(0, 25));
+    archive("heading_deg", heading_deg, Range::between(-360, 360));
+  }
+};
+
+/// Azimuth (from north over east) and elevation of the sun, rad.
+struct SunPosition {
+  double azimuth = 0;
+  double elevation = 0;
+};
+
+/// The sun over a place at a time, by the Astronomical Almanac's low-precision formulas (Michalsky,
+/// Solar Energy 40, 1988), good to 0.01 degrees from 1950 to 2050; without refraction. Throws Error
+/// for a date or time that is none.
+SunPosition sun_position(const SunConfig::At& at);
+
+/// The light of a sun and a sky. A clear sky with the sun 50 degrees high is the light that a
+/// camera at exposure 1 is set for; a lower sun is dimmer and redder, by the air that its light
+/// crosses.
+Light daylight(const SunConfig& sun, const SkyConfig& sky);
+
+Wind make_wind(const WindConfig& config, std::uint64_t seed);
+
+}  // namespace vinebench

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "sim/world/world.h"
+
+namespace vinebench {
+
+/// Finds the row next to a place without asking all of them.
+class RowIndex {
+ public:
+  static constexpr double kReach = 3.0;  ///< m; rows further away are not looked for
+
+  explicit RowIndex(const WorldConfig& world);
+
+  /// m, to the nearest row's line; kReach where none is nearer.
+  double distance(const Eigen::Vector2d& p) const;
+
+ private:
+  struct Segment {
+    Eigen::Vector2d start, way;
+    double distance(const Eigen::Vector2d& p) const;
+  };
+  std::vector<Segment> rows_;
+  Eigen::Vector2d low_;
+  int columns_ = 0, lines_ = 0;
+  std::vector<std::vector<int>> bins_;  ///< rows within reach of each square, line by line
+};
+
+}  // namespace vinebench

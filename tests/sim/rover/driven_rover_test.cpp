@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/rover/driven_rover.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/config_files.h"
+
+namespace vinebench {
+namespace {
+
+/// One metre along an aisle in 4 s, and a second to come to rest.
+class DrivenRoverTest : public testing::Test {
+ protected:
+  DrivenRoverTest() {
+    const std::filesystem::path models =
+        std::filesystem::path(VINEBENCH_SOURCE_DIR) / "models/csl-rover";
+    rover_ = load_rover(models / "rover.yaml");
+    world_.rows = {{{0, 1.5}, {2, 1.5}}};
+    route_.speed = 0.3;
+    route_.waypoints.resize(2);
+    route_.waypoints[1].position = {1, 0};
+    route_.waypoints[1].wait = 1;
+  }
+  /// Where the rover ends when fifteen times a second `told` of its true pose is steered by.
+  template <class Told>
+  Eigen::Vector3d end_of_drive(Told told) const {
+    DrivenRover rover(rover_, world_, route_, 1);
+    const std::int64_t frames = rover.route().duration() * 15 / kNanosecondsPerSecond;
+    Stamp stamp = 0;
+    for (std::int64_t i = 0; i <= frames; ++i) {
+      stamp = stamp_of_frame(i, 15);
+      rover.advance_to(stamp);
+      told(rover, i, stamp);
+    }
+    return rover.T_world_body(stamp).translation;
+  }
+
+  RoverConfig rover_;
+  WorldConfig world_;
+  RouteConfig route_;
+};
+
+// A centimetre: what the position loop leaves of motors that differ by 1 %.
+TEST_F(DrivenRoverTest, EndsAtTheRoutesEnd) {
+  const Eigen::Vector3d end = end_of_drive([](DrivenRover&, std::int64_t, Stamp) {});
+  EXPECT_NEAR(end.x(), 1, 0.01);
+  EXPECT_NEAR(end.y(), 0, 0.01);
+}
+
+TEST_F(DrivenRoverTest, TheTruthToldGoesTheSameWay) {
+  const Eigen::Vector3d end = end_of_drive([](DrivenRover& rover, std::int64_t, Stamp stamp) {
+    rover.steer_by(stamp, rover.T_world_body(stamp));
+  });
+  EXPECT_NEAR(end.x(), 1, 0.01);
+  EXPECT_NEAR(end.y(), 0, 0.01);
+}
+
+// Told to be 0.1 m farther and 0.05 m farther left than it is, it stops that much short and right.
+TEST_F(DrivenRoverTest, AWrongPoseToldIsDrivenInto) {
+  const Pose shift{Eigen::Quaterniond::Identity(), {0.1, 0.05, 0}};
+  const Eigen::Vector3d end = end_of_drive([&](DrivenRover& rover, std::int64_t, Stamp stamp) {
+    rover.steer_by(stamp, shift * rover.T_world_body(stamp));
+  });
+  EXPECT_NEAR(end.x(), 0.9, 0.01);
+  EXPECT_NEAR(end.y(), -0.05, 0.01);
+}
+
+// Told nothing after the first second it goes on as commanded: a hundredth of the way is what the
+// motors' spread leaves, and as much for where the wheels lag behind.
+TEST_F(DrivenRoverTest, WithoutNewsItGoesOnAsCommanded) {
+  const Eigen::Vector3d end = end_of_drive([](DrivenRover& rover, std::int64_t i, Stamp stamp) {
+    if (i <= 15) rover.steer_by(stamp, rover.T_world_body(stamp));
+  });
+  EXPECT_NEAR(end.x(), 1, 0.02);
+  EXPECT_NEAR(end.y(), 0, 0.02);
+}
+
+}  // namespace
+}  // namespace vinebench

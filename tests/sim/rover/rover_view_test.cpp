@@ -1,0 +1,268 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "core/geometry/rig.h"
+#include "core/util/error.h"
+#include "sim/rover/rover_asset.h"
+#include "sim/scene/instance_names.h"
+#include "sim/truth/truth_images.h"
+#include "tests/support/test_folder.h"
+#include "tests/support/test_scene.h"
+
+namespace vinebench {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+
+const std::filesystem::path kModel =
+    std::filesystem::path(VINEBENCH_SOURCE_DIR) / "models/csl-rover/rover.xml";
+const Pose kRover{Eigen::Quaterniond::Identity(), {2, 1, 0}};
+
+/// Looks straight down on a place, x to the right.
+Pose above(double x, double y, double height) {
+  return {Eigen::Quaterniond(0, 1, 0, 0), {x, y, height}};
+}
+
+/// A square that lies flat, its face up.
+Primitive sheet(int material, double side) {
+  Primitive primitive = panel(material, side, side);
+  for (Vertex& vertex : primitive.vertices) {
+    vertex.position = {vertex.position.x(), vertex.position.z(), 0};
+    vertex.normal = Eigen::Vector3f::UnitZ();
+  }
+  return primitive;
+}
+
+/// Even ground, and the sun in the west, 45 degrees high: what is at a height of z
+/// casts its shadow z further east.
+class RoverViewTest : public testing::Test {
+ protected:
+  RoverViewTest() {
+    const int soil = add_material(scene_, Label::kGround, {0.3f, 0.25f, 0.2f});
+    scene_.materials[static_cast<std::size_t>(soil)].terrain = true;
+    const int tile = add_model(scene_, sheet(soil, 0.5));
+    for (int x = -4; x < 20; ++x) {
+      for (int y = -8; y < 12; ++y) add_instance(scene_, tile, {0.5 * x, 0.5 * y, 0});
+    }
+    scene_.light.towards_sun = Eigen::Vector3f(-1, 0, 1).normalized();
+    add_rover(scene_, kModel);
+  }
+
+  Picture draw(const Pose& T_world_cam, const std::optional<Pose>& rover,
+               Renderer::Request request = {}) {
+    if (!renderer_) renderer_.emplace(scene_, RendererConfig{});
+    request.T_world_rover = rover;
+    return renderer_->render(camera_, T_world_cam, request);
+  }
+  int changed_pixels(const Pose& T_world_cam) {
+    const cv::Mat with = draw(T_world_cam, kRover).rgb, without = draw(T_world_cam, {}).rgb;
+    return cv::countNonZero(cv::Mat(with != without).reshape(1));
+  }
+  cv::Vec3b at(const cv::Mat& rgb, const Pose& T_world_cam, const Eigen::Vector3d& p) const {
+    const Eigen::Vector2d pixel = camera_.project(T_world_cam.inverse() * p);
+    EXPECT_TRUE(camera_.contains(pixel, 2));
+    return rgb.at<cv::Vec3b>(static_cast<int>(std::lround(pixel.y())),
+                             static_cast<int>(std::lround(pixel.x())));
+  }
+
+  PinholeCamera camera_ = small_camera();
+  Scene scene_;
+  std::optional<Renderer> renderer_;
+};
+
+TEST_F(RoverViewTest, IsSeenFromOutsideWhereItStands) {
+  // Between the wheels one looks at the chassis' side, 0.13 m off the middle: 1.87 m away.
+  const Pose view = look_at({2, -1, 0.165}, {2, 1, 0.165});
+  const Picture picture =
+      draw(view, kRover, {.labels = true, .depth = true, .instances = true, .normals = true});
+  EXPECT_EQ(picture.labels.at<std::uint8_t>(240, 376), static_cast<std::uint8_t>(Label::kRover));
+  EXPECT_NEAR(picture.depth.at<float>(240, 376), 1.87f, 1e-3f);
+  EXPECT_LT(cv::norm(picture.normals.at<cv::Vec3f>(240, 376) - cv::Vec3f(0, 0, -1)), 1e-3);
+  const InstanceName name = instance_name(scene_, picture.instances.at<std::int32_t>(240, 376));
+  EXPECT_EQ(name.thing, Thing::kRover);
+  EXPECT_EQ(name.model, "rover");
+  const cv::Mat labels = draw(view, {}, {.labels = true}).labels;
+  EXPECT_EQ(cv::countNonZero(labels == static_cast<int>(Label::kRover)), 0);
+}
+
+// Done means the stereo cameras see past it: nothing of it is in the rig's own pictures.
+TEST_F(RoverViewTest, IsInNoneOfItsOwnPictures) {
+  const Rig rig = load_rig(kModel.parent_path() / "rig.yaml");
+  Renderer renderer(scene_, {});
+  for (const RigCamera& mounted : rig.cameras) {
+    const Picture picture = renderer.render(mounted.model, kRover * mounted.T_body_cam,
+                                            {.labels = true, .T_world_rover = kRover});
+    EXPECT_EQ(cv::countNonZero(picture.labels == static_cast<int>(Label::kRover)), 0)
+        << mounted.name;
+  }
+}
+
+TEST_F(RoverViewTest, ItsShadowLiesWhereTheSunCastsIt) {
+  // The camera bar is at a height of 0.475 to 0.505 m and reaches 0.08 m to either side. Its middle
+  // casts to x = 2 + 0.49, where the shadow of all that is lower (0.235 m, and up to 0.22 m ahead)
+  // has ended.
+  const Pose view = above(2.8, 1, 1.0);
+  const cv::Mat with = draw(view, kRover).rgb, without = draw(view, {}).rgb;
+  const auto dark = [&](double x, double y) {
+    return at(with, view, {x, y, 0})[1] < at(without, view, {x, y, 0})[1] - 20;
+  };
+  for (const double side : {-1.0, 1.0}) {
+    // A texel of the map is 3 mm, a pixel here 4 mm, and the comparison is smoothed.
+    EXPECT_TRUE(dark(2.49, 1 + side * 0.07));
+    EXPECT_FALSE(dark(2.49, 1 + side * 0.09));
+  }
+  // Its front edge: 0.12 m ahead and 0.505 m high.
+  EXPECT_TRUE(dark(2.615, 1));
+  EXPECT_FALSE(dark(2.635, 1));
+}
+
+TEST_F(RoverViewTest, ItsShadowIsAsDarkAsAPlants) {
+  const Pose view = above(2.8, 1, 1.0);
+  const cv::Mat by_rover = draw(view, kRover).rgb;
+  const int wood = add_material(scene_, Label::kPost, {0.2f, 0.2f, 0.2f});
+  add_instance(scene_, add_model(scene_, sheet(wood, 0.3)), {2, 1, 0.49});
+  renderer_.reset();
+  const cv::Vec3b by_sheet = at(draw(view, {}).rgb, view, {2.49, 1, 0});
+  // The map of the ground's light holds 8 bits: a grey level or two.
+  EXPECT_LE(cv::norm(at(by_rover, view, {2.49, 1, 0}), by_sheet, cv::NORM_INF), 2);
+  // Where both fall on the ground it is no darker than under one.
+  const cv::Vec3b by_both = at(draw(view, kRover).rgb, view, {2.49, 1, 0});
+  EXPECT_LE(cv::norm(by_both, by_sheet, cv::NORM_INF), 2);
+}
+
+TEST_F(RoverViewTest, ItsShadowFallsOnThingsToo) {
+  // In the shadow of the camera bar's middle, 0.2 m above the ground.
+  const int leaf = add_material(scene_, Label::kLeaf, {0.3f, 0.5f, 0.1f});
+  const int carton = add_material(scene_, Label::kBox, {0.5f, 0.3f, 0.2f});
+  for (const int material : {leaf, carton}) {
+    const double y = material == leaf ? 1.04 : 0.96;
+    add_instance(scene_, add_model(scene_, sheet(material, 0.03)), {2.29, y, 0.2});
+  }
+  const Pose view = above(2.8, 1, 1.0);
+  const cv::Mat with = draw(view, kRover).rgb, without = draw(view, {}).rgb;
+  for (const double y : {0.96, 1.04}) {
+    const Eigen::Vector3d p(2.29, y, 0.2);
+    EXPECT_LT(at(with, view, p)[1], at(without, view, p)[1] - 20) << y;
+  }
+}
+
+TEST_F(RoverViewTest, ChangesNothingOutOfView) {
+  EXPECT_GT(changed_pixels(look_at({0, 1, 0.5}, {2, 1, 0.3})), 1000);
+  // It looks away; beside the shadow; from close by over both.
+  EXPECT_EQ(changed_pixels(look_at({3.5, 1, 0.5}, {6, 1, 0.3})), 0);
+  EXPECT_EQ(changed_pixels(above(2, 2.2, 1.0)), 0);
+  EXPECT_EQ(changed_pixels(look_at({2, 1, 0.75}, {6, 1, 0.75})), 0);
+}
+
+TEST_F(RoverViewTest, CastsNoShadowWithoutASun) {
+  // The rover's own picture ends at x = 2.25, 0.27 m from the middle of what this one shows.
+  camera_ = {200, 300, 500, 500, 99.5, 149.5, {}};
+  const Pose view = above(2.52, 1, 1.0);
+  EXPECT_GT(changed_pixels(view), 1000);
+  scene_.light.sun.setZero();
+  renderer_.reset();
+  EXPECT_EQ(changed_pixels(view), 0);
+}
+
+TEST_F(RoverViewTest, DoesNotDependOnWhatWasDrawnBefore) {
+  const Pose view = look_at({0, -1, 1}, {2.2, 1, 0});
+  const cv::Mat first = draw(view, kRover).rgb;
+  draw(view, Pose{Eigen::Quaterniond::Identity(), {2.3, 1.2, 0}});
+  draw(view, {});
+  EXPECT_EQ(cv::norm(first, draw(view, kRover).rgb, cv::NORM_INF), 0);
+}
+
+TEST_F(RoverViewTest, FlowGoesWithTheRover) {
+  // Rover and camera drive on together by 0.05 m and turn by 0.02 rad: its picture stays in place.
+  const Pose later = kRover * Pose{from_roll_pitch_yaw({0, 0, 0.02}), {0.05, 0, 0}};
+  const Pose T_rover_cam = kRover.inverse() * look_at({0.8, 0.2, 0.7}, {2, 1, 0.2});
+  Renderer::Request request = truth_request();
+  request.T_world_rover_other = later;
+  const TruthView a{camera_, kRover * T_rover_cam, draw(kRover * T_rover_cam, kRover, request)};
+  const TruthView b{camera_, later * T_rover_cam, draw(later * T_rover_cam, later, request)};
+  const FlowTruth truth = optical_flow(a, b);
+  int pixels = 0, visible = 0;
+  for (int y = 0; y < camera_.height; ++y) {
+    for (int x = 0; x < camera_.width; ++x) {
+      if (a.picture.labels.at<std::uint8_t>(y, x) != static_cast<std::uint8_t>(Label::kRover)) {
+        continue;
+      }
+      ++pixels;
+      if (truth.visible.at<std::uint8_t>(y, x) != 0) ++visible;
+      // Floats of a motion of 0.05 m, and of depth: far below a hundredth of a pixel.
+      EXPECT_LT(cv::norm(truth.flow.at<cv::Vec2f>(y, x)), 0.01);
+    }
+  }
+  EXPECT_GT(pixels, 2000);
+  EXPECT_GT(visible, 0.95 * pixels);  // all but pixels on the edges of rollers
+}
+
+TEST(RoverAssetTest, HasTheModelsMeasures) {
+  const Asset rover = rover_asset(kModel);
+  // The collision hull is not shown; the wheels reach furthest: 0.15 + 0.10 m ahead, and to the
+  // side 0.19 m and the rollers' 0.0623 m of half length at 45 degrees.
+  EXPECT_NEAR(rover.model.bounds.max().y(), 0.236f, 0.005f);
+  EXPECT_NEAR(rover.model.bounds.max().x(), 0.25f, 0.005f);
+  EXPECT_NEAR(rover.model.bounds.max().z(), 0.505f, 1e-4f);  // the camera bar's top
+  EXPECT_NEAR(rover.model.bounds.min().z(), 0, 0.003f);      // rollers on the ground
+  for (const Material& material : rover.materials) EXPECT_EQ(material.label, Label::kRover);
+}
+
+/// Faces look outward: the volume by the divergence theorem is that of the shape.
+TEST(RoverAssetTest, ShapesHaveTheirVolume) {
+  const TestFolder folder;
+  const auto volume = [&](const std::string& geom) {
+    const Asset asset = rover_asset(folder.write(
+        "rover.xml", "<mujoco><worldbody><body pos='1 2 3'><freejoint name='chassis'/><geom " +
+                         geom + "/></body></worldbody></mujoco>"));
+    double six_volumes = 0;
+    for (const Primitive& part : asset.model.levels.front().primitives) {
+      for (std::size_t i = 0; i < part.indices.size(); i += 3) {
+        const auto p = [&](std::size_t k) {
+          return part.vertices[part.indices[i + k]].position.cast<double>();
+        };
+        six_volumes += p(0).dot(p(1).cross(p(2)));
+      }
+    }
+    return six_volumes / 6;
+  };
+  constexpr double kPi = 3.14159265358979;
+  EXPECT_NEAR(volume("type='box' size='0.1 0.2 0.3'"), 8 * 0.006, 1e-6);
+  // Round things are polyhedra within them: of 8 to 20 sides, 2 to 20 % smaller.
+  const auto expect_round = [&](double found, double exact) {
+    EXPECT_LT(found, exact);
+    EXPECT_GT(found, 0.78 * exact);
+  };
+  expect_round(volume("type='cylinder' size='0.1 0.2'"), kPi * 0.01 * 0.4);
+  expect_round(volume("type='sphere' size='0.1'"), 4 / 3.0 * kPi * 0.001);
+  expect_round(volume("type='ellipsoid' size='0.1 0.2 0.3'"), 4 / 3.0 * kPi * 0.006);
+  expect_round(volume("type='capsule' size='0.1 0.2'"), kPi * 0.01 * (0.4 + 4 / 3.0 * 0.1));
+}
+
+TEST(RoverAssetTest, WhatIsNoRoverIsAnError) {
+  const TestFolder folder;
+  const auto error_of = [&](const std::filesystem::path& file) {
+    try {
+      rover_asset(file);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(error_of(folder / "none.xml"), HasSubstr("none.xml"));
+  EXPECT_THAT(error_of(folder.write("a.xml", "<mujoco/>")), HasSubstr("chassis"));
+  EXPECT_THAT(error_of(folder.write("b.xml",
+                                    "<mujoco><worldbody><body><freejoint name='chassis'/><geom "
+                                    "size='1' group='3'/></body></worldbody></mujoco>")),
+              HasSubstr("no visible geom"));
+}
+
+}  // namespace
+}  // namespace vinebench

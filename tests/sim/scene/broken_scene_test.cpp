@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "sim/scene/scene_check.h"
+#include "tests/support/broken_files.h"
+
+namespace vinebench {
+namespace {
+
+using test::error_of;
+using test::small_plant;
+using testing::HasSubstr;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+class BrokenSceneTest : public testing::Test {
+ protected:
+  BrokenSceneTest() {
+    scene_.instances.push_back({add_asset(scene_, small_plant()), Pose{}, 1, 0});
+    scene_.wires.push_back({{0, 0, 0}, {1, 0, 0}, 0.001f, 0});
+  }
+  std::string problem() const {
+    const std::string error = error_of([&] { check_scene(scene_); });
+    EXPECT_THAT(error, HasSubstr("scene: "));
+    return error;
+  }
+  Primitive& primitive() { return scene_.models[0].levels[0].primitives[0]; }
+  Scene scene_;
+};
+
+TEST_F(BrokenSceneTest, TheSceneItselfIsWhole) {
+  EXPECT_NO_THROW(check_scene(scene_));
+}
+
+TEST_F(BrokenSceneTest, TexturesOfWrongSizeOrKind) {
+  cv::Mat& rgba = scene_.textures[0].rgba;
+  for (const cv::Mat& wrong : {cv::Mat(), cv::Mat(0, 4, CV_8UC4), cv::Mat(4, 4, CV_8UC3),
+                               cv::Mat(4, 4, CV_32FC4), cv::Mat(4, 4, CV_8UC1)}) {
+    rgba = wrong;
+    EXPECT_THAT(problem(), HasSubstr("texture 'leaf': expected a picture of 4 channels"));
+  }
+  rgba = cv::Mat(1, 16385, CV_8UC4);
+  EXPECT_THAT(problem(), HasSubstr("at most 16384 pixels a side, found 16385 x 1"));
+  rgba = cv::Mat(3, 17, CV_8UC4);
+  EXPECT_NO_THROW(check_scene(scene_));
+}
+
+TEST_F(BrokenSceneTest, WhatNamesWhatIsNotThere) {
+  primitive().indices[1] = 1u << 31;
+  EXPECT_THAT(problem(), HasSubstr("model 'plant' names vertex 2147483648"));
+  primitive().indices[1] = 0;
+  primitive().material = 2;
+  EXPECT_THAT(problem(), HasSubstr("model 'plant' names material 2, expected 0 to 1"));
+  primitive().material = 0;
+  primitive().indices.pop_back();
+  EXPECT_THAT(problem(), HasSubstr("three for each triangle"));
+  scene_.models[0].levels[0].primitives.clear();
+  scene_.materials[1].texture = -2;
+  EXPECT_THAT(problem(), HasSubstr("material 'bark' names texture -2"));
+  scene_.materials[1].texture = -1;
+  scene_.instances[0].model = -1;
+  EXPECT_THAT(problem(), HasSubstr("instance 0 names model -1"));
+  scene_.instances.clear();
+  scene_.wires[0].material = 9;
+  EXPECT_THAT(problem(), HasSubstr("wire 0 names material 9"));
+}
+
+TEST_F(BrokenSceneTest, NumbersThatAreNone) {
+  const auto broken = [&](auto& number) {
+    const auto sound = number;
+    number = kNan;
+    const std::string error = problem();
+    number = sound;
+    return error;
+  };
+  EXPECT_THAT(broken(primitive().vertices[1].position.x()), HasSubstr("model 'plant': vertex 1"));
+  EXPECT_THAT(broken(primitive().vertices[1].normal.x()), HasSubstr("vertex 1"));
+  EXPECT_THAT(broken(scene_.materials[0].colour.x()), HasSubstr("material 'leaf'"));
+  EXPECT_THAT(broken(scene_.models[0].levels[0].until), HasSubstr("model 'plant'"));
+  EXPECT_THAT(broken(scene_.instances[0].scale), HasSubstr("instance 0"));
+  EXPECT_THAT(broken(scene_.instances[0].T_world_model.translation.z()), HasSubstr("instance 0"));
+  EXPECT_THAT(broken(scene_.wires[0].to.y()), HasSubstr("wire 0"));
+  EXPECT_THAT(broken(scene_.light.haze), HasSubstr("light"));
+  EXPECT_THAT(broken(scene_.light.glare), HasSubstr("light"));
+  EXPECT_THAT(broken(scene_.wind.speed), HasSubstr("wind"));
+  EXPECT_NO_THROW(check_scene(scene_));
+}
+
+}  // namespace
+}  // namespace vinebench

@@ -1,0 +1,413 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/sensors/camera/camera_sensor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+#include "core/util/error.h"
+#include "sim/sensors/camera/light.h"
+#include "sim/sensors/sensors.h"
+#include "tests/support/chessboard.h"
+#include "tests/support/test_scene.h"
+
+namespace vinebench {
+namespace {
+
+using namespace test;
+
+int different_values(const cv::Mat& a, const cv::Mat& b) {
+  return cv::countNonZero(cv::Mat(a != b).reshape(1));
+}
+
+CameraSensorConfig off() {
+  return perfect_sensors().camera;
+}
+
+/// A wall 2 m ahead of a camera that looks along +y, left of x = 0 black, right of it white.
+class EdgeTest : public testing::Test {
+ protected:
+  static constexpr double kDistance = 2;  // m
+  static constexpr double kSpeed = 0.8;   // m/s, of the body to the camera's right
+
+  EdgeTest() : renderer_(make_scene(), {}) {}
+
+  static Scene make_scene() {
+    Scene scene;
+    const int black = add_material(scene, Label::kPost, Eigen::Vector3f::Constant(0.01f));
+    const int white = add_material(scene, Label::kTag, Eigen::Vector3f::Constant(0.8f));
+    add_instance(scene, add_model(scene, panel(black, 4, 6)), {-2, 0, 0});
+    add_instance(scene, add_model(scene, panel(white, 4, 6)), {2, 0, 0});
+    light_evenly(scene);
+    return scene;
+  }
+  /// The body is the camera: both have the camera's axes.
+  static RigCamera camera() { return {"camera", {200, 160, 260, 260, 99.5, 79.5, {}}, {}}; }
+  static double image_speed() { return 260 * kSpeed / kDistance; }  // px/s
+
+  static Pose pose_at(double speed, Stamp stamp) {
+    Pose pose = look_at({0, -kDistance, 0}, {0, 0, 0});
+    pose.translation.x() += speed * to_seconds(stamp);
+    return pose;
+  }
+  Picture capture(const CameraSensorConfig& config, double speed = kSpeed, Stamp instant = 0) {
+    CameraSensor sensor(config, camera(), 0, 1);
+    CameraSensor::Shot shot;
+    shot.instant = instant;
+    shot.exposure = {config.exposure.time, config.exposure.gain_db};
+    shot.request.labels = true;
+    shot.request.depth = true;
+    return sensor.capture(
+        shot, [&](Stamp stamp) { return pose_at(speed, stamp); },
+        [&](const PinholeCamera& view, const Pose& pose, const Renderer::Request& request) {
+          return renderer_.render(view, pose, request);
+        });
+  }
+
+  /// Mean and variance (px, px^2) of where light changes along some rows of a picture.
+  static std::pair<double, double> edge(const cv::Mat& rgb, int top, int rows) {
+    const cv::Mat light = to_light(rgb);
+    double sum = 0, first = 0, second = 0;
+    for (int y = top; y < top + rows; ++y) {
+      for (int x = 0; x + 1 < light.cols; ++x) {
+        const double slope = static_cast<double>(light.at<cv::Vec3f>(y, x + 1)[1]) -
+                             static_cast<double>(light.at<cv::Vec3f>(y, x)[1]);
+        sum += slope;
+        first += slope * (x + 0.5);
+        second += slope * (x + 0.5) * (x + 0.5);
+      }
+    }
+    const double mean = first / sum;
+    return {mean, second / sum - mean * mean};
+  }
+
+  Renderer renderer_;
+};
+
+TEST_F(EdgeTest, EverythingOffIsTheRenderedPicture) {
+  const Picture clean = renderer_.render(camera().model, pose_at(kSpeed, 0), {true, true});
+  const Picture taken = capture(off());
+  EXPECT_EQ(different_values(taken.rgb, clean.rgb), 0);
+  EXPECT_EQ(different_values(taken.labels, clean.labels), 0);
+  EXPECT_EQ(different_values(taken.depth, clean.depth), 0);
+}
+
+TEST_F(EdgeTest, TheRoverIsWhereTheCameraIsInEachSubframeAndBand) {
+  CameraSensorConfig config = off();
+  config.blur_subframes = 3;
+  config.readout_time = 0.02;
+  config.readout_bands = 4;
+  CameraSensor sensor(config, camera(), 0, 1);
+  int drawn = 0;
+  sensor.capture(
+      {}, [&](Stamp stamp) { return pose_at(kSpeed, stamp); },
+      [&](const PinholeCamera& view, const Pose& pose, const Renderer::Request& request) {
+        ++drawn;
+        EXPECT_TRUE(request.T_world_rover.has_value());
+        // The body's axes are the camera's.
+        EXPECT_EQ(request.T_world_rover.value_or(Pose{}).translation, pose.translation);
+        return renderer_.render(view, pose, request);
+      });
+  EXPECT_EQ(drawn, 3 * 4);
+}
+
+TEST_F(EdgeTest, BlurIsAsLongAsExposureTimesImageSpeed) {
+  for (const double exposure : {0.05, 0.1}) {
+    CameraSensorConfig config = off();
+    config.exposure.time = config.exposure.reference_time = exposure;
+    config.blur_subframes = 24;
+    const double still = edge(capture(config, 0).rgb, 40, 80).second;
+    const auto [middle, moving] = edge(capture(config).rgb, 40, 80);
+    // A box of length L has the variance L^2 / 12; n instants make (1 - 1 / n^2) of it.
+    const double length = std::sqrt(12 * (moving - still) / (1 - 1 / (24.0 * 24)));
+    EXPECT_NEAR(length, exposure * image_speed(), 0.5);
+    EXPECT_NEAR(middle, 99.5, 0.25);  // at mid-exposure the edge is before the camera
+  }
+}
+
+TEST_F(EdgeTest, ReadoutSkewsByItsTimeTimesImageSpeed) {
+  CameraSensorConfig config = off();
+  config.readout_time = 0.1;
+  config.readout_bands = 20;
+  const cv::Mat rgb = capture(config).rgb;
+  // Bands of 8 rows, the first one's middle at row 3.5 and the last one's at 155.5 of 0 to 159.
+  const double top = edge(rgb, 0, 8).first;
+  const double bottom = edge(rgb, 152, 8).first;
+  // Later rows see the edge from farther right, so farther left.
+  EXPECT_NEAR((top - bottom) * 159 / 152, config.readout_time * image_speed(), 0.5);
+  EXPECT_NEAR(edge(rgb, 72, 16).first, 99.5, 0.25);
+}
+
+TEST_F(EdgeTest, WithoutMotionNeitherBlurNorReadoutShow) {
+  const cv::Mat clean = renderer_.render(camera().model, pose_at(0, 0), {}).rgb;
+  CameraSensorConfig config = off();
+  config.blur_subframes = 5;
+  EXPECT_EQ(different_values(capture(config, 0).rgb, clean), 0);
+  config = off();
+  config.readout_time = 0.02;
+  // Another crop may round an edge's pixels another way.
+  EXPECT_LT(different_values(capture(config, 0).rgb, clean), 0.001 * clean.total() * 3);
+}
+
+TEST_F(EdgeTest, LabelsAndDepthAreThoseOfTheMiddle) {
+  CameraSensorConfig config = off();
+  config.exposure.time = config.exposure.reference_time = 0.1;
+  config.blur_subframes = 5;
+  const Picture blurred = capture(config);
+  const Picture clean = renderer_.render(camera().model, pose_at(kSpeed, 0), {true, true});
+  EXPECT_EQ(different_values(blurred.labels, clean.labels), 0);
+  EXPECT_EQ(different_values(blurred.depth, clean.depth), 0);
+}
+
+TEST_F(EdgeTest, BlurChangesNoNoiseDraw) {
+  CameraSensorConfig noisy;
+  CameraSensorConfig both = noisy;
+  both.blur_subframes = 3;
+  EXPECT_EQ(different_values(capture(noisy, 0).rgb, capture(both, 0).rgb), 0);
+}
+
+/// A sensor before an even wall of some code.
+class WallTest : public testing::Test {
+ protected:
+  static constexpr int kWidth = 120;
+  static constexpr int kHeight = 90;
+
+  explicit WallTest(cv::Scalar wall = {100, 100, 100}) : wall_(wall) {}
+
+  RigCamera camera(const char* name = "left") const {
+    return {name, {kWidth, kHeight, 100, 100, 59.5, 44.5, {}}, {}};
+  }
+  cv::Mat capture(const CameraSensorConfig& config, double seconds = 0, const char* name = "left",
+                  int index = 0) {
+    CameraSensor sensor(config, camera(name), index, 1);
+    CameraSensor::Shot shot;
+    shot.instant = from_seconds(seconds);
+    shot.exposure = {config.exposure.time, config.exposure.gain_db};
+    return sensor
+        .capture(
+            shot, [](Stamp) { return Pose{}; },
+            [&](const PinholeCamera& view, const Pose&, const Renderer::Request& request) {
+              exposure_ = request.exposure;
+              Picture picture;
+              picture.rgb = cv::Mat(view.height, view.width, CV_8UC3, wall_);
+              return picture;
+            })
+        .rgb;
+  }
+
+  cv::Scalar wall_;
+  double exposure_ = 0;  ///< as last asked of the renderer
+};
+
+TEST_F(WallTest, ExposureAndGainMultiplyTheLight) {
+  CameraSensorConfig config = off();
+  capture(config);
+  EXPECT_EQ(exposure_, 1);
+  config.exposure.time = 0.006;
+  config.exposure.gain_db = 20;
+  capture(config);
+  EXPECT_NEAR(exposure_, 30, 1e-9);  // three times the reference time, ten times the signal
+}
+
+TEST_F(WallTest, GainRaisesTheNoise) {
+  CameraSensorConfig config;
+  config.noise.read_noise = 0;
+  const auto deviation = [&](double gain_db) {
+    config.exposure.gain_db = gain_db;
+    cv::Scalar mean, sigma;
+    cv::meanStdDev(capture(config), mean, sigma);
+    return sigma[0];
+  };
+  // A tenth of the electrons for the same code: shot noise of sqrt(10) times the share. The table
+  // of 32400 draws is known to 0.4 %, rounding adds 1/12 to both variances.
+  const double low = deviation(0), high = deviation(20);
+  EXPECT_NEAR((high * high - 1 / 12.0) / (low * low - 1 / 12.0), 10, 0.6);
+}
+
+TEST_F(WallTest, VignettingFollowsCosToTheFourth) {
+  CameraSensorConfig config = off();
+  config.vignetting.natural = 1;
+  const cv::Mat rgb = capture(config);
+  EXPECT_NEAR(rgb.at<cv::Vec3b>(44, 59)[0], 100, 1);
+  // At (119, 44): tan = 59.5 / 100, cos^4 = 1 / (1 + 0.354)^2 = 0.545; codes by the 2.2nd root.
+  EXPECT_NEAR(rgb.at<cv::Vec3b>(44, 119)[0], 100 * std::pow(0.5454, 1 / 2.2), 1);
+}
+
+TEST_F(WallTest, PolynomialReachesItsValueInTheCorner) {
+  CameraSensorConfig config = off();
+  config.vignetting.polynomial = {-0.3, 0.1, -0.2};
+  const cv::Mat rgb = capture(config);
+  EXPECT_NEAR(rgb.at<cv::Vec3b>(0, 0)[0], 100 * std::pow(0.6, 1 / 2.2), 1);
+}
+
+TEST_F(WallTest, DirtAndLeafStayOnTheirCameraAndInTheirTime) {
+  CameraSensorConfig config;
+  const cv::Mat plain = capture(config);
+  LensDirtConfig dirt;
+  dirt.scope = {{"left"}, 1, 2.0};
+  LensLeafConfig leaf;
+  leaf.scope = {{"right"}, 0, std::nullopt};
+  config.dirt = {dirt};
+  config.leaves = {leaf};
+  EXPECT_EQ(different_values(capture(config, 0.999), plain), 0);
+  EXPECT_GT(different_values(capture(config, 1), plain), 1000);
+  EXPECT_EQ(different_values(capture(config, 2), plain), 0);
+  EXPECT_GT(different_values(capture(config, 0, "right"), plain), 1000);
+  EXPECT_EQ(different_values(capture(config, 0, "side"), plain), 0);
+}
+
+TEST_F(WallTest, ALeafDarkensItsPlace) {
+  CameraSensorConfig config = off();
+  LensLeafConfig leaf;
+  leaf.position = {0.25, 0.5};
+  leaf.size = 0.4;
+  leaf.blur_px = 1;
+  config.leaves = {leaf};
+  const cv::Mat rgb = capture(config);
+  const cv::Vec3b inside = rgb.at<cv::Vec3b>(44, 30);
+  EXPECT_LT(inside[0], 60);
+  EXPECT_GT(inside[1], inside[0]);
+  EXPECT_GT(inside[1], inside[2]);
+  EXPECT_EQ(rgb.at<cv::Vec3b>(44, 100), cv::Vec3b(100, 100, 100));
+}
+
+TEST_F(WallTest, HotPixelsLeakInProportionToTheTime) {
+  CameraSensorConfig config = off();
+  config.fixed_pattern.hot_pixels = 0.01;
+  config.fixed_pattern.hot_pixel_current = 1e6;
+  const auto lit = [&](double time) {
+    config.exposure.time = time;
+    return cv::sum(to_light(capture(config)))[0] / (kWidth * kHeight);
+  };
+  const double wall = light_of_code(100);
+  // 1 % of pixels leak 1e6 electrons/s * 0.5 ms of 6900, on average; 108 leaks that scatter by
+  // their mean: 10 %. Four times the light within what saturation and pixels hit twice leave.
+  const double little = lit(0.0001) - wall;
+  EXPECT_NEAR(little, 0.01 * 1e6 * 0.0001 / 6900, 0.35 * 0.01 * 1e6 * 0.0001 / 6900);
+  EXPECT_NEAR((lit(0.0004) - wall) / little, 4, 0.4);
+}
+
+TEST_F(WallTest, PixelResponseIsTheSameInEveryPicture) {
+  CameraSensorConfig config = off();
+  config.fixed_pattern.response = 0.05;
+  const cv::Mat first = capture(config, 0);
+  EXPECT_EQ(different_values(first, capture(config, 7)), 0);
+  EXPECT_GT(different_values(first, capture(config, 0, "left", 1)), 10000);
+  cv::Scalar mean, sigma;
+  cv::meanStdDev(to_light(first), mean, sigma);
+  EXPECT_NEAR(sigma[0] / mean[0], 0.05, 0.003);
+}
+
+TEST(ColouredWallTest, BayerKeepsAnEvenColour) {
+  for (const BayerPattern pattern :
+       {BayerPattern::kRggb, BayerPattern::kGrbg, BayerPattern::kGbrg, BayerPattern::kBggr}) {
+    const cv::Mat rgb(40, 60, CV_8UC3, cv::Scalar(200, 120, 40));
+    const cv::Mat sites = mosaic(rgb, pattern);
+    EXPECT_EQ(cv::sum(sites)[0], 40 * 60 / 4 * (200 + 2 * 120 + 40));
+    EXPECT_EQ(different_values(demosaic(sites, pattern), rgb), 0) << static_cast<int>(pattern);
+  }
+}
+
+TEST_F(WallTest, NoiseOfAMosaicIsCorrelatedBetweenPixels) {
+  CameraSensorConfig config;
+  config.bayer = BayerPattern::kRggb;
+  const cv::Mat rgb = capture(config);
+  EXPECT_EQ(rgb.type(), CV_8UC3);
+  const cv::Mat plain = capture(CameraSensorConfig{});
+  cv::Scalar mean, with, without;
+  cv::meanStdDev(rgb, mean, with);
+  cv::meanStdDev(plain, mean, without);
+  EXPECT_LT(with[0], 0.9 * without[0]);  // red is interpolated in three pixels of four
+}
+
+/// Chessboard through a lens.
+class LensTest : public testing::Test {
+ protected:
+  Picture capture(const PinholeCamera& model, const Pose& T_world_cam,
+                  const CameraSensorConfig& config = off()) {
+    CameraSensor sensor(config, {"camera", model, {}}, 0, 1);
+    CameraSensor::Shot shot;
+    shot.exposure = {config.exposure.time, 0};
+    shot.request.labels = true;
+    return sensor.capture(
+        shot, [&](Stamp) { return T_world_cam; },
+        [&](const PinholeCamera& view, const Pose& pose, const Renderer::Request& request) {
+          return renderer_.render(view, pose, request);
+        });
+  }
+  static PinholeCamera lens(double k1, double k2, double p1, double p2) {
+    PinholeCamera camera = small_camera();
+    camera.distortion = {k1, k2, p1, p2};
+    return camera;
+  }
+
+  Renderer renderer_{Chessboard::scene(), {}};
+};
+
+/// With squares of 150 px, more than two to a texel: edges so soft that the search does not feel
+/// the grid.
+TEST_F(LensTest, PointsAreWhereTheCameraProjectsThem) {
+  const Pose near = look_at({0.02, -0.24, 0.03}, {0.01, 0, 0}, 0.05);
+  for (const std::array<double, 4>& distortion :
+       {std::array<double, 4>{-0.05, 0, 0, 0}, {-0.12, 0.02, 0.001, -0.002}, {0.03, 0, 0, 0}}) {
+    PinholeCamera camera = large_camera();
+    camera.distortion = distortion;
+    EXPECT_LT(Chessboard::worst_corner(capture(camera, near).rgb, camera, near), 0.1)
+        << distortion[0];
+  }
+}
+
+TEST_F(LensTest, LabelsAreBentWithThePicture) {
+  const PinholeCamera camera = lens(-0.12, 0.02, 0.001, -0.002);
+  const Pose pose = look_at({0.02, -0.21, 0.03}, {0.01, 0, 0}, 0.05);
+  const cv::Mat labels = capture(camera, pose).labels;
+  int wrong = 0, seen = 0;
+  for (int y = 0; y < labels.rows; ++y) {
+    for (int x = 0; x < labels.cols; ++x) {
+      const Eigen::Vector3d ray = pose.rotation * camera.unproject({x, y});
+      const Eigen::Vector3d p = pose.translation - ray * (pose.translation.y() / ray.y());
+      const bool board = std::abs(p.x()) < 0.25 && std::abs(p.z()) < 0.175;
+      seen += board;
+      wrong += board != (labels.at<std::uint8_t>(y, x) == static_cast<std::uint8_t>(Label::kTag));
+    }
+  }
+  EXPECT_GT(seen, 50000);
+  // Only along the outline of about 2000 px, where a pixel's centre falls to either side.
+  EXPECT_LT(wrong, 1000);
+}
+
+TEST_F(LensTest, ReadoutBandsOfALensJoin) {
+  const PinholeCamera camera = lens(-0.12, 0.02, 0.001, -0.002);
+  const Pose pose = look_at({0.02, -0.21, 0.03}, {0.01, 0, 0}, 0.05);
+  CameraSensorConfig rolling = off();
+  rolling.readout_time = 0.02;
+  const cv::Mat bands = capture(camera, pose, rolling).rgb;
+  const cv::Mat whole = capture(camera, pose).rgb;
+  cv::Mat difference;
+  cv::absdiff(bands, whole, difference);
+  // The view of each band is cut out of the same one; rounding of its float crop is all.
+  EXPECT_LT(cv::countNonZero(cv::Mat(difference.reshape(1) > 4)), 0.002 * 3 * whole.total());
+}
+
+TEST_F(LensTest, ALensThatFoldsOverIsRefused) {
+  EXPECT_THROW(make_lens_bands(lens(-0.5, 0, 0, 0), 1), Error);
+  EXPECT_THROW(make_lens_bands(lens(std::nan(""), 0, 0, 0), 1), Error);
+}
+
+TEST_F(LensTest, TheViewCoversThePictureAndKeepsItsDetail) {
+  for (const PinholeCamera& camera : {lens(-0.1, 0.01, 0, 0), lens(0.05, 0, 0, 0)}) {
+    const PinholeCamera view = make_lens_bands(camera, 1).front().view;
+    EXPECT_GE(view.fx, camera.fx);
+    EXPECT_LE(view.fx, 1.5 * camera.fx);
+    for (const Eigen::Vector2d& corner :
+         {Eigen::Vector2d(0, 0), {751, 0}, {0, 479}, {751, 479}, {375, 0}, {0, 240}}) {
+      EXPECT_TRUE(view.contains(view.project(camera.unproject(corner)), 1));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vinebench

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "sim/assets/asset_file.h"
+#include "sim/scene/mesh_builder.h"
+#include "sim/scene/scene_check.h"
+#include "tests/support/test_folder.h"
+
+namespace vinebench::test {
+
+/// A bent trunk with a few blades: two levels, two materials, a picture of four by four.
+inline Asset small_plant() {
+  Asset asset;
+  asset.add(Texture{"leaf", cv::Mat(4, 4, CV_8UC4, cv::Scalar(40, 90, 30, 255)), true});
+  asset.add(make_material("leaf", Label::kLeaf, 0));
+  asset.add(make_material("bark", Label::kTrunk, -1));
+  asset.model.name = "plant";
+  for (const int sides : {7, 4}) {
+    Primitive wood, blades;
+    wood.material = 1;
+    MeshBuilder(wood).tube({{{0, 0, 0}, {0.02f, 0, 0.4f}, {0, 0, 0.8f}}, {0.03f, 0.02f, 0.02f}},
+                           sides, 1, true);
+    MeshBuilder builder(blades);
+    for (int i = 0; i < 3; ++i) {
+      const auto axes = axes_along({0, static_cast<float>(i), 1}, Eigen::Vector3f::UnitX());
+      BladePlacement blade;
+      blade.foot = {0.1f * static_cast<float>(i), 0, 0.7f};
+      blade.axes = axes;
+      blade.shading_normal = axes.z;
+      builder.blade(blade, 1);
+    }
+    asset.model.levels.push_back({sides == 7 ? 3.0 : 1e9, {wood, blades}});
+  }
+  asset.update_bounds();
+  return asset;
+}
+
+/// Puts the asset into a scene and looks whether all of it can be drawn.
+inline void expect_sound(const Asset& asset) {
+  Scene scene;
+  add_asset(scene, asset);
+  EXPECT_NO_THROW(check_scene(scene));
+  EXPECT_GT(triangle_count(asset.model.levels.at(0)), 0);
+}
+
+/// What is broken is either loaded whole or named.
+class BrokenFiles : public testing::Test {
+ protected:
+  /// The message for a file of that name and content, which it must name; empty where it loads.
+  std::string message(const std::string& name, std::string_view content) const {
+    const auto file = folder_.write(name, content);
+    std::optional<Asset> asset;
+    const std::string error = error_of([&] { asset = load_asset(file); });
+    if (asset) {
+      expect_sound(*asset);
+    } else {
+      EXPECT_THAT(error, testing::HasSubstr(file.string()));
+      EXPECT_LT(error.size(), 600u);
+    }
+    return error;
+  }
+
+  std::string problem(const std::string& name, std::string_view content) const {
+    const std::string error = message(name, content);
+    EXPECT_NE(error, "") << name;
+    return error;
+  }
+
+  test::TestFolder folder_;
+};
+
+}  // namespace vinebench::test

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <opencv2/core.hpp>
+#include <string>
+
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
+#include "sim/scene/scene.h"
+
+namespace vinebench::test {
+
+/// The tracking cameras of the default rig.
+inline PinholeCamera small_camera() {
+  return {752, 480, 263.2786, 263.2786, 375.5, 239.5, {}};
+}
+
+/// The side camera of the default rig.
+inline PinholeCamera large_camera() {
+  return {1920, 1080, 733, 733, 959.5, 539.5, {}};
+}
+
+/// A camera at `eye` that looks at `target`, rolled about its optical axis; world z is up.
+inline Pose look_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target, double roll = 0) {
+  const Eigen::Vector3d z = (target - eye).normalized();
+  const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
+  Eigen::Matrix3d R_world_cam;
+  R_world_cam << x, z.cross(x), z;
+  const Eigen::AngleAxisd about_axis(roll, Eigen::Vector3d::UnitZ());
+  return {Eigen::Quaterniond(R_world_cam * about_axis), eye};
+}
+
+inline int add_material(Scene& scene, Label label, const Eigen::Vector3f& colour,
+                        const cv::Mat& rgba = {}) {
+  Material material;
+  material.name = "material " + std::to_string(scene.materials.size());
+  material.label = label;
+  material.colour = colour;
+  if (!rgba.empty()) {
+    material.texture = static_cast<int>(scene.textures.size());
+    scene.textures.push_back({material.name, rgba, false});
+  }
+  scene.materials.push_back(material);
+  return static_cast<int>(scene.materials.size()) - 1;
+}
+
+/// A rectangle of the plane y = 0 around the origin that faces -y, as a sheet of paper held before
+/// a camera that looks along +y: the picture's top left is at (-width / 2, 0, height / 2).
+inline Primitive panel(int material, double width, double height) {
+  const auto w = static_cast<float>(width / 2);
+  const auto h = static_cast<float>(height / 2);
+  const Eigen::Vector3f normal = -Eigen::Vector3f::UnitY();
+  Primitive p;
+  p.material = material;
+  p.vertices = {{{-w, 0, h}, normal, {0, 0}, 1},
+                {{-w, 0, -h}, normal, {0, 1}, 1},
+                {{w, 0, -h}, normal, {1, 1}, 1},
+                {{w, 0, h}, normal, {1, 0}, 1}};
+  p.indices = {0, 1, 2, 0, 2, 3};
+  return p;
+}
+
+inline int add_model(Scene& scene, const Primitive& primitive) {
+  Model model;
+  model.levels.push_back({1e9, {primitive}});
+  for (const Vertex& vertex : primitive.vertices) model.bounds.extend(vertex.position);
+  scene.models.push_back(model);
+  return static_cast<int>(scene.models.size()) - 1;
+}
+
+inline void add_instance(Scene& scene, int model, const Eigen::Vector3d& position) {
+  scene.instances.push_back({model,
+                             {Eigen::Quaterniond::Identity(), position},
+                             1.0f,
+                             static_cast<int>(scene.instances.size())});
+}
+
+/// Even light from everywhere, so that colours are what the textures say.
+inline void light_evenly(Scene& scene) {
+  scene.light.sun.setZero();
+  scene.light.sky.setOnes();
+  scene.light.bounce.setOnes();
+}
+
+}  // namespace vinebench::test
