@@ -18,10 +18,10 @@
 
 #include "core/time.h"
 #include "core/util/error.h"
-#include "scenarios/frame_stream.h"
-#include "scenarios/label_formats.h"
-#include "scenarios/label_table.h"
-#include "scenarios/run_length.h"
+#include "harness/datasets/labels/label_formats.h"
+#include "harness/datasets/labels/label_table.h"
+#include "harness/datasets/labels/mask_rle.h"
+#include "harness/frame_stream.h"
 #include "vinebench/version.h"
 
 namespace py = pybind11;

@@ -9,10 +9,10 @@
 
 #include "core/util/error.h"
 #include "core/util/files.h"
-#include "scenarios/measurement.h"
-#include "scenarios/render_benchmark.h"
-#include "scenarios/render_report.h"
-#include "scenarios/scenario.h"
+#include "harness/benchmarks/measurement.h"
+#include "harness/benchmarks/render_benchmark.h"
+#include "harness/benchmarks/render_report.h"
+#include "harness/experiment/scenario.h"
 #include "sim/config_files.h"
 #include "tools/commands.h"
 

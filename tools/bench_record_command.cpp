@@ -10,7 +10,7 @@
 
 #include "core/util/error.h"
 #include "core/util/files.h"
-#include "scenarios/record_benchmark.h"
+#include "harness/benchmarks/record_benchmark.h"
 #include "tools/commands.h"
 #include "tools/interactive.h"
 

@@ -9,9 +9,9 @@
 
 #include "core/util/error.h"
 #include "core/util/files.h"
-#include "scenarios/replay.h"
-#include "scenarios/run_scenario.h"
-#include "scenarios/slam_benchmark.h"
+#include "harness/benchmarks/slam_benchmark.h"
+#include "harness/replay.h"
+#include "harness/run_scenario.h"
 #include "tools/commands.h"
 #include "tools/interactive.h"
 

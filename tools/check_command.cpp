@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "scenarios/dataset_check.h"
+#include "harness/datasets/dataset_check.h"
 #include "tools/commands.h"
 
 namespace vinebench {

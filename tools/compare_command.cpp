@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "core/util/files.h"
-#include "scenarios/compare.h"
+#include "harness/judge/compare.h"
 #include "tools/commands.h"
 
 namespace vinebench {

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "core/util/error.h"
-#include "scenarios/scenarios.h"
+#include "harness/harness.h"
 #include "tools/commands.h"
 
 namespace vinebench {

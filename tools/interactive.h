@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/run.h"
+#include "harness/run.h"
 
 namespace CLI {
 class App;

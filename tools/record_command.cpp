@@ -7,8 +7,8 @@
 #include <memory>
 #include <thread>
 
-#include "scenarios/record.h"
-#include "scenarios/run.h"
+#include "harness/record.h"
+#include "harness/run.h"
 #include "tools/commands.h"
 #include "tools/interactive.h"
 

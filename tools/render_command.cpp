@@ -8,9 +8,9 @@
 
 #include "core/geometry/rig.h"
 #include "core/util/error.h"
-#include "scenarios/run_scenario.h"
-#include "scenarios/snapshot.h"
-#include "scenarios/truth_colours.h"
+#include "harness/datasets/labels/truth_colours.h"
+#include "harness/run_scenario.h"
+#include "harness/snapshot.h"
 #include "sim/config_files.h"
 #include "sim/render/renderer.h"
 #include "sim/rover/rover.h"

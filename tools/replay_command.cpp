@@ -6,7 +6,7 @@
 #include <memory>
 #include <thread>
 
-#include "scenarios/replay.h"
+#include "harness/replay.h"
 #include "tools/commands.h"
 #include "tools/interactive.h"
 

@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "core/util/error.h"
-#include "scenarios/scenarios.h"
-#include "scenarios/seed_list.h"
+#include "harness/harness.h"
+#include "harness/sets/seed_list.h"
 #include "tools/commands.h"
 #include "tools/interactive.h"
 #include "tools/run_many.h"

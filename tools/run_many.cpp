@@ -10,9 +10,9 @@
 
 #include "core/util/error.h"
 #include "core/util/files.h"
-#include "scenarios/junit.h"
-#include "scenarios/run_scenario.h"
-#include "scenarios/set_report.h"
+#include "harness/run_scenario.h"
+#include "harness/sets/junit.h"
+#include "harness/sets/set_report.h"
 #include "tools/commands.h"
 #include "tools/interactive.h"
 

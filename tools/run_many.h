@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/scenario.h"
+#include "harness/experiment/scenario.h"
 
 namespace vinebench {
 

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Includes go one way: tools and python -> scenarios -> sim and slam -> core. Usage: arrows_test.sh ROOT
+# Includes go one way: tools and python -> harness -> sim and slam -> core. Usage: arrows_test.sh ROOT
 set -euo pipefail
 cd "$1"
 failed=0
@@ -20,12 +20,12 @@ forbid() {
   fi
 }
 
-forbid core '(slam/|sim/|scenarios/|tools/|python/|tests/)'
-forbid slam '(sim/|scenarios/|tools/|python/|tests/|mujoco)'
-forbid sim '(slam/|scenarios/|tools/|python/|tests/|ceres)'
-forbid scenarios '(tools/|python/|tests/)'
+forbid core '(slam/|sim/|harness/|tools/|python/|tests/)'
+forbid slam '(sim/|harness/|tools/|python/|tests/|mujoco)'
+forbid sim '(slam/|harness/|tools/|python/|tests/|ceres)'
+forbid harness '(tools/|python/|tests/)'
 forbid python '(tools/|tests/)'
 forbid tools '(python/|tests/)'
 # Relative includes would pass unseen.
-for folder in core slam sim scenarios tools python; do forbid "$folder" '\.\.?/'; done
+for folder in core slam sim harness tools python; do forbid "$folder" '\.\.?/'; done
 exit $failed

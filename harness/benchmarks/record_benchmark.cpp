@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/benchmarks/record_benchmark.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <system_error>
+
+#include "core/util/error.h"
+#include "harness/benchmarks/measurement.h"
+#include "harness/datasets/dataset_writer.h"
+#include "harness/run/lockstep.h"
+#include "harness/run/prefetch.h"
+#include "harness/run_scenario.h"
+
+namespace vinebench {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr double kSecondsPerHour = 3600;
+
+/// Labels of each kind once, with the pictures that they are of.
+const std::vector<std::string> kEveryLabel{"rgb",     "depth", "semantic",  "instances",
+                                           "normals", "flow",  "disparity", "coco"};
+const std::vector<std::string> kPictures{"rgb"};
+const std::vector<std::string> kTraining{"rgb", "depth", "semantic", "instances", "coco"};
+
+/// What is timed.
+struct Kind {
+  std::vector<std::string> formats;  ///< none: nothing is recorded
+  std::vector<std::string> cameras;  ///< all where empty
+  bool slam = false;                 ///< as `run`, else as `record`
+};
+
+struct Measured {
+  Timing timing;
+  double megabytes = 0;
+  std::int64_t images = 0;
+};
+
+/// Counts the pictures that go by.
+class PictureCount : public Sink {
+ public:
+  void on_tick(const Sample& sample, const Estimate&) override {
+    for (const cv::Mat& image : sample.frame.images) images_ += image.empty() ? 0 : 1;
+  }
+  std::int64_t images() const { return images_; }
+
+ private:
+  std::int64_t images_ = 0;
+};
+
+void drive(FrameSource& source, const std::vector<Sink*>& sinks) {
+  while (const auto sample = source.next()) {
+    for (Sink* sink : sinks) sink->on_tick(*sample, {});
+  }
+  for (Sink* sink : sinks) sink->on_finish({});
+}
+
+/// As run_scenario() does it, without the judge.
+void drive_and_estimate(const RecordBenchmark& benchmark, FrameSource& source,
+                        const std::vector<Sink*>& sinks) {
+  WorkerPool estimating(benchmark.threads);
+  const auto slam = make_slam(benchmark.scenario.slam, source.rig(),
+                              registered_tags(benchmark.scenario.simulation.world), estimating);
+  LookAhead ahead(source);
+  run_lockstep(ahead, *slam, sinks);
+}
+
+Measured measure_kind(const RecordBenchmark& benchmark, const Kind& kind) {
+  RecordOptions options;
+  options.last = benchmark.frames - 1;
+  options.threads = benchmark.threads;
+  options.formats.clear();
+  if (!kind.formats.empty()) options.formats = parse_formats(kind.formats);
+  options.cameras = kind.cameras;
+  const SimulationConfig& simulation = benchmark.scenario.simulation;
+  WorkerPool pool(benchmark.threads);
+  const auto source =
+      make_simulation(simulation, static_cast<std::uint64_t>(benchmark.scenario.seed),
+                      default_cache(), pool, plan_of(options, load_rig(simulation.rover.rig)));
+  const fs::path folder = benchmark.folder / "recording";
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
+  PictureCount count;
+  std::vector<Sink*> sinks{&count};
+  std::optional<DatasetWriter> writer;
+  if (!kind.formats.empty()) {
+    writer.emplace(folder, benchmark.scenario, *source, options, source->size());
+    sinks.push_back(&*writer);
+  }
+  Measured measured;
+  measured.timing = measure(
+      [&] { kind.slam ? drive_and_estimate(benchmark, *source, sinks) : drive(*source, sinks); });
+  measured.images = count.images();
+  if (writer) measured.megabytes = static_cast<double>(writer->bytes()) / 1e6;
+  fs::remove_all(folder, ignored);
+  return measured;
+}
+
+/// `base` is the same without recording.
+Json row_of(const Measured& measured, const Timing& base) {
+  const double seconds = measured.timing.wall_ms / 1e3;
+  return {{"wall_s", rounded(seconds)},
+          {"cpu_s", rounded(measured.timing.cpu_ms / 1e3)},
+          {"ratio", rounded(measured.timing.wall_ms / base.wall_ms)},
+          {"megabytes", rounded(measured.megabytes)},
+          {"images_per_hour",
+           rounded(static_cast<double>(measured.images) / seconds * kSecondsPerHour)}};
+}
+
+std::vector<std::string> pair_cameras(const Rig& rig) {
+  std::vector<std::string> names;
+  for (const StereoPair& pair : rig.stereo_pairs) {
+    for (const int eye : {pair.left, pair.right}) {
+      names.push_back(rig.cameras[static_cast<std::size_t>(eye)].name);
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
+Json measure_recording(const RecordBenchmark& benchmark) {
+  const std::vector<std::string> pairs =
+      pair_cameras(load_rig(benchmark.scenario.simulation.rover.rig));
+  if (pairs.empty()) fail("bench record: the scenario's rig has no stereo pair");
+  measure_kind(benchmark, {});  // grows the plants and warms what keeps things warm
+  Json result{{"scenario", benchmark.scenario.name},
+              {"frames", benchmark.frames},
+              {"threads", benchmark.threads}};
+  const auto add = [&](const char* name, const Kind& kind, const Timing& base) {
+    result["rows"][name] = row_of(measure_kind(benchmark, kind), base);
+  };
+  const Measured alone = measure_kind(benchmark, {});
+  result["rows"]["record"] = row_of(alone, alone.timing);
+  add("record rgb", {kPictures, {}, false}, alone.timing);
+  add("record labels", {kEveryLabel, {}, false}, alone.timing);
+  const Measured of_pairs = measure_kind(benchmark, {{}, pairs, false});
+  add("record training", {kTraining, pairs, false}, of_pairs.timing);
+  const Measured run = measure_kind(benchmark, {{}, {}, true});
+  result["rows"]["run"] = row_of(run, run.timing);
+  add("run rgb", {kPictures, {}, true}, run.timing);
+  add("run labels", {kEveryLabel, {}, true}, run.timing);
+  return result;
+}
+
+std::string record_table(const Json& result) {
+  std::string text = fmt::format(
+      "{}, {} frames, {} threads\n{:<16} {:>8} {:>8} {:>7} {:>9} {:>13}\n",
+      result["scenario"].get<std::string>(), result["frames"].get<std::int64_t>(),
+      result["threads"].get<int>(), "", "wall s", "CPU s", "ratio", "MB", "pictures/hour");
+  for (const auto& [name, row] : result["rows"].items()) {
+    text += fmt::format("{:<16} {:>8.2f} {:>8.2f} {:>7.2f} {:>9.1f} {:>13.0f}\n", name,
+                        row["wall_s"].get<double>(), row["cpu_s"].get<double>(),
+                        row["ratio"].get<double>(), row["megabytes"].get<double>(),
+                        row["images_per_hour"].get<double>());
+  }
+  return text;
+}
+
+}  // namespace vinebench

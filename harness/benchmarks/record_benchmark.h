@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "harness/experiment/scenario.h"
+
+namespace vinebench {
+
+/// What `vinebench bench record` measures: what recording costs beside the simulation.
+struct RecordBenchmark {
+  ScenarioConfig scenario;
+  std::int64_t frames = 60;      ///< the first ones of the run
+  int threads = 2;               ///< that draw, and as many that encode
+  std::filesystem::path folder;  ///< for recordings, which are removed again
+};
+
+/// Wall and CPU time of the frames (`wall_s`, `cpu_s` of all threads), the ratio of wall time to
+/// that without recording, `megabytes` and `images_per_hour`, in `rows`: simulated alone (`record`)
+/// and with the SLAM core (`run`), each without recording, with every camera's colour pictures as
+/// PNG (`rgb`) and with every kind of label besides (`labels`); `record training` is the stereo
+/// pairs' pictures with depth, semantic, instances and COCO. Growing the vineyard is in no figure.
+nlohmann::ordered_json measure_recording(const RecordBenchmark& benchmark);
+
+/// The result as a table for people.
+std::string record_table(const nlohmann::ordered_json& result);
+
+}  // namespace vinebench

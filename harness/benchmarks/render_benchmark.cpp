@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/benchmarks/render_benchmark.h"
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <optional>
+
+#include "core/util/worker_pool.h"
+#include "harness/benchmarks/measurement.h"
+#include "harness/benchmarks/mujoco_benchmark.h"
+#include "harness/run_scenario.h"
+#include "harness/sets/child_process.h"
+#include "harness/snapshot.h"
+#include "sim/render/renderer.h"
+#include "sim/world/terrain.h"
+
+namespace vinebench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kBeside = 1.0;     // m from a row that stands alone
+constexpr double kHalfTrack = 0.2;  // m, of a rover that lies on its ground
+
+/// Mesa reads these once a process. One thread draws all by itself, without helpers.
+void prepare_software_rendering(int threads) {
+  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+  setenv("LP_NUM_THREADS", std::to_string(threads == 1 ? 0 : threads).c_str(), 1);
+}
+
+Json measure_camera(Renderer& renderer, const RigCamera& camera, const RenderBenchmark& benchmark) {
+  const Pose& first = benchmark.route.front();
+  const Picture picture = renderer.render(camera.model, first * camera.T_body_cam, {});  // warm up
+  if (!benchmark.pictures.empty()) {
+    write_picture(benchmark.pictures / fmt::format("{}.png", camera.name), picture.rgb);
+  }
+  std::vector<Timing> timings;
+  for (const Pose& T_world_body : benchmark.route) {
+    timings.push_back(
+        measure([&] { renderer.render(camera.model, T_world_body * camera.T_body_cam, {}); }));
+  }
+  const Timing typical = median(timings);
+  return {{"camera", camera.name},
+          {"pixels", fmt::format("{} x {}", camera.model.width, camera.model.height)},
+          {"cpu_ms", rounded(typical.cpu_ms)},
+          {"wall_ms", rounded(typical.wall_ms)}};
+}
+
+void render_frame(WorkerPool& pool, std::vector<Renderer>& renderers, const Rig& rig,
+                  const Pose& T_world_body) {
+  std::atomic<std::size_t> next{0};
+  pool.for_each(renderers.size(), [&](std::size_t lane) {
+    for (std::size_t i = next++; i < rig.cameras.size(); i = next++) {
+      const RigCamera& camera = rig.cameras[rig.cameras.size() - 1 - i];  // the largest first
+      renderers[lane].render(camera.model, T_world_body * camera.T_body_cam, {});
+    }
+  });
+}
+
+double measure_frames(std::vector<Renderer>& renderers, const RenderBenchmark& benchmark) {
+  WorkerPool pool(static_cast<int>(renderers.size()));
+  render_frame(pool, renderers, benchmark.rig, benchmark.route.front());  // warm up
+  std::vector<double> wall;
+  for (const Pose& T_world_body : benchmark.route) {
+    const Timing timing =
+        measure([&] { render_frame(pool, renderers, benchmark.rig, T_world_body); });
+    wall.push_back(timing.wall_ms);
+  }
+  return rounded(median(std::move(wall)));
+}
+
+/// In a process of its own.
+Json measure_with_threads(const RenderBenchmark& benchmark, int threads) {
+  prepare_software_rendering(threads);
+  std::optional<Scene> scene;
+  const Timing built =
+      measure([&] { scene = build_scene(benchmark.world, benchmark.seed, default_cache()); });
+  std::vector<Renderer> renderers;
+  const Timing uploaded = measure([&] {
+    for (int i = 0; i < threads; ++i) renderers.emplace_back(*scene, RendererConfig{});
+  });
+  Json result;
+  for (const RigCamera& camera : benchmark.rig.cameras) {
+    if (threads > 1) break;
+    result["cameras"].push_back(measure_camera(renderers[0], camera, benchmark));
+  }
+  result["plants"] = vine_positions(benchmark.world).size();
+  result["frame_wall_ms"] = measure_frames(renderers, benchmark);
+  result["build_s"] = rounded(built.wall_ms / 1e3);
+  result["upload_s"] = rounded(uploaded.wall_ms / 1e3);
+  result["memory_mib"] = std::round(peak_memory_mib());
+  return result;
+}
+
+Json in_child(const RenderBenchmark& benchmark, const std::function<Json()>& job) {
+  return Json::parse(run_in_child(benchmark.name, [&] { return job().dump(); }));
+}
+
+}  // namespace
+
+std::vector<Pose> aisle_route(const WorldConfig& world, int count) {
+  WorldConfig placed = world;
+  if (placed.block) placed.place();
+  const std::size_t middle = placed.rows.size() / 2;
+  const WorldConfig::Row& last = placed.rows.at(middle);
+  WorldConfig::Row first = placed.rows.at(middle == 0 ? 0 : middle - 1);
+  const Eigen::Vector2d direction = (last.end - last.start).normalized();
+  if ((first.end - first.start).dot(direction) < 0) std::swap(first.start, first.end);
+  Eigen::Vector2d start = (first.start + last.start) / 2;
+  const Eigen::Vector2d along = (first.end + last.end) / 2 - start;
+  if (middle == 0) start += kBeside * Eigen::Vector2d(direction.y(), -direction.x());
+  const double heading = std::atan2(along.y(), along.x());
+  const Terrain terrain(placed);
+  std::vector<Pose> route;
+  for (int i = 0; i < count; ++i) {
+    const double yaw = heading + (i % 2 == 1 ? std::numbers::pi : 0);
+    route.push_back(terrain.lie(start + along * ((i + 0.5) / count), yaw, kHalfTrack));
+  }
+  return route;
+}
+
+Json measure_rendering(const RenderBenchmark& benchmark) {
+  const Json one = in_child(benchmark, [&] { return measure_with_threads(benchmark, 1); });
+  Json all = one;
+  if (benchmark.threads > 1) {
+    all = in_child(benchmark, [&] { return measure_with_threads(benchmark, benchmark.threads); });
+  }
+  Json result{{"name", benchmark.name},
+              {"rows", benchmark.world.rows.size()},
+              {"plants", one["plants"]},
+              {"cameras", one["cameras"]}};
+  result["frame_wall_ms"]["1"] = one["frame_wall_ms"];
+  result["frame_wall_ms"][std::to_string(benchmark.threads)] = all["frame_wall_ms"];
+  result["scaling"] =
+      rounded(one["frame_wall_ms"].get<double>() / all["frame_wall_ms"].get<double>());
+  for (const char* key : {"memory_mib", "build_s", "upload_s"}) result[key] = all[key];
+  if (!benchmark.mujoco) return result;
+  result["mujoco"] = in_child(benchmark, [&] {
+    prepare_software_rendering(1);
+    return measure_mujoco(benchmark);
+  });
+  compare_with_mujoco(result["mujoco"], result["cameras"]);
+  return result;
+}
+
+}  // namespace vinebench

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/datasets/coco/coco_check.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <set>
+#include <system_error>
+
+#include "core/util/error.h"
+#include "core/util/files.h"
+#include "harness/datasets/labels/mask_rle.h"
+
+namespace vinebench {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr int kPanopticLookedAt = 12;
+
+Json parse(const fs::path& file) {
+  try {
+    return Json::parse(read_file(file));
+  } catch (const Json::exception& error) {
+    fail("{}: is not valid JSON: {}", file.string(), error.what());
+  }
+}
+
+class Checker {
+ public:
+  explicit Checker(const fs::path& folder) : folder_(folder) {}
+
+  std::vector<DatasetFault> run() {
+    try {
+      check_instances();
+      check_panoptic();
+    } catch (const Json::exception& error) {  // a key that is missing or of another type
+      faults_.push_back({file_, error.what()});
+    }
+    return std::move(faults_);
+  }
+
+ private:
+  void fault(const std::string& problem) { faults_.push_back({file_, problem}); }
+
+  /// Sizes of the images by their ids.
+  std::map<std::int64_t, cv::Size> read_images(const Json& root) {
+    std::map<std::int64_t, cv::Size> sizes;
+    for (const Json& image : root.at("images")) {
+      const cv::Size size(image.at("width"), image.at("height"));
+      if (!sizes.emplace(image.at("id"), size).second) {
+        fault(fmt::format("image {} stands twice", image.at("id").get<std::int64_t>()));
+      }
+      const auto name = image.at("file_name").get<std::string>();
+      std::error_code ignored;
+      if (!fs::exists(folder_ / name, ignored)) fault(name + ": there is no such picture");
+    }
+    return sizes;
+  }
+
+  static std::set<int> read_categories(const Json& root) {
+    std::set<int> ids;
+    for (const Json& category : root.at("categories")) ids.insert(category.at("id").get<int>());
+    return ids;
+  }
+
+  void check_instances() {
+    file_ = "instances.json";
+    const Json root = parse(folder_ / file_);
+    const auto sizes = read_images(root);
+    const std::set<int> categories = read_categories(root);
+    std::set<std::int64_t> ids;
+    for (const Json& annotation : root.at("annotations")) {
+      const auto id = annotation.at("id").get<std::int64_t>();
+      if (!ids.insert(id).second) fault(fmt::format("annotation {} stands twice", id));
+      const auto image = sizes.find(annotation.at("image_id").get<std::int64_t>());
+      if (image == sizes.end() || !categories.contains(annotation.at("category_id").get<int>())) {
+        fault(fmt::format("annotation {} names an image or category that is not there", id));
+        continue;
+      }
+      annotation.at("iscrowd").get<int>();
+      check_mask(annotation, image->second, id);
+    }
+  }
+
+  void check_mask(const Json& annotation, const cv::Size& size, std::int64_t id) {
+    const Json& mask = annotation.at("segmentation");
+    if (mask.at("size") != Json::array({size.height, size.width})) {
+      fault(fmt::format("annotation {}: its mask is not of its image's size", id));
+      return;
+    }
+    Runs runs;
+    try {
+      runs = decompress(mask.at("counts").get<std::string>(), size.area());
+    } catch (const Error& error) {
+      fault(fmt::format("annotation {}: {}", id, error.what()));
+      return;
+    }
+    const cv::Rect box = box_of(runs, size.height);
+    if (annotation.at("area").get<std::int64_t>() != area_of(runs) ||
+        annotation.at("bbox") != Json::array({box.x, box.y, box.width, box.height})) {
+      fault(fmt::format("annotation {}: area or box are not those of its mask", id));
+    }
+  }
+
+  void check_panoptic() {
+    file_ = "panoptic.json";
+    const Json root = parse(folder_ / file_);
+    const auto sizes = read_images(root);
+    const std::set<int> categories = read_categories(root);
+    int looked_at = 0;
+    for (const Json& annotation : root.at("annotations")) {
+      if (++looked_at > kPanopticLookedAt) return;
+      const auto name = annotation.at("file_name").get<std::string>();
+      std::map<int, std::int64_t> areas =
+          areas_of(cv::imread((folder_ / "panoptic" / name).string()));
+      if (areas.empty()) fault(name + ": is no whole picture");
+      for (const Json& segment : annotation.at("segments_info")) {
+        const auto found = areas.find(segment.at("id").get<int>());
+        if (found == areas.end() || found->second != segment.at("area").get<std::int64_t>() ||
+            !categories.contains(segment.at("category_id").get<int>())) {
+          fault(fmt::format("{}: segment {} is not as the picture has it", name,
+                            segment.at("id").get<int>()));
+        }
+        if (found != areas.end()) areas.erase(found);
+      }
+      if (!areas.empty()) fault(fmt::format("{}: {} segments are not named", name, areas.size()));
+    }
+  }
+
+  static std::map<int, std::int64_t> areas_of(const cv::Mat& picture) {
+    std::map<int, std::int64_t> areas;
+    for (int y = 0; y < picture.rows; ++y) {
+      for (int x = 0; x < picture.cols; ++x) {
+        const auto& bgr = picture.at<cv::Vec3b>(y, x);
+        ++areas[bgr[2] | bgr[1] << 8 | bgr[0] << 16];
+      }
+    }
+    return areas;
+  }
+
+  fs::path folder_;
+  std::string file_;
+  std::vector<DatasetFault> faults_;
+};
+
+}  // namespace
+
+std::vector<DatasetFault> check_coco(const fs::path& folder) {
+  return Checker(folder).run();
+}
+
+}  // namespace vinebench

@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/datasets/coco/coco_file.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "core/util/error.h"
+#include "vinebench/version.h"
+
+namespace vinebench {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kFileName = "\"file_name\":\"";
+
+/// Gives every item of a list, as a line without its end.
+using Take = std::function<void(const std::string&)>;
+using Items = std::function<void(const Take&)>;
+
+std::ifstream open(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) fail("{}: cannot be read: {}", file.string(), std::strerror(errno));
+  return in;
+}
+
+Items lines_of(const fs::path& file) {
+  return [file](const Take& take) {
+    std::ifstream in = open(file);
+    for (std::string line; std::getline(in, line) && !in.eof();) take(line);
+  };
+}
+
+/// The items of one list of a file that write_coco() made.
+void take_list(const fs::path& file, const std::string& list, const Take& take) {
+  std::ifstream in = open(file);
+  bool inside = false;
+  for (std::string line; std::getline(in, line);) {
+    if (!inside) {
+      inside = line == fmt::format("\"{}\": [", list);
+    } else if (line.starts_with("]")) {
+      return;
+    } else {
+      if (line.ends_with(",")) line.pop_back();
+      take(line);
+    }
+  }
+  fail("{}: expected a list '{}' of one item a line", file.string(), list);
+}
+
+/// Of all parts, with the names of their pictures put below `prefix(part)`.
+Items lists_of(const fs::path& folder, const std::vector<std::string>& parts,
+               const std::string& file, const std::string& list, const std::string& below) {
+  return [=](const Take& take) {
+    for (const std::string& part : parts) {
+      take_list(folder / part / file, list, [&](const std::string& item) {
+        std::string moved = item;
+        const std::size_t at = moved.find(kFileName);
+        if (at != std::string::npos) {
+          moved.insert(at + std::strlen(kFileName), part + "/" + below);
+        }
+        take(moved);
+      });
+    }
+  };
+}
+
+/// A list as it stands in the file; the rest is written around it.
+void write_list(std::ofstream& out, const std::string& name, const Items& items) {
+  out << "\"" << name << "\": [";
+  const char* before = "\n";
+  items([&](const std::string& line) {
+    out << before << line;
+    before = ",\n";
+  });
+  out << "\n]";
+}
+
+void write_coco(const fs::path& file, const Json& categories, const Items& images,
+                const Items& annotations) {
+  fs::path partial = file;
+  partial += ".partial";
+  std::ofstream out(partial, std::ios::binary | std::ios::trunc);
+  if (!out) fail("{}: cannot be written: {}", file.string(), std::strerror(errno));
+  const Json info{{"description", "Simulated vineyard, Vinebench"}, {"version", kVersion}};
+  const Json licence{{"id", 1},
+                     {"name", "CC0 1.0"},
+                     {"url", "https://creativecommons.org/publicdomain/zero/1.0/"}};
+  out << "{\"info\": " << info.dump() << ",\n\"licenses\": [" << licence.dump()
+      << "],\n\"categories\": " << categories.dump() << ",\n";
+  write_list(out, "images", images);
+  out << ",\n";
+  write_list(out, "annotations", annotations);
+  out << "}\n";
+  out.close();
+  std::error_code error;
+  if (out) fs::rename(partial, file, error);
+  if (!out || error) {
+    const std::string reason = error ? error.message() : std::strerror(errno);
+    fs::remove(partial, error);
+    fail("{}: cannot be written: {}", file.string(), reason);
+  }
+}
+
+Json category_json(Category category) {
+  for (std::size_t label = 0; label < kLabels; ++label) {
+    if (category_of(static_cast<Label>(label)) != category) continue;
+    const cv::Vec3b colour = label_colour(static_cast<std::uint8_t>(label));
+    return {{"id", category_id(category)},
+            {"name", category_name(category)},
+            {"supercategory", is_thing(category) ? "thing" : "stuff"},
+            {"isthing", is_thing(category) ? 1 : 0},
+            {"color", {colour[0], colour[1], colour[2]}}};
+  }
+  return {{"id", category_id(category)},  // a plant is made of several labels
+          {"name", category_name(category)},
+          {"supercategory", "thing"},
+          {"isthing", 1},
+          {"color", {60, 160, 60}}};
+}
+
+/// Of instances.json: all things, or the chosen ones. Of panoptic.json: what a pixel can be.
+Json category_list(bool panoptic, const std::set<Category>& chosen) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < kCategories; ++i) {
+    const auto category = static_cast<Category>(i);
+    const bool counts = panoptic
+                            ? category != Category::kPlant
+                            : is_thing(category) && (chosen.empty() || chosen.contains(category));
+    if (counts) list.push_back(category_json(category));
+  }
+  return list;
+}
+
+}  // namespace
+
+void write_coco_from_lists(const fs::path& folder, const std::set<Category>& categories) {
+  const Items images = lines_of(folder / "images.jsonl");
+  write_coco(folder / "instances.json", category_list(false, categories), images,
+             lines_of(folder / "annotations.jsonl"));
+  write_coco(folder / "panoptic.json", category_list(true, {}), images,
+             lines_of(folder / "panoptic.jsonl"));
+}
+
+void merge_coco(const fs::path& folder, const std::vector<std::string>& parts,
+                const std::set<Category>& categories) {
+  write_coco(folder / "instances.json", category_list(false, categories),
+             lists_of(folder, parts, "instances.json", "images", ""),
+             lists_of(folder, parts, "instances.json", "annotations", ""));
+  write_coco(folder / "panoptic.json", category_list(true, {}),
+             lists_of(folder, parts, "panoptic.json", "images", ""),
+             lists_of(folder, parts, "panoptic.json", "annotations", "panoptic/"));
+}
+
+}  // namespace vinebench

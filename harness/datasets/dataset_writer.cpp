@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/datasets/dataset_writer.h"
+
+#include <fmt/format.h>
+
+#include "core/config/yaml_writer.h"
+#include "core/util/error.h"
+#include "core/util/files.h"
+#include "harness/datasets/coco/coco_format.h"
+#include "harness/datasets/dcvslam/dcvslam_format.h"
+#include "harness/datasets/euroc/euroc_format.h"
+#include "harness/datasets/format/calibration_file.h"
+#include "harness/datasets/format/dataset_folder.h"
+#include "harness/datasets/kitti/kitti_format.h"
+#include "harness/datasets/labels/label_formats.h"
+#include "harness/datasets/ros/ros_format.h"
+#include "harness/datasets/tum/tum_format.h"
+#include "vinebench/version.h"
+
+namespace vinebench {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string name_of(RecordFormat format) {
+  return yaml_names(RecordFormat{}).at(static_cast<std::size_t>(format));
+}
+
+/// frames.csv; also what says that a frame is whole in all formats, as it stands last among them.
+class FrameList : public DatasetFormat {
+ public:
+  explicit FrameList(const fs::path& file) : list_(file) {
+    list_.append(
+        "#number,frame,timestamp [ns],p_x [m],p_y [m],p_z [m],q_x [],q_y [],q_z [],q_w []\n");
+  }
+  std::vector<FileTask> files(const std::shared_ptr<const DatasetFrame>&) override { return {}; }
+  void commit(const DatasetFrame& frame) override {
+    const Eigen::Vector3d& p = frame.truth.T_world_body.translation;
+    const Eigen::Quaterniond& q = frame.truth.T_world_body.rotation;
+    list_.append(fmt::format("{},{},{},{},{},{},{},{},{},{}\n", frame.number, frame.frame.index,
+                             frame.frame.stamp, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()));
+  }
+
+ private:
+  AppendFile list_;
+};
+
+std::vector<std::size_t> chosen_cameras(const CapturePlan& plan, const Rig& rig) {
+  std::vector<std::size_t> cameras;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    if (plan.has_camera(i)) cameras.push_back(i);
+  }
+  return cameras;
+}
+
+DatasetCard card_of(const ScenarioConfig& scenario, const RecordOptions& options, const Rig& rig,
+                    std::int64_t planned) {
+  DatasetCard card;
+  card.name = scenario.name;
+  card.made_by = fmt::format("Vinebench {}", kVersion);
+  card.scenario = scenario.name;
+  card.world = scenario.simulation.world.name;
+  card.seed = scenario.seed;
+  card.planned_frames = planned;
+  for (const RecordFormat format : options.formats) card.formats.push_back(name_of(format));
+  for (const std::size_t camera : chosen_cameras(plan_of(options, rig), rig)) {
+    card.cameras.push_back(rig.cameras[camera].name);
+  }
+  card.settings_xxh128 = settings_hash(scenario, options);
+  return card;
+}
+
+}  // namespace
+
+std::string settings_hash(const ScenarioConfig& scenario, const RecordOptions& options) {
+  return xxh128(format_yaml(scenario) + options.text() + kVersion);
+}
+
+DatasetWriter::DatasetWriter(const fs::path& folder, const ScenarioConfig& scenario,
+                             const SimulatedSource& source, const RecordOptions& options,
+                             std::int64_t planned)
+    : folder_(folder),
+      options_(options),
+      plan_(plan_of(options, source.rig())),
+      cameras_(chosen_cameras(plan_, source.rig())),
+      card_(card_of(scenario, options, source.rig(), planned)) {
+  const RecordingNotes notes = with_cameras(notes_of(scenario), options.cameras);
+  claim_folder(folder);
+  try {
+    begin(scenario, notes, source.scene());
+  } catch (const Error&) {  // a format that does not go with the rig: the folder stays as it was
+    clear_folder(folder);
+    throw;
+  }
+}
+
+void DatasetWriter::begin(const ScenarioConfig& scenario, const RecordingNotes& notes,
+                          const SceneIndex& scene) {
+  DatasetEncoder::Formats formats = make_formats(notes, scene);
+  write_card(folder_, card_);
+  write_file_atomically(folder_ / "scenario.resolved.yaml", format_yaml(scenario));
+  Rig rig = notes.rig.make();
+  rig.cameras = notes.true_cameras;
+  write_file_atomically(folder_ / "calibration.yaml", format_calibration(rig));
+  manifest_ = std::make_unique<FileManifest>(folder_);
+  encoder_ = std::make_unique<DatasetEncoder>(std::move(formats), options_.threads, folder_,
+                                              manifest_.get());
+}
+
+DatasetEncoder::Formats DatasetWriter::make_formats(const RecordingNotes& notes,
+                                                    const SceneIndex& scene) const {
+  using enum RecordFormat;
+  DatasetEncoder::Formats formats;
+  const auto add = [&](RecordFormat format, const auto& make) {
+    if (options_.has(format)) formats.push_back(make(folder_ / name_of(format)));
+  };
+  add(kEuroc, [&](const fs::path& to) {
+    return std::make_unique<EurocFormat>(to, notes, options_.colour);
+  });
+  add(kKitti, [&](const fs::path& to) {
+    return std::make_unique<KittiFormat>(to, notes, options_.colour);
+  });
+  add(kTum, [&](const fs::path& to) { return std::make_unique<TumFormat>(to, notes); });
+  add(kDcvslam, [&](const fs::path& to) {
+    return std::make_unique<DcvslamFormat>(to, notes, options_.colour);
+  });
+  const PictureKind pictures = options_.pictures.value_or(PictureKind::kPng);
+  add(kRgb, [&](const fs::path& to) { return make_rgb_format(to, notes, pictures); });
+  add(kDepth, [&](const fs::path& to) { return make_depth_format(to, notes); });
+  add(kDepth32, [&](const fs::path& to) { return make_depth32_format(to, notes); });
+  add(kDisparity, [&](const fs::path& to) { return std::make_unique<DisparityFormat>(to, notes); });
+  add(kNormals, [&](const fs::path& to) { return make_normals_format(to, notes); });
+  add(kSemantic, [&](const fs::path& to) { return make_semantic_format(to, notes); });
+  add(kInstances,
+      [&](const fs::path& to) { return std::make_unique<InstanceFormat>(to, notes, scene); });
+  add(kCoco, [&](const fs::path& to) {
+    return std::make_unique<CocoFormat>(
+        to, notes, scene,
+        CocoOptions{pictures, options_.categories, options_.sequence * kCocoImagesPerSequence + 1});
+  });
+  add(kRos, [&](const fs::path& to) {
+    return std::make_unique<RosFormat>(to, notes, options_.colour, options_.pictures);
+  });
+  if (options_.has(kFlow) || options_.has(kFlo)) {
+    const auto folder = [&](RecordFormat format) {
+      return options_.has(format) ? folder_ / name_of(format) : fs::path();
+    };
+    formats.push_back(
+        std::make_unique<FlowFormat>(FlowFormat::Folders{folder(kFlow), folder(kFlo)}, notes));
+  }
+  formats.push_back(std::make_unique<FrameList>(folder_ / "frames.csv"));
+  return formats;
+}
+
+DatasetFrame DatasetWriter::frame_of(const Sample& sample) const {
+  Sample chosen = sample;
+  chosen.frame.images.clear();
+  chosen.truth.views.clear();
+  for (const std::size_t camera : cameras_) {
+    chosen.frame.images.push_back(sample.frame.images.at(camera));
+    if (!sample.truth.views.empty()) chosen.truth.views.push_back(sample.truth.views.at(camera));
+  }
+  return own_frame(chosen, frames_);
+}
+
+void DatasetWriter::on_tick(const Sample& sample, const Estimate&) {
+  if (!plan_.has_frame(sample.frame.index)) return;
+  encoder_->submit(frame_of(sample));
+  ++frames_;
+}
+
+void DatasetWriter::on_finish(const SlamSummary&) {
+  encoder_->finish();
+  manifest_->add_rest({DatasetCard::kName});
+  card_.frames = frames_;
+  card_.complete = frames_ == card_.planned_frames;
+  card_.files = manifest_->files();
+  card_.files_xxh128 = xxh128(read_file(folder_ / FileManifest::kName));
+  write_card(folder_, card_);
+}
+
+}  // namespace vinebench

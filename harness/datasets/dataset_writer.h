@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "harness/datasets/format/dataset_card.h"
+#include "harness/datasets/format/dataset_encoder.h"
+#include "harness/datasets/format/record_options.h"
+#include "harness/run/sink.h"
+
+namespace vinebench {
+
+/// Records a run of a scenario as one sequence: the formats side by side, each in a folder of its
+/// name; beside them frames.csv (number, frame of the run, stamp and true pose), calibration.yaml
+/// (the cameras as they truly are), scenario.resolved.yaml, the list of files and dataset.yaml.
+class DatasetWriter : public Sink {
+ public:
+  /// Throws Error for a folder that is not empty or cannot be written to, a camera that is none,
+  /// and formats that do not go with the rig. The source must outlive the writer; so many of its
+  /// frames are planned.
+  DatasetWriter(const std::filesystem::path& folder, const ScenarioConfig& scenario,
+                const SimulatedSource& source, const RecordOptions& options, std::int64_t planned);
+
+  /// Frames that the options leave out are passed over. Throws when the disk is full; what is there
+  /// stays readable.
+  void on_tick(const Sample& sample, const Estimate& estimate) override;
+  /// Whether the recording is complete shows by the number of frames.
+  void on_finish(const SlamSummary& summary) override;
+
+  std::int64_t frames() const { return frames_; }
+  std::uint64_t bytes() const { return encoder_->bytes(); }
+
+ private:
+  void begin(const ScenarioConfig& scenario, const RecordingNotes& notes, const SceneIndex& scene);
+  DatasetEncoder::Formats make_formats(const RecordingNotes& notes, const SceneIndex& scene) const;
+  DatasetFrame frame_of(const Sample& sample) const;
+
+  std::filesystem::path folder_;
+  RecordOptions options_;
+  CapturePlan plan_;
+  std::vector<std::size_t> cameras_;  ///< of the rig
+  DatasetCard card_;
+  std::unique_ptr<FileManifest> manifest_;
+  std::int64_t frames_ = 0;
+  std::unique_ptr<DatasetEncoder> encoder_;
+};
+
+/// Hash of all that makes a recording what it is.
+std::string settings_hash(const ScenarioConfig& scenario, const RecordOptions& options);
+
+}  // namespace vinebench

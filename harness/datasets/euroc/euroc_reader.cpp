@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "core/util/error.h"
+#include "harness/datasets/files/text_table.h"
+#include "harness/datasets/format/sensor_file.h"
+#include "harness/datasets/format/tag_list.h"
+#include "harness/datasets/reading/dataset_readers.h"
+#include "harness/datasets/reading/image_association.h"
+
+namespace vinebench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFrameList = "frames.csv";
+constexpr double kDefaultRate = 20;  // Hz, of EuRoC's cameras
+
+/// The folder with cam0 in it; a user may name it or the one above.
+fs::path sensor_folder(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::is_directory(folder / "mav0", ignored) ? folder / "mav0" : folder;
+}
+
+/// cam0, cam1, … as far as they go.
+std::vector<fs::path> camera_folders(const fs::path& sensors) {
+  std::vector<fs::path> folders;
+  std::error_code ignored;
+  for (int i = 0;; ++i) {
+    fs::path camera = sensors / fmt::format("cam{}", i);
+    if (!fs::is_directory(camera, ignored)) return folders;
+    folders.push_back(std::move(camera));
+  }
+}
+
+PictureList read_pictures(const fs::path& folder, bool may_be_empty) {
+  PictureList list;
+  list.camera = folder.filename().string();
+  for (const TableRow& row : read_table(folder / "data.csv")) {
+    row.expect_columns(2, "timestamp [ns], filename");
+    list.entries.push_back({row.nanoseconds(0), folder / "data" / row.fields[1]});
+  }
+  if (list.entries.empty() && !may_be_empty) {
+    fail("{}: expected a line for each picture, found none", (folder / "data.csv").string());
+  }
+  put_in_order(list);
+  return list;
+}
+
+/// Our recordings list the frames, since any camera may have missed one; else cam0 tells them.
+std::vector<Stamp> read_instants(const fs::path& folder, const PictureList& first_camera) {
+  const fs::path file = folder / kFrameList;
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return instants_of(first_camera);
+  std::vector<Stamp> instants;
+  for (const TableRow& row : read_table(file)) {
+    instants.push_back(row.nanoseconds(0));
+    if (instants.size() > 1 && instants.back() <= instants[instants.size() - 2]) {
+      row.fault("expected a later stamp than the line before");
+    }
+  }
+  if (instants.empty()) fail("{}: expected a line for each frame, found none", file.string());
+  return instants;
+}
+
+/// cam0 and cam1 are a pair, and so are cam2 and cam3; further cameras look for tags.
+Rig rig_of_sensors(const std::vector<fs::path>& folders) {
+  Rig rig;
+  rig.name = "EuRoC";
+  for (const fs::path& folder : folders) {
+    const SensorFile sensor(folder / "sensor.yaml");
+    rig.cameras.push_back({folder.filename().string(), sensor.camera(), sensor.T_BS()});
+    if (rig.cameras.size() == 1) rig.rate_hz = sensor.rate_hz().value_or(0);
+  }
+  rig.stereo_pairs.push_back({"front", 0, 1});
+  if (folders.size() >= 4) rig.stereo_pairs.push_back({"back", 2, 3});
+  for (int i = folders.size() >= 4 ? 4 : 2; i < static_cast<int>(folders.size()); ++i) {
+    rig.tag_cameras.push_back(i);
+  }
+  return rig;
+}
+
+Rig read_rig(const fs::path& folder, const std::vector<fs::path>& cameras,
+             const RecordingOptions& options) {
+  std::error_code ignored;
+  if (!options.rig.empty()) return load_rig_for(options.rig, cameras.size());
+  const fs::path ours = folder / "rig.yaml";
+  if (fs::is_regular_file(ours, ignored)) return load_rig_for(ours, cameras.size());
+  if (cameras.size() < 2) {
+    fail("{}: expected a cam1 beside cam0: a stereo pair", sensor_folder(folder).string());
+  }
+  return rig_of_sensors(cameras);
+}
+
+/// Readings in the order of time, each stamp once.
+template <class Reading>
+void put_in_order(std::vector<Reading>& readings, const std::string& sensor, Recording& recording) {
+  const bool ascending = std::ranges::is_sorted(readings, {}, &Reading::stamp);
+  std::ranges::stable_sort(readings, {}, &Reading::stamp);
+  const auto repeated = std::ranges::unique(readings, {}, &Reading::stamp);
+  std::vector<SourceEvent>& events = recording.frames.front().events;
+  if (!ascending) events.push_back({"stamp_out_of_order", sensor, "readings put in their place"});
+  if (!repeated.empty()) {
+    events.push_back(
+        {"stamp_repeated", sensor, fmt::format("{} readings left out", repeated.size())});
+  }
+  readings.erase(repeated.begin(), repeated.end());
+}
+
+void read_imu(const fs::path& folder, Recording& recording) {
+  std::error_code ignored;
+  if (!fs::exists(folder / "data.csv", ignored)) return;
+  Pose T_body_imu;
+  if (fs::exists(folder / "sensor.yaml", ignored)) {
+    T_body_imu = SensorFile(folder / "sensor.yaml").T_BS();
+  }
+  for (const TableRow& row : read_table(folder / "data.csv")) {
+    row.expect_columns(7, "ns, angular velocity, specific force");
+    const auto vector_at = [&](std::size_t first) {
+      return Eigen::Vector3d(row.number(first), row.number(first + 1), row.number(first + 2));
+    };
+    ImuSample sample{row.nanoseconds(0), vector_at(1), vector_at(4)};
+    if (T_body_imu.rotation.w() != 1) {
+      sample.angular_velocity = T_body_imu.rotation * sample.angular_velocity;
+      sample.specific_force = T_body_imu.rotation * sample.specific_force;
+    }
+    recording.imu.push_back(sample);
+  }
+  put_in_order(recording.imu, "imu0", recording);
+}
+
+/// Ours alone: angles and speeds of the four wheels.
+void read_wheels(const fs::path& folder, Recording& recording) {
+  std::error_code ignored;
+  if (!fs::exists(folder / "data.csv", ignored)) return;
+  for (const TableRow& row : read_table(folder / "data.csv")) {
+    WheelSample sample;
+    const std::size_t wheels = sample.angle.size();
+    row.expect_columns(1 + 2 * wheels, "ns, four angles, four speeds");
+    sample.stamp = row.nanoseconds(0);
+    for (std::size_t i = 0; i < wheels; ++i) {
+      sample.angle[i] = row.number(1 + i);
+      sample.velocity[i] = row.number(1 + wheels + i);
+    }
+    recording.wheels.push_back(sample);
+  }
+  put_in_order(recording.wheels, "wheels0", recording);
+}
+
+/// The state estimate where there is one, else what a motion-capture system saw.
+Trajectory read_truth(const fs::path& sensors) {
+  for (const char* name : {"state_groundtruth_estimate0", "vicon0"}) {
+    const fs::path folder = sensors / name;
+    std::error_code ignored;
+    if (!fs::exists(folder / "data.csv", ignored)) continue;
+    const bool described = fs::exists(folder / "sensor.yaml", ignored);
+    const Pose T_body_sensor = described ? SensorFile(folder / "sensor.yaml").T_BS() : Pose{};
+    return read_euroc_poses(folder / "data.csv", T_body_sensor);
+  }
+  return {};
+}
+
+}  // namespace
+
+bool is_euroc(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::is_directory(folder / "mav0", ignored) || fs::is_directory(folder / "cam0", ignored);
+}
+
+Recording read_euroc(const fs::path& named, const RecordingOptions& options) {
+  const fs::path sensors = sensor_folder(named);
+  // Of a folder that was named as ".../mav0" the one above is meant.
+  const bool inner = sensors == named && fs::weakly_canonical(named).filename() == "mav0";
+  const fs::path folder = inner ? fs::weakly_canonical(named).parent_path() : named;
+  std::vector<fs::path> cameras = camera_folders(sensors);
+  if (cameras.empty()) fail("{}: expected the folders cam0 and cam1", sensors.string());
+  Recording recording;
+  recording.format = "EuRoC/ASL";
+  recording.rig = read_rig(folder, cameras, options);
+  recording.T_body_left = recording.rig.cameras.front().T_body_cam;
+  cameras.resize(recording.rig.cameras.size());
+  std::error_code ignored;
+  const bool frames_are_listed = fs::exists(folder / kFrameList, ignored);
+  std::vector<PictureList> lists;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    lists.push_back(read_pictures(cameras[i], frames_are_listed));
+    lists.back().camera = recording.rig.cameras[i].name;
+  }
+  const std::vector<Stamp> instants = read_instants(folder, lists.front());
+  recording.frames = associate_pictures(lists, instants);
+  if (recording.rig.rate_hz <= 0) {
+    const Stamp period = median_period(instants);
+    recording.rig.rate_hz = period > 0 ? 1 / to_seconds(period) : kDefaultRate;
+  }
+  read_imu(sensors / "imu0", recording);
+  read_wheels(sensors / "wheels0", recording);
+  if (options.groundtruth.empty()) recording.truth = read_truth(sensors);
+  if (fs::exists(folder / "tags.yaml", ignored)) recording.tags = read_tags(folder / "tags.yaml");
+  if (fs::exists(folder / "slam.yaml", ignored)) recording.settings = folder / "slam.yaml";
+  return recording;
+}
+
+}  // namespace vinebench

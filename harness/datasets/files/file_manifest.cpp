@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/datasets/files/file_manifest.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <set>
+#include <system_error>
+
+#include "core/util/error.h"
+#include "core/util/files.h"
+
+namespace vinebench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kDigits = 32;
+constexpr std::string_view kBetween = "  ";
+constexpr std::size_t kPart = std::size_t{1} << 20;  // bytes of a file in memory
+
+std::string digits_of(const XXH128_hash_t& hash) {
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+std::string line_of(const ListedFile& file) {
+  return fmt::format("{}{}{}\n", file.hash, kBetween, file.name);
+}
+
+bool is_line(std::string_view line) {
+  return line.size() > kDigits + kBetween.size() && line.substr(kDigits, 2) == kBetween &&
+         line.substr(0, kDigits).find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+}  // namespace
+
+std::string xxh128(std::string_view bytes) {
+  return digits_of(XXH3_128bits(bytes.data(), bytes.size()));
+}
+
+std::string xxh128_of_file(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) fail("{}: cannot be read: {}", file.string(), std::strerror(errno));
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
+                                                                       XXH3_freeState);
+  XXH3_128bits_reset(state.get());
+  std::vector<char> part(kPart);
+  while (in) {
+    in.read(part.data(), static_cast<std::streamsize>(part.size()));
+    XXH3_128bits_update(state.get(), part.data(), static_cast<std::size_t>(in.gcount()));
+  }
+  if (in.bad()) fail("{}: cannot be read: {}", file.string(), std::strerror(errno));
+  return digits_of(XXH3_128bits_digest(state.get()));
+}
+
+std::vector<std::string> files_below(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error)) {
+    if (it->is_regular_file()) names.push_back(it->path().lexically_relative(folder).string());
+  }
+  if (error) fail("{}: cannot be read: {}", folder.string(), error.message());
+  std::ranges::sort(names);
+  return names;
+}
+
+FileManifest::FileManifest(const fs::path& folder) : folder_(folder), list_(folder / kName) {}
+
+void FileManifest::add(const std::vector<ListedFile>& files) {
+  std::string lines;
+  for (const ListedFile& file : files) {
+    lines += line_of(file);
+    names_.push_back(file.name);
+  }
+  list_.append(lines);
+}
+
+void FileManifest::add_rest(const std::vector<std::string>& without) {
+  std::set<std::string> known(names_.begin(), names_.end());
+  known.insert(without.begin(), without.end());
+  std::vector<ListedFile> rest;
+  for (const std::string& name : files_below(folder_)) {
+    if (!known.contains(name) && name != kName) {
+      rest.push_back({name, xxh128_of_file(folder_ / name)});
+    }
+  }
+  add(rest);
+}
+
+std::vector<ListedFile> read_manifest(const fs::path& file) {
+  const std::string text = read_file(file);
+  std::vector<ListedFile> files;
+  std::size_t begin = 0;
+  for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
+    const std::string_view line(text.data() + begin, end - begin);
+    if (!is_line(line)) {
+      fail("{}:{}: expected 32 hexadecimal digits, two spaces and a file name", file.string(),
+           files.size() + 1);
+    }
+    files.push_back({std::string(line.substr(kDigits + kBetween.size())),
+                     std::string(line.substr(0, kDigits))});
+  }
+  return files;
+}
+
+}  // namespace vinebench

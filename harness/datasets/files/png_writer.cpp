@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/datasets/files/png_writer.h"
+
+#include <libdeflate.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "core/util/error.h"
+
+namespace vinebench {
+namespace {
+
+constexpr int kLevel = 1;               // libdeflate's fastest that compresses
+constexpr std::uint8_t kSubFilter = 1;  // each byte less that of the pixel to the left
+constexpr std::uint8_t kGrey = 0;       // colour types of PNG
+constexpr std::uint8_t kRgb = 2;
+constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
+
+/// PNG is big-endian.
+void append(std::string& bytes, std::uint32_t value) {
+  for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>(value >> shift & 0xff);
+}
+
+void append_chunk(std::string& bytes, std::string_view type, std::string_view content) {
+  append(bytes, static_cast<std::uint32_t>(content.size()));
+  bytes += type;
+  bytes += content;
+  const std::size_t checked = type.size() + content.size();
+  append(bytes, libdeflate_crc32(0, bytes.data() + bytes.size() - checked, checked));
+}
+
+std::string header(const cv::Mat& picture) {
+  std::string content;
+  append(content, static_cast<std::uint32_t>(picture.cols));
+  append(content, static_cast<std::uint32_t>(picture.rows));
+  content += static_cast<char>(8 * picture.elemSize1());
+  content += static_cast<char>(picture.channels() == 1 ? kGrey : kRgb);
+  content.append(3, '\0');  // deflate, the five usual filters, no interlacing
+  return content;
+}
+
+void copy_row(const std::uint8_t* from, std::size_t size, bool wide, std::uint8_t* to) {
+  if (!wide) {
+    std::memcpy(to, from, size);
+    return;
+  }
+  for (std::size_t i = 0; i < size; i += 2) {
+    to[i] = from[i + 1];
+    to[i + 1] = from[i];
+  }
+}
+
+/// Each row behind the number of its filter; good until the thread's next call. Memory of a whole
+/// picture is kept, since fresh pages cost as much as the filter.
+const std::vector<std::uint8_t>& filtered(const cv::Mat& picture) {
+  const std::size_t pixel = picture.elemSize();
+  const std::size_t row = static_cast<std::size_t>(picture.cols) * pixel;
+  const bool wide = picture.elemSize1() == 2;
+  thread_local std::vector<std::uint8_t> bytes;
+  thread_local std::vector<std::uint8_t> plain;
+  bytes.resize((row + 1) * static_cast<std::size_t>(picture.rows));
+  plain.resize(row);
+  std::uint8_t* to = bytes.data();
+  for (int y = 0; y < picture.rows; ++y) {
+    copy_row(picture.ptr(y), row, wide, plain.data());
+    *to++ = kSubFilter;
+    std::memcpy(to, plain.data(), std::min(pixel, row));
+    for (std::size_t i = pixel; i < row; ++i) {
+      to[i] = static_cast<std::uint8_t>(plain[i] - plain[i - pixel]);
+    }
+    to += row;
+  }
+  return bytes;
+}
+
+/// Likewise good until the thread's next call.
+std::string_view compressed(const std::vector<std::uint8_t>& bytes) {
+  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
+      libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
+  if (!compressor) fail("a picture cannot be compressed: not enough memory");
+  thread_local std::vector<char> result;
+  result.resize(
+      std::max(result.size(), libdeflate_zlib_compress_bound(compressor.get(), bytes.size())));
+  return {result.data(), libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(),
+                                                  result.data(), result.size())};
+}
+
+}  // namespace
+
+std::string encode_png(const cv::Mat& picture) {
+  static_assert(std::endian::native == std::endian::little, "rows of 16 bits are turned round");
+  const bool known = (picture.depth() == CV_8U || picture.depth() == CV_16U) &&
+                     (picture.channels() == 1 || picture.channels() == 3);
+  if (!known || picture.empty()) fail("PNG: expected a picture of 8 or 16 bits, grey or RGB");
+  std::string bytes(kSignature);
+  append_chunk(bytes, "IHDR", header(picture));
+  append_chunk(bytes, "IDAT", compressed(filtered(picture)));
+  append_chunk(bytes, "IEND", "");
+  return bytes;
+}
+
+}  // namespace vinebench

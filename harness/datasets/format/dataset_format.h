@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "harness/datasets/format/recording_notes.h"
+#include "sim/simulation.h"
+
+namespace vinebench {
+
+/// One frame on its way to the disk. Cameras are those of the data set, in its order.
+struct DatasetFrame {
+  std::int64_t number = 0;  ///< in the data set, from 0 on without gaps
+  Frame frame;              ///< as the sensors gave it; pictures in memory of their own
+  Truth truth;
+};
+
+/// A file of its own that a format wants of a frame, such as a picture.
+struct FileTask {
+  std::string key;  ///< tasks of one frame that have the same key have the same bytes
+  std::filesystem::path file;
+  std::function<std::string()> bytes;  ///< called on any thread, beside others
+  /// Where there is one, it takes the bytes in place of a file; called likewise.
+  std::function<void(const std::string&)> take{};
+};
+
+/// Writes a run in one format into a folder that is its own. All but a FileTask's functions is
+/// called on one thread, frame after frame; what goes wrong throws Error.
+class DatasetFormat {
+ public:
+  virtual ~DatasetFormat() = default;
+  /// What to write before the frame counts as there; may look back at earlier frames.
+  virtual std::vector<FileTask> files(const std::shared_ptr<const DatasetFrame>& frame) = 0;
+  /// The frame's files are whole: the lists may name them.
+  virtual void commit(const DatasetFrame&) {}
+  /// No frame follows.
+  virtual void finish() {}
+};
+
+/// "000012.png" for number 12 and "png".
+std::string numbered(std::int64_t number, const std::string& ending);
+
+/// A camera's picture as PNG: grey as the SLAM core sees it, or in colour. Shared by all formats.
+FileTask camera_picture(const std::shared_ptr<const DatasetFrame>& frame, std::size_t camera,
+                        bool colour, std::filesystem::path file);
+
+/// Makes a folder and those above it. Throws Error with the system's reason.
+std::filesystem::path make_folder(const std::filesystem::path& folder);
+
+}  // namespace vinebench

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/datasets/format/record_options.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "core/util/error.h"
+#include "harness/datasets/ros/rosbag/ros_bag.h"
+
+namespace vinebench {
+namespace {
+
+/// A whole number without sign and nothing else; -1 for other text.
+std::int64_t whole_number(std::string_view text) {
+  std::int64_t value = -1;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && rest == end ? value : -1;
+}
+
+}  // namespace
+
+std::string RecordOptions::text() const {
+  std::vector<std::string> names;
+  for (const RecordFormat format : formats) {
+    names.push_back(yaml_names(RecordFormat{}).at(static_cast<std::size_t>(format)));
+  }
+  std::vector<int> ids;
+  for (const Category category : categories) ids.push_back(category_id(category));
+  return fmt::format("{} | {} | {} | {} {} {} | {} {} {}", fmt::join(names, ","),
+                     fmt::join(cameras, ","), fmt::join(ids, ","), first, last, every,
+                     pictures ? static_cast<int>(*pictures) : -1, colour, sequence);
+}
+
+std::vector<bool> chosen_cameras(const std::vector<std::string>& names, const Rig& rig,
+                                 const std::string& what) {
+  std::vector<bool> chosen(names.empty() ? 0 : rig.cameras.size(), false);
+  for (const std::string& name : names) {
+    const int camera = rig.find_camera(name);
+    if (camera < 0) fail("{}: rig '{}' has no camera named '{}'", what, rig.name, name);
+    chosen[static_cast<std::size_t>(camera)] = true;
+  }
+  return chosen;
+}
+
+CapturePlan plan_of(const RecordOptions& options, const Rig& rig) {
+  using enum RecordFormat;
+  CapturePlan plan;
+  plan.first = options.first;
+  plan.last = options.last;
+  plan.every = options.every;
+  const bool flows = options.has(kFlow) || options.has(kFlo);
+  plan.labels = options.has(kSemantic) || options.has(kCoco) || flows;
+  plan.depth = options.has(kDepth) || options.has(kDepth32) || options.has(kDisparity) || flows;
+  plan.normals = options.has(kNormals) || flows;
+  plan.motion = flows;
+  plan.instances = options.has(kInstances) || options.has(kCoco);
+  plan.cameras = chosen_cameras(options.cameras, rig, "--cameras");
+  return plan;
+}
+
+std::vector<std::string> all_formats() {
+  std::vector<std::string> names = yaml_names(RecordFormat{});
+  if (!has_rosbag()) std::erase(names, "ros");
+  return names;
+}
+
+std::set<RecordFormat> parse_formats(const std::vector<std::string>& names) {
+  const std::vector<std::string> known = yaml_names(RecordFormat{});
+  std::set<RecordFormat> formats;
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(known, name);
+    if (found == known.end()) {
+      fail("--format: '{}' is no format, expected some of {}", name, fmt::join(known, ", "));
+    }
+    formats.insert(static_cast<RecordFormat>(found - known.begin()));
+  }
+  if (formats.empty()) fail("--format: expected some of {}", fmt::join(known, ", "));
+  return formats;
+}
+
+std::set<Category> parse_categories(const std::vector<std::string>& names) {
+  std::vector<std::string> known;
+  for (std::size_t i = 0; is_thing(static_cast<Category>(i)); ++i) {
+    known.emplace_back(category_name(static_cast<Category>(i)));
+  }
+  std::set<Category> categories;
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(known, name);
+    if (found == known.end()) {
+      fail("--labels: '{}' is no kind of thing, expected some of {}", name, fmt::join(known, ", "));
+    }
+    categories.insert(static_cast<Category>(found - known.begin()));
+  }
+  return categories;
+}
+
+std::pair<std::int64_t, std::int64_t> parse_span(const std::string& text, const std::string& what) {
+  const std::size_t dots = text.find("..");
+  const std::string_view whole = text;
+  const std::int64_t first = whole_number(whole.substr(0, dots));
+  const std::int64_t last =
+      dots == std::string::npos ? first : whole_number(whole.substr(dots + 2));
+  if (first < 0 || last < first) {
+    fail("{} {}: expected A..B with whole numbers, A at most B, such as 1..20", what, text);
+  }
+  return {first, last};
+}
+
+}  // namespace vinebench

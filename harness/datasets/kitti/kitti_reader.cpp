@@ -1,0 +1,236 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "core/util/error.h"
+#include "harness/datasets/files/text_table.h"
+#include "harness/datasets/reading/dataset_readers.h"
+#include "harness/datasets/reading/recorded_images.h"
+
+namespace vinebench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kDefaultRate = 10;  // Hz, of KITTI's cameras
+constexpr std::size_t kMatrixSize = 12;
+constexpr std::size_t kEyes = 2;
+
+/// The folders of a stereo pair, and which lines of calib.txt are its eyes'.
+struct Layout {
+  const char* left;
+  const char* right;
+  std::size_t left_matrix;
+  std::size_t right_matrix;
+};
+
+constexpr std::array<Layout, 5> kLayouts{{{"image_0", "image_1", 0, 1},
+                                          {"image_2", "image_3", 2, 3},
+                                          {"image_l", "image_r", 0, 1},
+                                          {"image_left", "image_right", 0, 1},
+                                          {"left", "right", 0, 1}}};
+
+const Layout* find_layout(const fs::path& folder) {
+  std::error_code ignored;
+  for (const Layout& layout : kLayouts) {
+    if (fs::is_directory(folder / layout.left, ignored)) return &layout;
+  }
+  return nullptr;
+}
+
+using Projection = Eigen::Matrix<double, 3, 4>;
+
+Projection projection_of(const TableRow& row, std::size_t first) {
+  if (row.fields.size() - first != kMatrixSize) {
+    row.fault(fmt::format("expected 12 numbers (3 x 4, row by row), found {}",
+                          row.fields.size() - first));
+  }
+  Projection P;
+  for (std::size_t i = 0; i < kMatrixSize; ++i) {
+    P(static_cast<Eigen::Index>(i / 4), static_cast<Eigen::Index>(i % 4)) = row.number(first + i);
+  }
+  if (P(0, 0) <= 0 || P(1, 1) <= 0 || P(2, 2) != 1) {
+    row.fault("expected a projection matrix: focal lengths above 0, 1 in row 3, column 3");
+  }
+  return P;
+}
+
+/// The matrices by their number: `P2:` says it, else the line's place does.
+std::map<std::size_t, Projection> read_calibration(const fs::path& file) {
+  std::map<std::size_t, Projection> matrices;
+  for (const TableRow& row : read_rows(file)) {
+    const std::string& label = row.fields.front();
+    if (is_number(label)) {
+      matrices[matrices.size()] = projection_of(row, 0);
+    } else if (label.size() == 3 && label[0] == 'P' && label[2] == ':') {
+      matrices[static_cast<std::size_t>(label[1] - '0')] = projection_of(row, 1);
+    }  // others, such as Tr:, are of the laser scanner
+  }
+  return matrices;
+}
+
+/// The body is at the first camera (P0), the one that poses.txt speaks of.
+Pose first_camera_mount() {
+  return Rig::mount(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+}
+
+RigCamera camera_of(const std::string& name, const Projection& P) {
+  RigCamera camera;
+  camera.name = name;
+  camera.model = {.fx = P(0, 0), .fy = P(1, 1), .cx = P(0, 2), .cy = P(1, 2)};
+  // x = K (p + t) with the matrix's last column K t: the eye is at -t of the first camera.
+  const Eigen::Vector3d t(P(0, 3) / P(0, 0) - P(0, 2) / P(0, 0) * P(2, 3),
+                          P(1, 3) / P(1, 1) - P(1, 2) / P(1, 1) * P(2, 3), P(2, 3));
+  const Pose T_body_first = first_camera_mount();
+  camera.T_body_cam = {T_body_first.rotation, T_body_first * -t};
+  return camera;
+}
+
+Rig read_rig(const fs::path& folder, const Layout& layout) {
+  const fs::path file = folder / "calib.txt";
+  const auto matrices = read_calibration(file);
+  for (const std::size_t wanted : {layout.left_matrix, layout.right_matrix}) {
+    if (matrices.contains(wanted)) continue;
+    fail("{}: expected a matrix P{} for the pictures in {} and {}", file.string(), wanted,
+         layout.left, layout.right);
+  }
+  Rig rig;
+  rig.name = "KITTI";
+  rig.cameras = {camera_of("left", matrices.at(layout.left_matrix)),
+                 camera_of("right", matrices.at(layout.right_matrix))};
+  rig.stereo_pairs = {{"front", 0, 1}};
+  return rig;
+}
+
+/// Pictures by the number that is their name.
+std::map<std::int64_t, fs::path> pictures_in(const fs::path& folder) {
+  static const std::array<std::string, 7> kinds{".png", ".jpg", ".jpeg", ".pgm",
+                                                ".bmp", ".tif", ".webp"};
+  std::error_code error;
+  std::map<std::int64_t, fs::path> pictures;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string stem = entry.path().stem().string();
+    const bool picture = std::ranges::count(kinds, entry.path().extension().string()) > 0;
+    const bool number = !stem.empty() && stem.size() <= 18 &&
+                        stem.find_first_not_of("0123456789") == std::string::npos;
+    if (picture && number) pictures[std::stoll(stem)] = entry.path();
+  }
+  if (error) fail("{}: cannot be read: {}", folder.string(), error.message());
+  if (pictures.empty()) {
+    fail("{}: expected pictures named by their number, such as 000000.png, found none",
+         folder.string());
+  }
+  return pictures;
+}
+
+/// A frame for every number from the first to the last of either eye.
+std::vector<RecordedFrame> read_frames(const fs::path& folder, const Layout& layout) {
+  const auto left = pictures_in(folder / layout.left);
+  const auto right = pictures_in(folder / layout.right);
+  const std::int64_t first = std::min(left.begin()->first, right.begin()->first);
+  const std::int64_t last = std::max(left.rbegin()->first, right.rbegin()->first);
+  const auto most = static_cast<std::int64_t>(10 * (left.size() + right.size()));
+  if (last - first >= most) {
+    fail("{}: expected pictures numbered without great gaps, found {} to {} for {} and {} pictures",
+         folder.string(), first, last, left.size(), right.size());
+  }
+  std::vector<RecordedFrame> frames;
+  for (std::int64_t number = first; number <= last; ++number) {
+    const auto of = [&](const auto& eye) {
+      const auto found = eye.find(number);
+      return found == eye.end() ? fs::path() : found->second;
+    };
+    frames.push_back({stamp_of_frame(number - first, kDefaultRate), {of(left), of(right)}, {}});
+  }
+  return frames;
+}
+
+/// Stamps from times.txt, a line a frame; the frames' rate.
+void read_times(const fs::path& folder, Recording& recording) {
+  recording.rig.rate_hz = kDefaultRate;
+  const fs::path file = folder / "times.txt";
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return;
+  const std::vector<TableRow> rows = read_table(file);
+  std::vector<RecordedFrame>& frames = recording.frames;
+  if (rows.size() != frames.size()) {
+    fail("{}: expected {} lines, one a frame, found {}", file.string(), frames.size(), rows.size());
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].number(0);  // says where it is none
+    frames[i].stamp = parse_seconds(rows[i].fields[0]);
+    if (i > 0 && frames[i].stamp <= frames[i - 1].stamp) {
+      rows[i].fault("expected a later time than the line before");
+    }
+  }
+  const double seconds = to_seconds(frames.back().stamp - frames.front().stamp);
+  if (frames.size() > 1) recording.rig.rate_hz = static_cast<double>(frames.size() - 1) / seconds;
+}
+
+/// In the folder itself, or where the original has it: sequences/00 and poses/00.txt.
+fs::path find_poses(const fs::path& folder) {
+  const fs::path whole = fs::weakly_canonical(folder);
+  const fs::path original =
+      whole.parent_path().parent_path() / "poses" / (whole.filename().string() + ".txt");
+  std::error_code ignored;
+  for (const fs::path& file : {folder / "poses.txt", original}) {
+    if (fs::is_regular_file(file, ignored)) return file;
+  }
+  return {};
+}
+
+/// What our recordings have beside KITTI's own; nothing where it is not there.
+fs::path ours(const fs::path& file) {
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored) ? file : fs::path();
+}
+
+/// The pictures tell their size; calib.txt does not.
+void set_sizes(Recording& recording) {
+  for (std::size_t camera = 0; camera < recording.rig.cameras.size(); ++camera) {
+    PinholeCamera& model = recording.rig.cameras[camera].model;
+    const cv::Size size = first_picture_size(recording, camera);
+    if (size.empty()) {
+      fail("{}: no picture of the {} eye can be read",
+           recording.frames.front().images[camera].string(), recording.rig.cameras[camera].name);
+    }
+    model.width = size.width;
+    model.height = size.height;
+  }
+}
+
+}  // namespace
+
+bool is_kitti(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::exists(folder / "calib.txt", ignored) || find_layout(folder) != nullptr;
+}
+
+Recording read_kitti(const fs::path& folder, const RecordingOptions& options) {
+  const Layout* layout = find_layout(folder);
+  if (layout == nullptr) {
+    fail(
+        "{}: expected the folders image_0 and image_1, image_2 and image_3, or image_l and "
+        "image_r beside calib.txt",
+        folder.string());
+  }
+  Recording recording;
+  recording.format = "KITTI odometry";
+  const fs::path rig = options.rig.empty() ? ours(folder / "rig.yaml") : options.rig;
+  recording.rig = rig.empty() ? read_rig(folder, *layout) : load_rig_for(rig, kEyes);
+  recording.T_body_left =
+      rig.empty() ? first_camera_mount() : recording.rig.cameras.front().T_body_cam;
+  recording.settings = ours(folder / "slam.yaml");
+  recording.frames = read_frames(folder, *layout);
+  read_times(folder, recording);
+  if (rig.empty()) set_sizes(recording);
+  const fs::path poses = find_poses(folder);
+  if (options.groundtruth.empty() && !poses.empty()) {
+    recording.truth = read_groundtruth(poses, recording);
+  }
+  return recording;
+}
+
+}  // namespace vinebench

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "harness/datasets/labels/label_table.h"
+#include "harness/datasets/labels/mask_rle.h"
+#include "sim/scene/scene_index.h"
+#include "sim/truth/truth_images.h"
+
+namespace vinebench {
+
+/// One thing of a picture, or what of a category a plant has there.
+struct ThingLabel {
+  Category category = Category::kBunch;
+  std::int32_t number = 0;   ///< of Picture::instances; of a plant its whole's
+  std::int32_t segment = 0;  ///< its pixels' value in the panoptic picture; 0 of a whole plant
+  Runs mask;
+  /// Share of its outline within the picture that it shows itself in; absent for parts of plants
+  /// that have no outline of their own (trunk, cane, leaf) and for the rover.
+  std::optional<double> visibility;
+  std::optional<double> truncation;  ///< share of it outside the picture; absent likewise
+};
+
+/// Pixels of no countable thing.
+struct StuffLabel {
+  Category category = Category::kSky;
+  std::int32_t segment = 0;
+  Runs mask;
+};
+
+struct PictureLabels {
+  std::vector<ThingLabel> things;  ///< by category, then number
+  std::vector<StuffLabel> stuff;   ///< by category
+  cv::Mat segments;                ///< CV_32SC1: panoptic ids; every pixel has one
+};
+
+/// Takes a picture's labels and instances apart. Visibility and truncation are measured at points
+/// of the thing's surface (SceneIndex::points): the share of those that fall outside the picture,
+/// and of the others the share whose pixel shows the thing. In wind they are those of still air.
+PictureLabels label_things(const TruthView& view, const SceneIndex& scene);
+
+}  // namespace vinebench

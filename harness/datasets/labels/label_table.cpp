@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/datasets/labels/label_table.h"
+
+#include <fmt/format.h>
+
+namespace vinebench {
+namespace {
+
+struct Entry {
+  const char* name;
+  cv::Vec3b colour;
+  Category category;
+};
+
+/// In the order of Label.
+const std::array<Entry, kLabels>& entries() {
+  static const std::array<Entry, kLabels> kEntries{
+      {{"sky", {135, 190, 235}, Category::kSky},
+       {"ground", {150, 110, 70}, Category::kGround},
+       {"grass", {120, 190, 80}, Category::kGrass},
+       {"trunk", {95, 60, 30}, Category::kTrunk},
+       {"cane", {190, 140, 60}, Category::kCane},
+       {"leaf", {30, 130, 40}, Category::kLeaf},
+       {"bunch", {120, 40, 140}, Category::kBunch},
+       {"post", {200, 200, 90}, Category::kPost},
+       {"wire", {90, 90, 110}, Category::kWire},
+       {"tag", {255, 255, 255}, Category::kTag},
+       {"box", {220, 150, 80}, Category::kBox},
+       {"rover", {220, 40, 40}, Category::kRover},
+       {"person", {250, 170, 190}, Category::kPerson}}};
+  return kEntries;
+}
+
+}  // namespace
+
+const char* label_name(Label label) {
+  return entries().at(static_cast<std::size_t>(label)).name;
+}
+
+cv::Vec3b label_colour(std::uint8_t label) {
+  return label < kLabels ? entries()[label].colour : cv::Vec3b(0, 0, 0);
+}
+
+std::string label_table_text() {
+  std::string text = "labels:\n";
+  for (std::size_t i = 0; i < kLabels; ++i) {
+    const auto& [name, colour, category] = entries()[i];
+    text += fmt::format("  - {{id: {}, name: {}, colour: [{}, {}, {}]}}\n", i, name, colour[0],
+                        colour[1], colour[2]);
+  }
+  return text;
+}
+
+const char* category_name(Category category) {
+  static constexpr std::array<const char*, kCategories> kNames{
+      "bunch", "plant",  "trunk", "cane", "leaf",  "post",   "tag",
+      "box",   "person", "rover", "wire", "grass", "ground", "sky"};
+  return kNames.at(static_cast<std::size_t>(category));
+}
+
+Category category_of(Label label) {
+  return entries().at(static_cast<std::size_t>(label)).category;
+}
+
+}  // namespace vinebench

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+#include "harness/datasets/reading/dataset_reader.h"
+
+namespace vinebench {
+
+/// A picture file in eight bits of grey, as the SLAM core would make it grey; empty where the file
+/// is no whole picture.
+cv::Mat read_grey(const std::filesystem::path& file);
+
+/// Of the first picture of that camera that can be read; empty where none can.
+cv::Size first_picture_size(const Recording& recording, std::size_t camera);
+
+}  // namespace vinebench

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/geometry/rig.h"
+#include "harness/datasets/ros/rosbag/ros_bag.h"
+
+namespace vinebench {
+
+/// How ROS knows a camera of a rig.
+struct RosCamera {
+  std::string frame;  ///< "<name>_optical_frame"
+  std::string
+      images;        ///< topic: "/<name>/image_rect" of an ideal pinhole, else "/<name>/image_raw"
+  std::string info;  ///< topic: "/<name>/camera_info"
+  RosCameraInfo calibration;
+};
+
+/// Of a pair that is not rectified, R and P are of the view that the SLAM core rectifies it to.
+/// Throws Error for a name that ROS cannot have in a topic, and a pair that cannot be rectified.
+std::vector<RosCamera> ros_cameras(const Rig& rig);
+
+}  // namespace vinebench

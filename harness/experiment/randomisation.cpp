@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/experiment/randomisation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/config/yaml.h"
+#include "core/util/random.h"
+
+namespace vinebench {
+namespace {
+
+struct RandomisationConfig {
+  struct Draw {
+    std::string key;
+    std::optional<std::array<double, 2>> uniform;        ///< least, most
+    std::optional<std::array<double, 2>> log_uniform;    ///< likewise, both above 0
+    std::optional<std::array<double, 2>> normal;         ///< mean, standard deviation
+    std::optional<std::array<std::int64_t, 2>> integer;  ///< least, most, both included
+    std::vector<std::string> choice;                     ///< YAML values
+    std::vector<double> weights;                         ///< of the choice; alike where absent
+    std::optional<double> min;                           ///< of normal
+    std::optional<double> max;                           ///< likewise
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive("key", key);
+      archive("uniform", uniform);
+      archive("log_uniform", log_uniform, Range::positive());
+      archive("normal", normal);
+      archive("integer", integer);
+      archive("choice", choice);
+      archive("weights", weights, Range::non_negative());
+      archive("min", min);
+      archive("max", max);
+      check(archive);
+    }
+
+   private:
+    template <class Archive>
+    void check(Archive& archive) const {
+      archive.require(!key.empty(), "key", "expected a key of the scenario");
+      const int kinds = int(uniform.has_value()) + int(log_uniform.has_value()) +
+                        int(normal.has_value()) + int(integer.has_value()) + int(!choice.empty());
+      archive.require(kinds == 1, "key",
+                      "expected exactly one of uniform, log_uniform, normal, integer, choice");
+      const auto ascends = [&](const auto& span, const char* name) {
+        if (span) archive.require((*span)[0] <= (*span)[1], name, "expected [least, most]");
+      };
+      ascends(uniform, "uniform");
+      ascends(log_uniform, "log_uniform");
+      ascends(integer, "integer");
+      if (normal) archive.require((*normal)[1] >= 0, "normal", "expected [mean, deviation >= 0]");
+      archive.require(normal || (!min && !max), "min", "min and max go with normal alone");
+      double sum = 0;
+      for (const double weight : weights) sum += weight;
+      archive.require(weights.empty() || (weights.size() == choice.size() && sum > 0), "weights",
+                      "expected one for each choice, not all 0");
+    }
+  };
+  std::vector<Draw> draws;
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("draws", draws);
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+      const auto same = [&](const Draw& other) { return other.key == draws[i].key; };
+      archive.require(std::ranges::count_if(draws, same) == 1, fmt::format("draws.{}.key", i),
+                      "stands twice");
+    }
+  }
+};
+
+using Draw = RandomisationConfig::Draw;
+
+const std::string& chosen(const Draw& draw, double share) {
+  double sum = 0;
+  for (std::size_t i = 0; i < draw.choice.size(); ++i) {
+    sum += draw.weights.empty() ? 1 : draw.weights[i];
+  }
+  double left = share * sum;
+  for (std::size_t i = 0; i + 1 < draw.choice.size(); ++i) {
+    left -= draw.weights.empty() ? 1 : draw.weights[i];
+    if (left < 0) return draw.choice[i];
+  }
+  return draw.choice.back();
+}
+
+std::string value_of(const Draw& draw, const RandomStream& stream) {
+  if (draw.uniform) {
+    return fmt::format("{}", stream.uniform(0, (*draw.uniform)[0], (*draw.uniform)[1]));
+  }
+  if (draw.log_uniform) {
+    const auto [least, most] = *draw.log_uniform;
+    return fmt::format("{}", std::exp(stream.uniform(0, std::log(least), std::log(most))));
+  }
+  if (draw.normal) {
+    const double value = (*draw.normal)[0] + (*draw.normal)[1] * stream.normal(0);
+    const double least = draw.min.value_or(value);
+    return fmt::format("{}",
+                       std::min(std::max(value, least), draw.max.value_or(std::max(value, least))));
+  }
+  if (draw.integer) {
+    const auto [least, most] = *draw.integer;
+    const double count = static_cast<double>(most - least) + 1;
+    return fmt::format("{}", least + static_cast<std::int64_t>(stream.uniform(0) * count));
+  }
+  return chosen(draw, stream.uniform(0));
+}
+
+}  // namespace
+
+std::vector<Override> draw_overrides(const std::filesystem::path& file, std::int64_t seed) {
+  const auto config = YamlDocument::load(file).read<RandomisationConfig>();
+  std::vector<Override> overrides;
+  for (const Draw& draw : config.draws) {
+    const RandomStream stream(static_cast<std::uint64_t>(seed), "randomisation." + draw.key);
+    overrides.emplace_back(draw.key, value_of(draw, stream));
+  }
+  return overrides;
+}
+
+ScenarioConfig load_drawn_scenario(const std::filesystem::path& file,
+                                   std::vector<Override> overrides,
+                                   const std::filesystem::path& randomisation,
+                                   std::optional<std::int64_t> seed) {
+  if (!randomisation.empty()) {
+    const std::int64_t drawn_by = seed ? *seed : load_scenario(file, overrides).seed;
+    for (Override& o : draw_overrides(randomisation, drawn_by)) overrides.push_back(std::move(o));
+  }
+  ScenarioConfig scenario = load_scenario(file, overrides);
+  if (seed) scenario.seed = *seed;
+  return scenario;
+}
+
+}  // namespace vinebench

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "harness/experiment/scenario.h"
+
+namespace vinebench {
+
+/// Draws the keys of a scenario that a file of distributions names, for one seed:
+///
+///     draws:
+///       - {key: world.sun.elevation_deg, uniform: [15, 70]}
+///       - {key: world.vines.leaf_density, normal: [1, 0.2], min: 0.4, max: 1.6}
+///       - {key: sensors.camera.exposure.time, log_uniform: [0.0005, 0.008]}
+///       - {key: world.vines.bbch, choice: [75, 83, 89], weights: [1, 2, 1]}
+///       - {key: world.vines.templates, integer: [4, 8]}
+///
+/// A draw is a function of the seed and the key alone. Throws Error that names file, line and key;
+/// what a key may be is found out when the scenario is read with it.
+std::vector<Override> draw_overrides(const std::filesystem::path& file, std::int64_t seed);
+
+/// load_scenario() with the draws of its seed (the scenario's own where none is given); no
+/// randomisation where that file's name is empty.
+ScenarioConfig load_drawn_scenario(const std::filesystem::path& file,
+                                   std::vector<Override> overrides,
+                                   const std::filesystem::path& randomisation,
+                                   std::optional<std::int64_t> seed);
+
+}  // namespace vinebench

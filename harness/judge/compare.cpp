@@ -1,0 +1,242 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/judge/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "core/util/error.h"
+#include "core/util/files.h"
+
+namespace vinebench {
+namespace {
+
+namespace fs = std::filesystem;
+
+using RunName = std::pair<std::string, std::int64_t>;  ///< scenario and seed
+
+std::string text_of(const RunName& name) {
+  return fmt::format("{}, seed {}", name.first, name.second);
+}
+
+Json read_run(const fs::path& file) {
+  Json metrics = Json::parse(read_file(file), nullptr, false);
+  const auto has = [&](const char* key) { return metrics.is_object() && metrics.contains(key); };
+  if (!has("scenario") || !metrics["scenario"].is_string() || !has("seed") ||
+      !metrics["seed"].is_number_integer()) {
+    fail("{}: is no metrics.json of a run", file.string());
+  }
+  return metrics;
+}
+
+std::map<RunName, Json> find_runs(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) fail("{}: expected a folder of runs", folder.string());
+  std::map<RunName, Json> runs;
+  std::map<RunName, fs::path> places;
+  const auto options = fs::directory_options::skip_permission_denied;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, options, error)) {
+    if (entry.path().filename() != "metrics.json") continue;
+    Json metrics = read_run(entry.path());
+    const RunName name{metrics["scenario"], metrics["seed"]};
+    if (runs.contains(name)) {
+      const auto [first, second] = std::minmax(places[name], entry.path());
+      fail("{}: {} is there twice, in {} and {}", folder.string(), text_of(name), first.string(),
+           second.string());
+    }
+    places[name] = entry.path();
+    runs.emplace(name, std::move(metrics));
+  }
+  if (runs.empty()) {
+    fail("{}: has no run; expected a metrics.json in it or in its folders", folder.string());
+  }
+  return runs;
+}
+
+FigureChange change_of(const Figure& figure, const std::vector<RunPair>& pairs) {
+  FigureChange change{.figure = figure};
+  for (const RunPair& pair : pairs) {
+    const auto before = value_of(figure, pair.before);
+    const auto after = value_of(figure, pair.after);
+    if (!before || !after) continue;
+    change.before += *before;
+    change.after += *after;
+    change.differences.push_back(*after - *before);
+  }
+  change.pairs = change.differences.size();
+  if (change.pairs == 0) return change;
+  const double n = static_cast<double>(change.pairs);
+  change.before /= n;
+  change.after /= n;
+  const double mean =
+      std::accumulate(change.differences.begin(), change.differences.end(), 0.0) / n;
+  if (change.pairs > 1) {
+    double squares = 0;
+    for (const double d : change.differences) squares += (d - mean) * (d - mean);
+    change.half_width = student_t_95(change.pairs - 1) * std::sqrt(squares / (n - 1) / n);
+  }
+  const bool equal = std::ranges::all_of(change.differences, [](double d) { return d == 0; });
+  if (equal || (change.half_width && std::abs(mean) <= *change.half_width)) {
+    change.change = Change::kSame;
+  } else if (change.half_width) {
+    change.change = (mean > 0) == figure.larger_is_better ? Change::kBetter : Change::kWorse;
+  }
+  return change;
+}
+
+/// Pairs scenario by scenario; all together at the end where there are several.
+std::vector<std::pair<std::string, std::vector<RunPair>>> groups_of(const PairedRuns& runs) {
+  std::vector<std::pair<std::string, std::vector<RunPair>>> groups;
+  for (const RunPair& pair : runs.pairs) {
+    if (groups.empty() || groups.back().first != pair.scenario) {
+      groups.push_back({pair.scenario, {}});
+    }
+    groups.back().second.push_back(pair);
+  }
+  if (groups.size() > 1) groups.push_back({"all scenarios", runs.pairs});
+  return groups;
+}
+
+std::string interval_text(const FigureChange& change) {
+  if (!change.half_width) return "one pair";
+  const double mean = change.difference();
+  return fmt::format("{:+.{}f} .. {:+.{}f}", mean - *change.half_width, change.figure.decimals + 1,
+                     mean + *change.half_width, change.figure.decimals + 1);
+}
+
+std::string table_of(const std::vector<FigureChange>& changes) {
+  std::vector<std::vector<std::string>> rows{
+      {"figure", "pairs", "A", "B", "B - A", "95 % interval", "verdict"}};
+  for (const FigureChange& change : changes) {
+    rows.push_back({change.figure.title, std::to_string(change.pairs),
+                    format_value(change.figure, change.before),
+                    format_value(change.figure, change.after),
+                    fmt::format("{:+.{}f}", change.difference(), change.figure.decimals + 1),
+                    interval_text(change), name_of(change.change)});
+  }
+  return markdown_table(rows, 1);
+}
+
+}  // namespace
+
+PairedRuns pair_runs(const fs::path& before, const fs::path& after) {
+  const std::map<RunName, Json> first = find_runs(before);
+  const std::map<RunName, Json> second = find_runs(after);
+  PairedRuns runs;
+  for (const auto& [name, metrics] : first) {
+    const auto partner = second.find(name);
+    if (partner == second.end()) {
+      runs.unpaired.push_back(fmt::format("{} (only in {})", text_of(name), before.string()));
+    } else {
+      runs.pairs.push_back({name.first, name.second, metrics, partner->second});
+    }
+  }
+  for (const auto& [name, metrics] : second) {
+    if (!first.contains(name)) {
+      runs.unpaired.push_back(fmt::format("{} (only in {})", text_of(name), after.string()));
+    }
+  }
+  if (runs.pairs.empty()) {
+    fail("no scenario and seed is in both folders: {} has {}, {} has {}", before.string(),
+         text_of(first.begin()->first), after.string(), text_of(second.begin()->first));
+  }
+  return runs;
+}
+
+const char* name_of(Change change) {
+  switch (change) {
+    case Change::kBetter:
+      return "better";
+    case Change::kSame:
+      return "same";
+    case Change::kWorse:
+      return "worse";
+    case Change::kMixed:
+      return "mixed";
+    case Change::kUnknown:
+      return "unknown";
+  }
+  return "";
+}
+
+std::vector<FigureChange> compare_figures(const std::vector<RunPair>& pairs) {
+  std::vector<FigureChange> changes;
+  for (const Figure& figure : figures()) {
+    FigureChange change = change_of(figure, pairs);
+    if (change.pairs > 0) changes.push_back(std::move(change));
+  }
+  return changes;
+}
+
+Change overall(const std::vector<FigureChange>& changes) {
+  const auto any = [&](Change change) {
+    return std::ranges::any_of(changes, [&](const FigureChange& figure) {
+      return figure.figure.of_estimate && figure.change == change;
+    });
+  };
+  if (any(Change::kBetter) && any(Change::kWorse)) return Change::kMixed;
+  if (any(Change::kBetter)) return Change::kBetter;
+  if (any(Change::kWorse)) return Change::kWorse;
+  return any(Change::kUnknown) ? Change::kUnknown : Change::kSame;
+}
+
+std::string format_comparison(const PairedRuns& runs) {
+  std::string text;
+  for (const auto& [name, pairs] : groups_of(runs)) {
+    const std::vector<FigureChange> changes = compare_figures(pairs);
+    text += fmt::format("\n{}: B is {} (of its estimate; by {} {})\n\n{}", name,
+                        name_of(overall(changes)), pairs.size(),
+                        pairs.size() == 1 ? "pair, which gives no interval" : "pairs",
+                        table_of(changes));
+  }
+  for (const std::string& run : runs.unpaired) text += fmt::format("not compared: {}\n", run);
+  return text;
+}
+
+Json comparison_json(const PairedRuns& runs) {
+  Json groups = Json::array();
+  for (const auto& [name, pairs] : groups_of(runs)) {
+    const std::vector<FigureChange> changes = compare_figures(pairs);
+    Json list = Json::array();
+    for (const FigureChange& change : changes) {
+      list.push_back({{"figure", change.figure.title},
+                      {"pairs", change.pairs},
+                      {"a", change.before},
+                      {"b", change.after},
+                      {"difference", change.difference()},
+                      {"half_width_95", change.half_width ? Json(*change.half_width) : Json()},
+                      {"differences", change.differences},
+                      {"verdict", name_of(change.change)}});
+    }
+    Json seeds = Json::array();
+    for (const RunPair& pair : pairs) {
+      seeds.push_back({{"scenario", pair.scenario}, {"seed", pair.seed}});
+    }
+    groups.push_back({{"name", name},
+                      {"verdict", name_of(overall(changes))},
+                      {"pairs", seeds},
+                      {"figures", list}});
+  }
+  return {{"groups", groups}, {"not_compared", runs.unpaired}};
+}
+
+double student_t_95(std::size_t degrees_of_freedom) {
+  constexpr std::array<double, 30> kTable{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306,
+                                          2.262,  2.228, 2.201, 2.179, 2.160, 2.145, 2.131, 2.120,
+                                          2.110,  2.101, 2.093, 2.086, 2.080, 2.074, 2.069, 2.064,
+                                          2.060,  2.056, 2.052, 2.048, 2.045, 2.042};
+  if (degrees_of_freedom <= kTable.size()) return kTable[degrees_of_freedom - 1];
+  constexpr double z = 1.959964;
+  const double n = static_cast<double>(degrees_of_freedom);
+  const double z3 = z * z * z;
+  const double z5 = z3 * z * z;
+  return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n);
+}
+
+}  // namespace vinebench

@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/judge/diagnosis.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/judge/degraded_segments.h"
+#include "harness/judge/metrics.h"
+
+namespace vinebench {
+namespace {
+
+constexpr double kShown = 1.0 / 3;         // of a stretch's ticks, for a cause to be named
+constexpr double kOccluded = 0.5;          // of a picture's pixels
+constexpr double kClearView = 0.2;         // likewise, at most
+constexpr double kBlurPixels = 2;          // px
+constexpr double kNearThings = 1;          // m, seldom is anything seen nearer
+constexpr double kFewOfUsual = 0.4;        // of a camera's median of features
+constexpr double kFewFeatures = 100;       // however few are usual
+constexpr double kHealthyInliers = 0.5;    // of the run's median
+constexpr double kSpacingTolerance = 0.2;  // of the plants' spacing
+
+/// What shows in the ticks of a stretch.
+class Detective {
+ public:
+  Detective(const RunRecord& record, const RunResults& results, const ScenarioConfig& scenario)
+      : record_(record), results_(results), scenario_(scenario) {
+    for (const StereoPair& pair : record.rig.stereo_pairs) {
+      cameras_.push_back(static_cast<std::size_t>(pair.left));
+    }
+    for (std::size_t i = 0; i < record.rig.cameras.size(); ++i) {
+      if (record.rig.stereo_pairs.empty()) cameras_.push_back(i);
+      usual_features_.push_back(median_features(i));
+    }
+    reads_tags_ = std::ranges::any_of(record.ticks,
+                                      [](const Tick& tick) { return !tick.estimate.tags.empty(); });
+  }
+
+  std::vector<Explanation> causes_of(const Explanation& stretch) const {
+    std::vector<Explanation> found;
+    const auto add = [&](Cause cause, const auto& shows) {
+      const Explanation one = seen_by_cameras(stretch, cause, shows);
+      if (!one.cameras.empty()) found.push_back(one);
+    };
+    add(Cause::kDroppedPictures, [&](std::size_t i, std::size_t c) { return is_dropped(i, c); });
+    add(Cause::kOcclusion, [&](std::size_t i, std::size_t c) { return boxes(i, c) >= kOccluded; });
+    add(Cause::kMotionBlur, [&](std::size_t i, std::size_t c) { return is_blurred(i, c); });
+    add(Cause::kLittleTexture, [&](std::size_t i, std::size_t c) { return lacks_texture(i, c); });
+    add_share(found, stretch, Cause::kWrongTag, wrong_tags(stretch));
+    add_share(found, stretch, Cause::kMissedTag, missed_tags(stretch));
+    if (jumped_by_plants(stretch)) add_share(found, stretch, Cause::kRepeatedPattern, 1);
+    std::ranges::stable_sort(found, std::greater(), &Explanation::share);
+    if (found.empty()) {
+      add_share(found, stretch, is_miscalibrated() ? Cause::kCalibrationError : Cause::kUnexplained,
+                1);
+    }
+    return found;
+  }
+
+ private:
+  const Tick& tick(std::size_t i) const { return record_.ticks[i]; }
+
+  double median_features(std::size_t camera) const {
+    std::vector<double> counts;
+    for (const Tick& t : record_.ticks) {
+      if (camera < t.estimate.cameras.size()) {
+        counts.push_back(t.estimate.cameras[camera].features);
+      }
+    }
+    return counts.empty() ? 0 : percentile(counts, 0.5);
+  }
+
+  static Explanation with(const Explanation& stretch, Cause cause, double share) {
+    Explanation explanation = stretch;
+    explanation.cause = cause;
+    explanation.share = share;
+    return explanation;
+  }
+
+  static void add_share(std::vector<Explanation>& found, const Explanation& stretch, Cause cause,
+                        double share) {
+    if (share >= kShown) found.push_back(with(stretch, cause, share));
+  }
+
+  /// The cameras that it shows in for long enough, and the share of the worst of them.
+  Explanation seen_by_cameras(const Explanation& stretch, Cause cause, const auto& shows) const {
+    Explanation explanation = with(stretch, cause, 0);
+    for (const std::size_t camera : cameras_) {
+      const double share = share_of(stretch, [&](std::size_t i) { return bool(shows(i, camera)); });
+      if (share < kShown) continue;
+      explanation.cameras.push_back(camera);
+      explanation.share = std::max(explanation.share, share);
+    }
+    return explanation;
+  }
+
+  static double share_of(const Explanation& stretch, const auto& shows) {
+    int count = 0;
+    for (std::size_t i = stretch.first; i <= stretch.last; ++i) count += shows(i) ? 1 : 0;
+    return count / static_cast<double>(stretch.last - stretch.first + 1);
+  }
+
+  bool is_dropped(std::size_t i, std::size_t camera) const {
+    return camera < tick(i).delivered.size() && !tick(i).delivered[camera];
+  }
+
+  double boxes(std::size_t i, std::size_t camera) const {
+    const std::vector<double>& shares = tick(i).truth.box_share;
+    return camera < shares.size() ? shares[camera] : 0;
+  }
+
+  bool is_blurred(std::size_t i, std::size_t camera) const {
+    const std::vector<double>& times = tick(i).truth.blur_time;
+    if (camera >= times.size()) return false;
+    const auto [speed, turn] = true_motion(record_, i);
+    const double pixels_per_second =
+        record_.rig.cameras[camera].model.fx * (turn + speed / kNearThings);
+    return times[camera] * pixels_per_second >= kBlurPixels;
+  }
+
+  bool lacks_texture(std::size_t i, std::size_t camera) const {
+    const double usual = usual_features_[camera];
+    if (usual <= 0 || camera >= tick(i).estimate.cameras.size()) return false;
+    if (is_dropped(i, camera) || is_blurred(i, camera) || boxes(i, camera) > kClearView) {
+      return false;
+    }
+    const double features = tick(i).estimate.cameras[camera].features;
+    return features < std::max(kFewOfUsual * usual, kFewFeatures);
+  }
+
+  /// A loop that was closed wrongly weighs more than tags that were not believed.
+  double wrong_tags(const Explanation& stretch) const {
+    const bool closed = std::ranges::any_of(results_.loops.closures, [&](const JudgedClosure& c) {
+      return c.judged && !c.correct && c.tick >= stretch.first && c.tick <= stretch.last;
+    });
+    if (closed) return 1;
+    return share_of(stretch, [&](std::size_t i) {
+      return std::ranges::any_of(tick(i).estimate.rejected_tags, [](const RejectedTag& tag) {
+        return tag.reason != TagRejection::kAmbiguous;
+      });
+    });
+  }
+
+  double missed_tags(const Explanation& stretch) const {
+    if (!reads_tags_) return 0;
+    return share_of(stretch, [&](std::size_t i) {
+      return std::ranges::any_of(tick(i).truth.visible_tags, [&](int visible) {
+        const WorldConfig::Tag& tag = record_.tags[static_cast<std::size_t>(visible)];
+        return std::ranges::none_of(tick(i).estimate.tags, [&](const TagSighting& sighting) {
+          return sighting.id == tag.id && sighting.family == tag.family;
+        });
+      });
+    });
+  }
+
+  /// Along a row, by once or several times the plants' spacing, while tracking looked well.
+  bool jumped_by_plants(const Explanation& stretch) const {
+    const WorldConfig& world = scenario_.simulation.world;
+    const auto error = error_growth(record_, stretch.first, stretch.last);
+    if (world.rows.empty() || !error || stretch.untracked > 0 ||
+        stretch.inliers < kHealthyInliers * stretch.usual_inliers) {
+      return false;
+    }
+    const double spacing = world.vines.spacing;
+    return std::ranges::any_of(world.rows, [&](const WorldConfig::Row& row) {
+      const Eigen::Vector2d along = (row.end - row.start).normalized();
+      const double ahead = std::abs(along.dot(error->head<2>()));
+      const double aside =
+          (*error - (Eigen::Vector3d() << along, 0).finished() * along.dot(error->head<2>()))
+              .norm();
+      const double plants = std::round(ahead / spacing);
+      return plants >= 1 && std::abs(ahead - plants * spacing) <= kSpacingTolerance * spacing &&
+             aside <= kSpacingTolerance * spacing;
+    });
+  }
+
+  bool is_miscalibrated() const {
+    const CalibrationErrorConfig& error = scenario_.simulation.sensors.calibration;
+    return error.position > 0 || error.rotation_deg > 0 || error.focal_px > 0 ||
+           error.principal_point_px > 0 || !error.cameras.empty();
+  }
+
+  const RunRecord& record_;
+  const RunResults& results_;
+  const ScenarioConfig& scenario_;
+  std::vector<std::size_t> cameras_;  ///< left eyes: a right eye's features are found from theirs
+  std::vector<double> usual_features_;
+  bool reads_tags_ = false;
+};
+
+std::string cameras_text(const RunRecord& record, const Explanation& explanation) {
+  std::vector<std::string> names;
+  for (const std::size_t camera : explanation.cameras) {
+    names.push_back(record.rig.cameras[camera].name);
+  }
+  return names.empty() ? "" : fmt::format(" in {}", fmt::join(names, ", "));
+}
+
+std::string line_of(const RunRecord& record, const Explanation& explanation) {
+  std::string text = fmt::format(
+      "  {:.2f} to {:.2f} s: {}{} ({:.0f} % of the time); error grew by {:.1f} mm",
+      to_seconds(record.ticks[explanation.first].stamp),
+      to_seconds(record.ticks[explanation.last].stamp), name_of(explanation.cause),
+      cameras_text(record, explanation), 100 * explanation.share, 1e3 * explanation.error_growth);
+  if (explanation.usual_inliers > 0) {
+    text += fmt::format(", {:.0f} inliers of usually {:.0f}", explanation.inliers,
+                        explanation.usual_inliers);
+  }
+  if (explanation.untracked > 0) text += fmt::format(", {} frames lost", explanation.untracked);
+  return text + "\n";
+}
+
+}  // namespace
+
+const char* name_of(Cause cause) {
+  switch (cause) {
+    case Cause::kDroppedPictures:
+      return "dropped pictures";
+    case Cause::kOcclusion:
+      return "occlusion";
+    case Cause::kMotionBlur:
+      return "motion blur";
+    case Cause::kLittleTexture:
+      return "little texture";
+    case Cause::kWrongTag:
+      return "wrong tag";
+    case Cause::kMissedTag:
+      return "missed tag";
+    case Cause::kRepeatedPattern:
+      return "repeated pattern";
+    case Cause::kCalibrationError:
+      return "calibration error";
+    case Cause::kUnexplained:
+      return "unexplained";
+  }
+  return "";
+}
+
+std::vector<Explanation> explain(const RunRecord& record, const RunResults& results,
+                                 const ScenarioConfig& scenario) {
+  const Detective detective(record, results, scenario);
+  std::vector<Explanation> explanations;
+  for (const Explanation& stretch : bad_stretches(record, results)) {
+    const std::vector<Explanation> causes = detective.causes_of(stretch);
+    explanations.insert(explanations.end(), causes.begin(), causes.end());
+  }
+  return explanations;
+}
+
+std::string format_explanations(const RunRecord& record,
+                                const std::vector<Explanation>& explanations) {
+  if (explanations.empty()) {
+    return "the estimate suffered nowhere: no weak tracking, no fast growth of the error\n";
+  }
+  std::string text = "where the estimate suffered, and from what:\n";
+  for (const Explanation& explanation : explanations) text += line_of(record, explanation);
+  return text;
+}
+
+}  // namespace vinebench

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/judge/metric_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace vinebench {
+namespace {
+
+/// The dash counts as one place, whatever its bytes.
+constexpr const char* kNothing = "–";
+
+std::size_t places(const std::string& cell) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(cell, [](unsigned char byte) { return (byte & 0xC0) != 0x80; }));
+}
+
+}  // namespace
+
+const std::vector<Figure>& figures() {
+  static const std::vector<Figure> list{
+      {.key = "/ate_origin_rmse_m", .title = "ATE origin, mm", .scale = 1e3, .decimals = 2},
+      {.key = "/ate_rmse_m", .title = "ATE, mm", .scale = 1e3, .decimals = 2},
+      {.key = "/rpe_trans_percent", .title = "RPE, %", .decimals = 3},
+      {.key = "/coverage",
+       .title = "coverage, %",
+       .scale = 100,
+       .decimals = 2,
+       .larger_is_better = true},
+      {.key = "/losses", .title = "losses"},
+      {.key = "/loop_closures/correct", .title = "loops right", .larger_is_better = true},
+      {.key = "/loop_closures/wrong", .title = "loops wrong"},
+      {.key = "/loop_closures/missed", .title = "loops missed"},
+      {.key = "/real_time_factor",
+       .title = "real time",
+       .decimals = 3,
+       .larger_is_better = true,
+       .of_estimate = false},
+      {.key = "/cpu_seconds", .title = "CPU, s", .decimals = 1, .of_estimate = false},
+  };
+  return list;
+}
+
+std::optional<double> value_of(const Figure& figure, const Json& metrics) {
+  const Json::json_pointer place(figure.key);
+  if (!metrics.contains(place) || !metrics.at(place).is_number()) return std::nullopt;
+  return figure.scale * metrics.at(place).get<double>();
+}
+
+std::string format_value(const Figure& figure, const std::optional<double>& value) {
+  return value ? fmt::format("{:.{}f}", *value, figure.decimals) : kNothing;
+}
+
+std::string markdown_table(const std::vector<std::vector<std::string>>& rows, std::size_t left) {
+  std::vector<std::size_t> widths(rows.front().size(), 3);
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], places(row[i]));
+  }
+  std::string text;
+  for (std::size_t line = 0; line < rows.size(); ++line) {
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+      text += i < left ? fmt::format("| {:<{}} ", rows[line][i], widths[i])
+                       : fmt::format("| {:>{}} ", rows[line][i], widths[i]);
+    }
+    text += "|\n";
+    if (line > 0) continue;
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+      text += fmt::format("|{:-<{}}", "", widths[i] + 1) + (i < left ? "-" : ":");
+    }
+    text += "|\n";
+  }
+  return text;
+}
+
+}  // namespace vinebench

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/judge/results.h"
+
+namespace vinebench {
+namespace {
+
+void count_losses(const RunRecord& record, RunResults& results) {
+  int tracked_frames = 0;
+  bool had_pose = false;
+  for (const Tick& tick : record.ticks) {
+    const bool tracked = is_tracked(tick.estimate);
+    if (tracked) ++tracked_frames;
+    if (had_pose && !tracked) ++results.losses;
+    if (!tracked && tracked_frames > 0) ++results.lost_frames;
+    had_pose = tracked;
+  }
+  if (!record.ticks.empty()) {
+    results.coverage = tracked_frames / static_cast<double>(record.ticks.size());
+  }
+}
+
+std::optional<double> end_error(const RunRecord& record, const RouteConfig& route) {
+  if (record.ticks.empty() || !record.ticks.back().truth.known) return std::nullopt;
+  if (route.waypoints.empty()) return std::nullopt;
+  const Eigen::Vector3d& end = record.ticks.back().truth.T_world_body.translation;
+  return (end.head<2>() - route.waypoints.back().position).norm();
+}
+
+}  // namespace
+
+RunResults measure(const RunRecord& record, const ScenarioConfig& scenario) {
+  RunResults results;
+  count_losses(record, results);
+  const Trajectory truth = true_trajectory(record);
+  results.corrected = evaluate(truth, record.summary.trajectory);
+  results.live = evaluate(truth, live_trajectory(record));
+  results.consistency = check_consistency(record);
+  results.end_error = end_error(record, scenario.simulation.route);
+  results.loops = judge_loop_closures(record);
+  if (const auto& blind = scenario.expectations.blind) {
+    results.blind =
+        longest_blind_stretch(record, find_cameras(record.rig, blind->cameras), blind->box_share);
+  }
+  return results;
+}
+
+}  // namespace vinebench

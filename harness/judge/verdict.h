@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/judge/results.h"
+
+namespace vinebench {
+
+/// One expectation against what was measured.
+struct Check {
+  std::string what;
+  std::string measured;
+  std::string expected;
+  bool ok = false;
+};
+
+std::vector<Check> check_expectations(const Expectations& expectations, const RunResults& results);
+
+bool all_hold(const std::vector<Check>& checks);
+
+/// Those that do not hold.
+std::vector<Check> failed_of(const std::vector<Check>& checks);
+
+/// A table for people, a line a check; empty when there is none.
+std::string format_checks(const std::vector<Check>& checks);
+
+}  // namespace vinebench

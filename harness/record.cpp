@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/record.h"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "core/util/error.h"
+#include "core/util/files.h"
+#include "harness/datasets/coco/coco_file.h"
+#include "harness/datasets/dataset_writer.h"
+#include "harness/datasets/format/dataset_folder.h"
+#include "harness/experiment/randomisation.h"
+#include "harness/run/progress.h"
+#include "harness/run_scenario.h"
+
+namespace vinebench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMegabyte = 1e6;
+
+std::string name_of_sequence(std::int64_t seed) {
+  return fmt::format("seed_{:06}", seed);
+}
+
+ScenarioConfig scenario_of(const RecordRequest& request, std::optional<std::int64_t> seed) {
+  return load_drawn_scenario(request.scenario, request.overrides, request.randomisation, seed);
+}
+
+/// Whether the folder has this very sequence already. Removes what there is of an interrupted one.
+bool has_sequence(const fs::path& folder, const std::string& settings) {
+  if (!has_card(folder)) return false;
+  const DatasetCard card = read_card(folder);
+  if (card.settings_xxh128 != settings) {
+    fail("recording {}: was made with other settings; expected the same to resume",
+         folder.string());
+  }
+  if (card.complete) return true;
+  clear_folder(folder);
+  return false;
+}
+
+/// One sequence; adds to the outcome.
+void record_sequence(const ScenarioConfig& scenario, const fs::path& folder,
+                     const RecordOptions& options, const RecordWatch& watch,
+                     RecordOutcome& outcome) {
+  WorkerPool pool(options.threads);
+  const Rig rig = load_rig(scenario.simulation.rover.rig);
+  const auto source =
+      make_simulation(scenario.simulation, static_cast<std::uint64_t>(scenario.seed),
+                      default_cache(), pool, plan_of(options, rig));
+  if (source->size() == 0) {
+    fail("--frames: the run has no frame from {} on", options.first);
+  }
+  DatasetWriter writer(folder, scenario, *source, options, source->size());
+  std::optional<Progress> progress;
+  if (watch.progress != nullptr) {
+    progress.emplace(
+        *watch.progress, watch.terminal, fmt::format("{} seed {}", scenario.name, scenario.seed),
+        source->size(),
+        [&] { return fmt::format("{:.1f} MB", static_cast<double>(writer.bytes()) / kMegabyte); });
+  }
+  while (!watch.stopped || !watch.stopped()) {
+    const std::optional<Sample> sample = source->next();
+    if (!sample) break;
+    writer.on_tick(*sample, {});
+    if (progress) progress->on_tick(*sample, {});
+  }
+  writer.on_finish({});
+  if (progress) progress->on_finish({});
+  outcome.frames += writer.frames();
+  outcome.bytes += writer.bytes();
+  outcome.interrupted = writer.frames() < source->size();
+  if (!outcome.interrupted) ++outcome.sequences;
+}
+
+/// The card of the folder that holds the sequences, and COCO's lists of them all.
+void write_whole(const RecordRequest& request, const std::vector<std::string>& sequences,
+                 const DatasetCard& of_first, bool complete) {
+  if (complete && request.options.has(RecordFormat::kCoco)) {
+    std::vector<std::string> parts;
+    for (const std::string& sequence : sequences) parts.push_back(sequence + "/coco");
+    merge_coco(request.out, parts, request.options.categories);
+  }
+  DatasetCard card = of_first;
+  card.sequences = sequences;
+  card.complete = complete;
+  card.frames = card.planned_frames = 0;
+  std::vector<std::string> listed;
+  for (const std::string& sequence : sequences) {
+    const DatasetCard part = read_card(request.out / sequence);
+    card.frames += part.frames;
+    card.planned_frames += part.planned_frames;
+  }
+  FileManifest manifest(request.out);
+  for (const char* file : {"instances.json", "panoptic.json"}) {
+    std::error_code ignored;
+    if (fs::exists(request.out / file, ignored)) listed.emplace_back(file);
+  }
+  for (const std::string& sequence : sequences) {
+    listed.push_back(sequence + "/" + DatasetCard::kName);
+  }
+  std::vector<ListedFile> files;
+  for (const std::string& name : listed) {
+    files.push_back({name, xxh128(read_file(request.out / name))});
+  }
+  manifest.add(files);
+  card.files = manifest.files();
+  card.files_xxh128 = xxh128(read_file(request.out / FileManifest::kName));
+  write_card(request.out, card);
+}
+
+RecordOutcome record_one(const RecordRequest& request, const RecordWatch& watch) {
+  RecordOutcome outcome;
+  const ScenarioConfig scenario = scenario_of(request, std::nullopt);
+  if (request.resume && has_sequence(request.out, settings_hash(scenario, request.options))) {
+    outcome.sequences = outcome.skipped = 1;
+    return outcome;
+  }
+  record_sequence(scenario, request.out, request.options, watch, outcome);
+  return outcome;
+}
+
+}  // namespace
+
+RecordOutcome record_dataset(const RecordRequest& request, const RecordWatch& watch) {
+  if (!request.seeds) return record_one(request, watch);
+  const auto [first, last] = *request.seeds;
+  if (!request.resume) claim_folder(request.out);
+  RecordOutcome outcome;
+  std::vector<std::string> sequences;
+  for (std::int64_t seed = first; seed <= last && !outcome.interrupted; ++seed) {
+    const ScenarioConfig scenario = scenario_of(request, seed);
+    const fs::path folder = request.out / name_of_sequence(seed);
+    RecordOptions options = request.options;
+    options.sequence = seed - first;
+    sequences.push_back(name_of_sequence(seed));
+    if (request.resume && has_sequence(folder, settings_hash(scenario, options))) {
+      ++outcome.sequences;
+      ++outcome.skipped;
+      continue;
+    }
+    record_sequence(scenario, folder, options, watch, outcome);
+  }
+  const bool complete = outcome.sequences == last - first + 1;
+  write_whole(request, sequences, read_card(request.out / sequences.front()), complete);
+  return outcome;
+}
+
+}  // namespace vinebench

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/replay.h"
+
+#include "core/config/yaml.h"
+#include "core/config/yaml_writer.h"
+#include "core/util/error.h"
+#include "core/util/files.h"
+#include "harness/report/run_folder.h"
+#include "harness/run_scenario.h"
+
+namespace vinebench {
+namespace {
+
+constexpr std::string_view kSection = "slam.";
+
+/// A scenario's keys begin with "slam."; those of its section alone do not.
+std::string key_of_section(const std::string& key) {
+  if (!key.starts_with(kSection) || key.size() == kSection.size()) {
+    fail("--set {}: expected a key of the SLAM core, such as slam.cameras", key);
+  }
+  return key.substr(kSection.size());
+}
+
+/// What the judge and the plot ask of an experiment; a recording has no world and expects nothing.
+ScenarioConfig as_experiment(const Recording& recording, const SlamConfig& slam) {
+  ScenarioConfig experiment;
+  experiment.name = recording.name;
+  experiment.seed = 0;
+  experiment.slam = {slam, {}, {}};
+  return experiment;
+}
+
+std::string millimetres(const Json& metres) {
+  return metres.is_null() ? "unknown" : fmt::format("{:.1f} mm", 1e3 * metres.get<double>());
+}
+
+}  // namespace
+
+SlamConfig replay_settings(const Recording& recording, const std::filesystem::path& file,
+                           const std::vector<Override>& overrides) {
+  const std::filesystem::path& settings = file.empty() ? recording.settings : file;
+  YamlDocument document = settings.empty() ? YamlDocument() : YamlDocument::load(settings);
+  for (const auto& [key, value] : overrides) document.set(key_of_section(key), value);
+  return document.read<SlamConfig>();
+}
+
+void prepare_replay_folder(const std::filesystem::path& folder, const SlamConfig& slam) {
+  prepare_run_folder(folder, "slam.resolved.yaml", format_yaml(slam));
+}
+
+RunOutcome run_replay(Recording recording, const SlamConfig& slam, int threads,
+                      const RunOptions& options) {
+  WorkerPool pool(threads);
+  const ScenarioConfig experiment = as_experiment(recording, slam);
+  const auto system = make_slam(slam, recording.rig, recording.tags, pool);
+  const auto source = play(std::move(recording), pool);
+  return run_mapping_system(experiment, *source, *system, options);
+}
+
+std::string format_replay(const Json& metrics) {
+  const Json& rpe = metrics["rpe_trans_percent"];
+  std::string text = fmt::format(
+      "  frames tracked            {:.1f} % of {}, lost {} times\n"
+      "  ATE, SE(3)-aligned        {}\n"
+      "  ATE, first pose aligned   {}\n"
+      "  RPE over 1 m              {}\n",
+      100 * metrics["coverage"].get<double>(), metrics["frames"].get<std::int64_t>(),
+      metrics["losses"].get<int>(), millimetres(metrics["ate_rmse_m"]),
+      millimetres(metrics["ate_origin_rmse_m"]),
+      rpe.is_null() ? "unknown" : fmt::format("{:.2f} %", rpe.get<double>()));
+  if (metrics.contains("input_faults")) {
+    for (const auto& [kind, count] : metrics["input_faults"].items()) {
+      text += fmt::format("  fault in the data         {} ({} times)\n", kind, count.get<int>());
+    }
+  }
+  return text;
+}
+
+}  // namespace vinebench

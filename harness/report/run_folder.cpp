@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/report/run_folder.h"
+
+#include <regex>
+#include <system_error>
+
+#include "core/config/yaml_writer.h"
+#include "core/util/error.h"
+#include "core/util/files.h"
+#include "harness/report/events.h"
+#include "harness/report/plot.h"
+
+namespace vinebench {
+namespace {
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) fail("output folder {}: cannot be made: {}", folder.string(), error.message());
+}
+
+void remove_old_pictures(const std::filesystem::path& folder) {
+  static const std::regex ours("[0-9]{6,}_.*\\.png");
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    if (std::regex_match(entry.path().filename().string(), ours)) {
+      std::filesystem::remove(entry.path(), ignored);
+    }
+  }
+}
+
+}  // namespace
+
+void prepare_run_folder(const std::filesystem::path& folder, const ScenarioConfig& scenario) {
+  prepare_run_folder(folder, "scenario.resolved.yaml", format_yaml(scenario));
+}
+
+void prepare_run_folder(const std::filesystem::path& folder, const std::string& name,
+                        const std::string& settings) {
+  make_folder(folder / "frames");
+  try {
+    write_file_atomically(folder / name, settings);
+  } catch (const Error& error) {
+    fail("output folder {}", error.what());
+  }
+  std::error_code ignored;
+  for (const char* stale : {"metrics.json", kInputsFile}) {
+    std::filesystem::remove(folder / stale, ignored);
+  }
+  remove_old_pictures(folder / "frames");
+}
+
+void write_run_files(const std::filesystem::path& folder, const ScenarioConfig& scenario,
+                     const RunRecord& record, const RunResults& results,
+                     const std::vector<Explanation>& explanations) {
+  const auto& blind = scenario.expectations.blind;
+  const double box_share = blind ? blind->box_share : Expectations::Blind{}.box_share;
+  write_tum(true_trajectory(record), folder / "groundtruth.tum");
+  write_tum(live_trajectory(record), folder / "estimate_live.tum");
+  write_tum(record.summary.trajectory, folder / "estimate.tum");
+  write_tum(record.summary.keyframes, folder / "keyframes.tum");
+  write_file_atomically(folder / "events.jsonl",
+                        format_events(record, results, explanations, box_share));
+  write_file_atomically(folder / "summary.txt", format_explanations(record, explanations));
+  write_file_atomically(folder / "plot.svg", plot_svg(scenario, record, results));
+}
+
+void write_metrics(const std::filesystem::path& folder, const Json& metrics) {
+  write_file_atomically(folder / "metrics.json", metrics.dump(2) + "\n");
+}
+
+}  // namespace vinebench

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "harness/judge/diagnosis.h"
+#include "harness/judge/metrics.h"
+
+namespace vinebench {
+
+/// In the folder of a set's run: the fingerprint of its inputs (run_inputs.h).
+inline constexpr const char* kInputsFile = "inputs.txt";
+
+/// Makes the folder of a run, writes its settings into it under the given name and takes away what
+/// an earlier run would leave beside the new one (metrics.json and pictures of frames). Throws
+/// Error when it cannot be written to, before any work is done.
+void prepare_run_folder(const std::filesystem::path& folder, const std::string& name,
+                        const std::string& settings);
+
+/// The same with scenario.resolved.yaml.
+void prepare_run_folder(const std::filesystem::path& folder, const ScenarioConfig& scenario);
+
+/// Trajectories, events, plot and summary: all but the metrics, which only a whole run has.
+void write_run_files(const std::filesystem::path& folder, const ScenarioConfig& scenario,
+                     const RunRecord& record, const RunResults& results,
+                     const std::vector<Explanation>& explanations);
+
+void write_metrics(const std::filesystem::path& folder, const Json& metrics);
+
+}  // namespace vinebench

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/run.h"
+
+#include "harness/report/run_folder.h"
+#include "harness/run/frame_images.h"
+#include "harness/run/lockstep.h"
+#include "harness/run/progress.h"
+#include "harness/run/run_hash.h"
+#include "vinebench/version.h"
+
+namespace vinebench {
+namespace {
+
+/// The sinks of one run.
+struct Sinks {
+  Sinks(const ScenarioConfig& scenario, const FrameSource& source, const RunOptions& options)
+      : recorder(source.rig(), scenario.simulation.world.tags) {
+    if (!options.folder.empty()) {
+      pictures.emplace(options.folder / "frames", source.rig(), source.size(), options.pictures);
+    }
+    if (options.progress != nullptr) {
+      progress.emplace(*options.progress, options.terminal, options.title, source.size());
+    }
+  }
+  std::vector<Sink*> list() {
+    std::vector<Sink*> sinks{&recorder, &hash};
+    if (pictures) sinks.push_back(&*pictures);
+    if (progress) sinks.push_back(&*progress);
+    return sinks;
+  }
+
+  Recorder recorder;
+  RunHash hash;
+  std::optional<FramePictures> pictures;
+  std::optional<Progress> progress;
+};
+
+/// Keeps what is a function of the inputs first, then what the clock and the machine said.
+Json complete_metrics(const Json& results, const FrameSource& source, const SlamSystem& slam,
+                      double wall_seconds, const std::string& hash) {
+  StageTimes times = source.times();
+  times.merge(slam.times());
+  const double simulated = results["frames"].get<double>() / source.rig().rate_hz;
+  Json metrics{{"scenario", results["scenario"]}, {"seed", results["seed"]}, {"version", kVersion}};
+  metrics.update(results);
+  metrics["real_time_factor"] = simulated / wall_seconds;
+  metrics["wall_seconds"] = wall_seconds;
+  metrics["cpu_seconds"] = cpu_seconds();
+  metrics["timing_ms"] = timing_metrics(times);
+  metrics["peak_rss_mib"] = peak_rss_mib();
+  metrics["hash"] = hash;
+  return metrics;
+}
+
+}  // namespace
+
+RunOutcome run_lockstep_and_judge(const ScenarioConfig& scenario, FrameSource& source,
+                                  SlamSystem& slam, const RunOptions& options) {
+  if (const auto& blind = scenario.expectations.blind) find_cameras(source.rig(), blind->cameras);
+  Sinks sinks(scenario, source, options);
+  std::vector<Sink*> all = sinks.list();
+  all.insert(all.end(), options.sinks.begin(), options.sinks.end());
+  run_lockstep(source, slam, all, options.stopped);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - options.started;
+
+  const RunRecord& record = sinks.recorder.record();
+  const RunResults results = measure(record, scenario);
+  const std::vector<Explanation> explanations = explain(record, results, scenario);
+  if (!options.folder.empty()) {
+    write_run_files(options.folder, scenario, record, results, explanations);
+  }
+  RunOutcome outcome;
+  outcome.summary = format_explanations(record, explanations);
+  outcome.frames = static_cast<std::int64_t>(record.ticks.size());
+  // A system that works at the end alone may be stopped there.
+  const bool whole = outcome.frames == source.size() && !record.summary.trajectory.empty();
+  outcome.interrupted = options.stopped && options.stopped() && !whole;
+  if (outcome.interrupted) return outcome;
+
+  const Json figures = result_metrics(scenario, record, results);
+  sinks.hash.add(figures.dump());
+  outcome.hash = sinks.hash.digits();
+  outcome.checks = check_expectations(scenario.expectations, results);
+  outcome.metrics = complete_metrics(figures, source, slam, wall.count(), outcome.hash);
+  outcome.metrics["expectations"] = checks_json(outcome.checks);
+  if (!options.folder.empty()) write_metrics(options.folder, outcome.metrics);
+  return outcome;
+}
+
+}  // namespace vinebench

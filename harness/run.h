@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <ostream>
+#include <vector>
+
+#include "harness/judge/metrics.h"
+#include "harness/judge/verdict.h"
+
+namespace vinebench {
+
+/// Maps that a run begins with and leaves. None where empty.
+struct MapFiles {
+  std::filesystem::path load;
+  std::filesystem::path save;
+  std::filesystem::path cloud;  ///< PLY
+};
+
+struct RunOptions {
+  std::filesystem::path folder;  ///< where results go; nothing is written when empty
+  MapFiles maps;
+  int pictures = 12;                 ///< frames whose pictures are kept as PNG
+  std::ostream* progress = nullptr;  ///< told how far the run is
+  bool terminal = false;             ///< `progress` is a terminal
+  std::string title = "run";         ///< of the progress line
+  std::function<bool()> stopped;     ///< asked before each frame
+  std::vector<Sink*> sinks;          ///< told of each tick after the run's own
+  std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
+};
+
+struct RunOutcome {
+  bool interrupted = false;  ///< `stopped` said so; there is no metrics.json and no verdict
+  std::int64_t frames = 0;
+  std::vector<Check> checks;
+  Json metrics;
+  std::string hash;
+  std::string summary;  ///< for people: where the estimate suffered, and from what
+};
+
+/// Runs a SLAM system on a source in lockstep, judges it and writes the run's files. The folder
+/// must have been prepared.
+RunOutcome run_lockstep_and_judge(const ScenarioConfig& scenario, FrameSource& source,
+                                  SlamSystem& slam, const RunOptions& options);
+
+}  // namespace vinebench

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <set>
+
+#include "harness/run/sink.h"
+
+namespace vinebench {
+
+/// Writes all cameras' pictures of a few frames, evenly spread over the run, as
+/// frames/000123_front_left.png.
+class FramePictures : public Sink {
+ public:
+  /// `count` frames of a run of `total`; the first and the last are among them.
+  FramePictures(std::filesystem::path folder, const Rig& rig, std::int64_t total, int count);
+  void on_tick(const Sample& sample, const Estimate& estimate) override;
+
+ private:
+  std::filesystem::path folder_;
+  std::vector<std::string> cameras_;
+  std::set<std::int64_t> chosen_;
+};
+
+}  // namespace vinebench

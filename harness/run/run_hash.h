@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "harness/run/sink.h"
+
+namespace vinebench {
+
+/// Fingerprint of a run: XXH3, 128 bits, over every image, sensor sample, true pose, estimate and
+/// result, in order. No wall-clock figure enters it, so that two runs of the same scenario with the
+/// same build have the same one.
+class RunHash : public Sink {
+ public:
+  RunHash();
+  ~RunHash() override;
+
+  void on_tick(const Sample& sample, const Estimate& estimate) override;
+  void on_finish(const SlamSummary& summary) override;
+
+  /// Results that were computed from the rest, as text.
+  void add(std::string_view text);
+
+  /// 32 hexadecimal digits of what was added so far.
+  std::string digits() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace vinebench

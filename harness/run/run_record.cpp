@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/run/run_record.h"
+
+#include <algorithm>
+
+namespace vinebench {
+
+Trajectory true_trajectory(const RunRecord& record) {
+  Trajectory trajectory;
+  for (const Tick& tick : record.ticks) {
+    if (tick.truth.known) trajectory.push_back({tick.stamp, tick.truth.T_world_body});
+  }
+  return trajectory;
+}
+
+Trajectory live_trajectory(const RunRecord& record) {
+  Trajectory trajectory;
+  for (const Tick& tick : record.ticks) {
+    if (is_tracked(tick.estimate)) trajectory.push_back({tick.stamp, *tick.estimate.T_map_body});
+  }
+  return trajectory;
+}
+
+std::vector<double> true_path_lengths(const RunRecord& record) {
+  std::vector<double> lengths;
+  double length = 0;
+  const Truth* last = nullptr;
+  for (const Tick& tick : record.ticks) {
+    if (tick.truth.known) {
+      if (last != nullptr) {
+        length += (tick.truth.T_world_body.translation - last->T_world_body.translation).norm();
+      }
+      last = &tick.truth;
+    }
+    lengths.push_back(length);
+  }
+  return lengths;
+}
+
+namespace {
+
+void take_poses(const Trajectory& trajectory, std::vector<Tick>& ticks) {
+  bool had_pose = false;
+  for (Tick& tick : ticks) {
+    const auto pose = std::ranges::lower_bound(trajectory, tick.stamp, {}, &StampedPose::stamp);
+    if (pose != trajectory.end() && pose->stamp == tick.stamp) {
+      tick.estimate.T_map_body = pose->pose;
+      tick.estimate.status = TrackingStatus::kTracking;
+      had_pose = true;
+    } else if (had_pose) {
+      tick.estimate.status = TrackingStatus::kLost;
+    }
+  }
+}
+
+}  // namespace
+
+Recorder::Recorder(Rig rig, std::vector<WorldConfig::Tag> tags) {
+  record_.rig = std::move(rig);
+  record_.tags = std::move(tags);
+}
+
+void Recorder::on_tick(const Sample& sample, const Estimate& estimate) {
+  record_.ticks.push_back(
+      {sample.frame.index, sample.frame.stamp, sample.truth, estimate, sample.events});
+  for (const cv::Mat& image : sample.frame.images) {
+    record_.ticks.back().delivered.push_back(!image.empty());
+  }
+}
+
+void Recorder::on_finish(const SlamSummary& summary) {
+  record_.summary = summary;
+  const bool any = std::ranges::any_of(
+      record_.ticks, [](const Tick& tick) { return tick.estimate.T_map_body.has_value(); });
+  if (!any) take_poses(summary.trajectory, record_.ticks);
+}
+
+}  // namespace vinebench

@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/run_scenario.h"
+
+#include <cstdlib>
+
+#include "core/util/error.h"
+#include "harness/datasets/dataset_writer.h"
+#include "harness/datasets/format/dataset_folder.h"
+#include "harness/run/prefetch.h"
+#include "harness/systems/external_slam.h"
+#include "harness/systems/plugin_slam.h"
+
+namespace vinebench {
+namespace {
+
+const char* non_empty(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && *value != '\0' ? value : nullptr;
+}
+
+/// Better before a long run than after it.
+void expect_folder(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+    fail("{}: there is no folder {}", file.string(), folder.string());
+  }
+}
+
+void expect_no_maps(const MapFiles& maps) {
+  if (!maps.load.empty() || !maps.save.empty() || !maps.cloud.empty()) {
+    fail("--load-map, --save-map and --save-cloud are for the built-in SLAM core alone");
+  }
+}
+
+/// Where a run without a folder of its own works meanwhile.
+class ScratchFolder {
+ public:
+  explicit ScratchFolder(const std::filesystem::path& folder) : folder_(folder) {
+    if (!folder.empty()) return;
+    std::string name = (std::filesystem::temp_directory_path() / "vinebench-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) fail("{}: cannot be made", name);
+    folder_ = own_ = name;
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder() {
+    std::error_code ignored;
+    if (!own_.empty()) std::filesystem::remove_all(own_, ignored);
+  }
+  const std::filesystem::path& path() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+  std::filesystem::path own_;
+};
+
+/// With a SLAM system that is not ours.
+RunOutcome run_other_system(const ScenarioConfig& scenario, FrameSource& source, int threads,
+                            const RunOptions& options) {
+  const SlamChoice& choice = scenario.slam;
+  if (choice.plugin) {
+    const auto slam =
+        load_plugin_slam(*choice.plugin, source.rig(), registered_tags(scenario.simulation.world),
+                         choice.dead_reckoning.wheels, threads);
+    return run_lockstep_and_judge(scenario, source, *slam, options);
+  }
+  const ScratchFolder folder(options.folder);
+  const auto slam =
+      make_external_slam(*choice.external, notes_of(scenario), folder.path(), options.stopped);
+  return run_lockstep_and_judge(scenario, source, *slam, options);
+}
+
+}  // namespace
+
+std::filesystem::path default_cache() {
+  if (const char* folder = non_empty("VINEBENCH_CACHE")) return folder;
+  if (const char* folder = non_empty("XDG_CACHE_HOME")) {
+    return std::filesystem::path(folder) / "vinebench";
+  }
+  if (const char* home = non_empty("HOME")) {
+    return std::filesystem::path(home) / ".cache" / "vinebench";
+  }
+  return std::filesystem::temp_directory_path() / "vinebench-cache";
+}
+
+RunOutcome run_mapping_system(const ScenarioConfig& scenario, FrameSource& source,
+                              MappingSystem& slam, const RunOptions& options) {
+  expect_folder(options.maps.save);
+  expect_folder(options.maps.cloud);
+  if (!options.maps.load.empty()) slam.load_map(options.maps.load);
+  const RunOutcome outcome = run_lockstep_and_judge(scenario, source, slam, options);
+  if (!options.maps.save.empty()) slam.save_map(options.maps.save);
+  if (!options.maps.cloud.empty()) slam.save_cloud(options.maps.cloud);
+  return outcome;
+}
+
+RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options,
+                        const std::optional<RunRecording>& recording) {
+  expect_folder(options.maps.save);  // before the vineyard is grown
+  expect_folder(options.maps.cloud);
+  const bool ours = !scenario.slam.external && !scenario.slam.plugin;
+  if (!ours) expect_no_maps(options.maps);
+  if (recording) claim_folder(recording->folder);
+  // A pool each, for drawing and estimating go on at the same time.
+  WorkerPool drawing(threads);
+  WorkerPool estimating(threads);
+  const CapturePlan plan =
+      recording ? plan_of(recording->options, load_rig(scenario.simulation.rover.rig))
+                : CapturePlan();
+  const auto simulation =
+      make_simulation(scenario.simulation, static_cast<std::uint64_t>(scenario.seed),
+                      default_cache(), drawing, plan);
+  std::optional<LookAhead> ahead;
+  if (threads > 1 && scenario.simulation.route.steering == Steering::kTruth) {
+    ahead.emplace(*simulation);
+  }
+  FrameSource& source = ahead ? static_cast<FrameSource&>(*ahead) : *simulation;
+  RunOptions with_writer = options;
+  std::optional<DatasetWriter> writer;
+  if (recording) {
+    writer.emplace(recording->folder, scenario, *simulation, recording->options, source.size());
+    with_writer.sinks.push_back(&*writer);
+  }
+  if (!ours) return run_other_system(scenario, source, threads, with_writer);
+  const auto slam = make_slam(scenario.slam, source.rig(),
+                              registered_tags(scenario.simulation.world), estimating);
+  return run_mapping_system(scenario, source, *slam, with_writer);
+}
+
+}  // namespace vinebench

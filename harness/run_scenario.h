@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "harness/datasets/format/record_options.h"
+#include "harness/run.h"
+
+namespace vinebench {
+
+/// Where grown plants are kept between runs: $VINEBENCH_CACHE, else $XDG_CACHE_HOME/vinebench, else
+/// ~/.cache/vinebench, else a folder for temporary files.
+std::filesystem::path default_cache();
+
+/// Runs a SLAM system on a source and judges it, with the maps of the options loaded before and
+/// saved after.
+RunOutcome run_mapping_system(const ScenarioConfig& scenario, FrameSource& source,
+                              MappingSystem& slam, const RunOptions& options);
+
+/// A data set that a run leaves beside its results: its whole rig and all of its frames.
+struct RunRecording {
+  std::filesystem::path folder;
+  RecordOptions options;
+};
+
+/// Builds the simulation and the SLAM system of a scenario and runs one on the other, recording
+/// where that is asked for. `threads` counts all threads that share the work; it changes no result.
+RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options,
+                        const std::optional<RunRecording>& recording = std::nullopt);
+
+}  // namespace vinebench

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/sets/junit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/util/xml_text.h"
+
+namespace vinebench {
+namespace {
+
+double seconds_of(const SetRun& run) {
+  return run.metrics.is_null() ? 0 : run.metrics["wall_seconds"].get<double>();
+}
+
+std::string failure_of(const std::vector<Check>& checks) {
+  if (all_hold(checks)) return "";
+  const std::vector<Check> failed = failed_of(checks);
+  std::string message;
+  for (const Check& check : failed) {
+    message += fmt::format("{}{}: {}, expected {}", message.empty() ? "" : "; ", check.what,
+                           check.measured, check.expected);
+  }
+  return fmt::format("      <failure message=\"{}\">{}</failure>\n", xml_escaped(message),
+                     xml_escaped(format_checks(failed)));
+}
+
+std::string test_case(const std::string& scenario, const std::string& name, double seconds,
+                      const std::string& outcome) {
+  return fmt::format(
+      "    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\">\n{}    </testcase>\n",
+      xml_escaped(scenario), xml_escaped(name), seconds, outcome);
+}
+
+std::string test_suite(const SeedsSummary& summary) {
+  std::string cases;
+  double seconds = 0;
+  for (const SetRun& run : summary.runs) {
+    const std::string outcome =
+        run.error.empty() ? failure_of(run.checks)
+                          : fmt::format("      <error message=\"{}\"/>\n", xml_escaped(run.error));
+    cases +=
+        test_case(summary.scenario, fmt::format("seed-{}", run.seed), seconds_of(run), outcome);
+    seconds += seconds_of(run);
+  }
+  if (!summary.checks.empty()) {
+    cases += test_case(summary.scenario, "median", 0, failure_of(summary.checks));
+  }
+  const auto errors =
+      std::ranges::count_if(summary.runs, [](const SetRun& run) { return !run.error.empty(); });
+  const auto failures =
+      std::ranges::count_if(summary.runs, &SetRun::failed) + (all_hold(summary.checks) ? 0 : 1);
+  return fmt::format(
+      "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.3f}\">\n{}"
+      "  </testsuite>\n",
+      xml_escaped(summary.scenario), summary.runs.size() + (summary.checks.empty() ? 0 : 1),
+      failures, errors, seconds, cases);
+}
+
+}  // namespace
+
+std::string format_junit(const std::vector<SeedsSummary>& scenarios) {
+  std::string suites;
+  for (const SeedsSummary& summary : scenarios) suites += test_suite(summary);
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n" + suites + "</testsuites>\n";
+}
+
+}  // namespace vinebench

@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/sets/run_set.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <iostream>
+#include <map>
+
+#include "core/util/error.h"
+#include "core/util/files.h"
+#include "harness/report/run_folder.h"
+#include "harness/sets/child_process.h"
+#include "harness/sets/run_inputs.h"
+
+namespace vinebench {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string name_of(const PlannedRun& run) {
+  return fmt::format("{}, seed {}", run.scenario.name, run.scenario.seed);
+}
+
+/// A whole run's figures; null where there are none that can be read.
+Json read_metrics(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(folder / "metrics.json", ignored)) return {};
+  Json metrics = Json::parse(read_file(folder / "metrics.json"), nullptr, false);
+  return metrics.is_object() && metrics.contains("expectations") ? metrics : Json();
+}
+
+bool has_inputs(const fs::path& folder, const std::string& fingerprint) {
+  std::error_code ignored;
+  return fs::is_regular_file(folder / kInputsFile, ignored) &&
+         read_file(folder / kInputsFile) == fingerprint + "\n";
+}
+
+/// From here on what this process says goes to the file.
+void write_messages_to(const fs::path& file) {
+  const int log = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  if (log < 0) fail("{}: cannot be written: {}", file.string(), std::strerror(errno));
+  dup2(log, STDOUT_FILENO);
+  dup2(log, STDERR_FILENO);
+  close(log);
+}
+
+/// In a process of its own.
+std::string run_planned(const PlannedRun& run, const SetOptions& options, int threads) {
+  prepare_run_folder(run.folder, run.scenario);
+  write_messages_to(run.folder / "log.txt");
+  RunOptions run_options;
+  run_options.folder = run.folder;
+  run_options.progress = &std::cerr;
+  run_options.title = name_of(run);
+  run_options.stopped = options.stopped;
+  const std::string fingerprint = fingerprint_of_inputs(run.scenario);
+  if (options.run(run.scenario, threads, run_options).interrupted) return "interrupted";
+  write_file_atomically(run.folder / kInputsFile, fingerprint + "\n");
+  return "";
+}
+
+class RunningSet {
+ public:
+  RunningSet(const std::vector<PlannedRun>& plan, const SetOptions& options)
+      : plan_(plan), options_(options) {
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+      const PlannedRun& run = plan[i];
+      outcome_.runs.push_back(
+          {.scenario = run.scenario.name, .seed = run.scenario.seed, .folder = run.folder});
+      if (!options.force && keep(outcome_.runs.back(), run)) {
+        tell(outcome_.runs.back());
+      } else {
+        to_run_.push_back(i);
+      }
+    }
+  }
+
+  SetOutcome run() {
+    const int at_once = std::min(options_.jobs, static_cast<int>(to_run_.size()));
+    const int threads = std::max(1, options_.threads / std::max(1, at_once));
+    run_in_children(
+        {.count = to_run_.size(),
+         .at_once = at_once,
+         .name = [&](std::size_t job) { return name_of(plan_[to_run_[job]]); },
+         .job =
+             [&](std::size_t job) { return run_planned(plan_[to_run_[job]], options_, threads); },
+         .done = [&](std::size_t job,
+                     const ChildOutcome& child) { finish(outcome_.runs[to_run_[job]], child); },
+         .stopped = options_.stopped});
+    outcome_.interrupted = outcome_.interrupted || done_ < plan_.size();
+    return std::move(outcome_);
+  }
+
+ private:
+  bool keep(SetRun& result, const PlannedRun& run) {
+    if (!has_inputs(run.folder, fingerprint_of_inputs(run.scenario))) return false;
+    result.kept = take_metrics(result);
+    return result.kept;
+  }
+
+  static bool take_metrics(SetRun& result) {
+    result.metrics = read_metrics(result.folder);
+    if (result.metrics.is_null()) return false;
+    result.checks = checks_of(result.metrics["expectations"]);
+    return true;
+  }
+
+  void finish(SetRun& result, const ChildOutcome& child) {
+    if (child.ok && !child.text.empty()) {
+      outcome_.interrupted = true;
+      return;
+    }
+    if (!child.ok) {
+      result.error = child.text;
+    } else if (!take_metrics(result)) {
+      result.error = fmt::format("{}: has no metrics.json", result.folder.string());
+    }
+    ++ran_;
+    tell(result);
+  }
+
+  void tell(const SetRun& run) {
+    ++done_;
+    if (options_.progress == nullptr) return;
+    std::string text =
+        fmt::format("[{}/{}] {}, seed {}: ", done_, plan_.size(), run.scenario, run.seed);
+    if (!run.error.empty()) {
+      text += "ERROR, " + run.error;
+    } else {
+      text += fmt::format(
+          "{}{}", run.failed() ? "FAILED" : "passed",
+          run.kept ? " (there already)"
+                   : fmt::format(" in {:.0f} s", run.metrics["wall_seconds"].get<double>()));
+    }
+    *options_.progress << text << time_left() << std::endl;
+  }
+
+  /// By the runs so far.
+  std::string time_left() const {
+    if (ran_ == 0 || done_ == plan_.size()) return "";
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
+    const double each = spent.count() / static_cast<double>(ran_);
+    const double minutes = each * static_cast<double>(plan_.size() - done_) / 60;
+    return minutes < 1 ? ", less than a minute left" : fmt::format(", {:.0f} min left", minutes);
+  }
+
+  const std::vector<PlannedRun>& plan_;
+  const SetOptions& options_;
+  SetOutcome outcome_;
+  std::vector<std::size_t> to_run_;  ///< indices into the plan
+  std::size_t done_ = 0;
+  std::size_t ran_ = 0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+std::vector<PlannedRun> plan_set(const std::vector<ScenarioConfig>& scenarios,
+                                 const std::vector<std::int64_t>& seeds, const fs::path& out) {
+  std::vector<PlannedRun> plan;
+  std::map<std::string, int> names;
+  for (const ScenarioConfig& scenario : scenarios) {
+    if (++names[scenario.name] > 1) {
+      fail("two of the scenarios have the name '{}'; expected a name of its own for each",
+           scenario.name);
+    }
+    const std::vector<std::int64_t> own{scenario.seed};
+    for (const std::int64_t seed : seeds.empty() ? own : seeds) {
+      PlannedRun run{scenario, out / scenario.name / fmt::format("seed-{}", seed)};
+      run.scenario.seed = seed;
+      plan.push_back(std::move(run));
+    }
+  }
+  return plan;
+}
+
+SetOutcome run_set(const std::vector<PlannedRun>& plan, const SetOptions& options) {
+  return RunningSet(plan, options).run();
+}
+
+}  // namespace vinebench

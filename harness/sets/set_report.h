@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/judge/metric_table.h"
+#include "harness/sets/run_set.h"
+
+namespace vinebench {
+
+/// One scenario of a set over its seeds.
+struct SeedsSummary {
+  std::string scenario;
+  std::vector<SetRun> runs{};
+  std::vector<std::optional<double>> medians{};  ///< of figures(), over the runs that have each
+  std::vector<Check> checks{};                   ///< expectations of the median
+
+  bool passed() const;
+};
+
+/// The scenarios of a set in their order. A run without an error to take the median of counts as
+/// one of an infinite error.
+std::vector<SeedsSummary> summarise(const std::vector<PlannedRun>& plan, const SetOutcome& outcome);
+
+/// A Markdown table: a row a run, a row for the medians of each scenario.
+std::string format_table(const std::vector<SeedsSummary>& scenarios);
+
+/// What failed, a paragraph a run; empty when all is well.
+std::string format_failures(const std::vector<SeedsSummary>& scenarios);
+
+/// The same as data.
+Json summary_json(const std::vector<SeedsSummary>& scenarios);
+
+}  // namespace vinebench

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/snapshot.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "core/geometry/rig.h"
+#include "core/util/error.h"
+#include "core/util/files.h"
+#include "harness/datasets/labels/label_table.h"
+#include "harness/run_scenario.h"
+#include "sim/render/renderer.h"
+
+namespace vinebench {
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180;
+
+std::vector<double> parse_numbers(const std::string& text, const std::string& expected) {
+  std::vector<double> numbers;
+  std::size_t at = 0;
+  while (at <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    const std::string part = text.substr(at, comma - at);
+    char* end = nullptr;
+    numbers.push_back(std::strtod(part.c_str(), &end));
+    if (part.empty() || *end != '\0' || !std::isfinite(numbers.back())) {
+      fail("'{}': expected {}", text, expected);
+    }
+    at = comma + 1;
+  }
+  return numbers;
+}
+
+cv::Mat for_encoder(const cv::Mat& picture) {
+  cv::Mat out;
+  switch (picture.type()) {
+    case CV_8UC3:
+      cv::cvtColor(picture, out, cv::COLOR_RGB2BGR);
+      return out;
+    case CV_32FC1:
+      picture.convertTo(out, CV_16U, 1000);
+      return out;
+    default:
+      return picture;
+  }
+}
+
+}  // namespace
+
+PinholeCamera parse_camera(const std::string& text) {
+  PinholeCamera camera;
+  int read = 0;
+  const int fields =
+      std::sscanf(text.c_str(), "%dx%d@%lf%n", &camera.width, &camera.height, &camera.fx, &read);
+  if (fields != 3 || read != static_cast<int>(text.size()) || camera.width < 1 ||
+      camera.height < 1 || !(camera.fx > 0) || !std::isfinite(camera.fx)) {
+    fail("camera '{}': expected WIDTHxHEIGHT@FOCAL in pixels, such as 752x480@263.3", text);
+  }
+  camera.fy = camera.fx;
+  camera.cx = (camera.width - 1) / 2.0;
+  camera.cy = (camera.height - 1) / 2.0;
+  return camera;
+}
+
+Pose parse_view(const std::string& text) {
+  const std::string expected = "X,Y,Z,YAW or X,Y,Z,YAW,PITCH in metres and degrees";
+  const std::vector<double> n = parse_numbers(text, "a pose " + expected);
+  if (n.size() != 4 && n.size() != 5) fail("'{}': expected a pose {}", text, expected);
+  const double pitch_up = n.size() == 5 ? n[4] : 0;
+  return {from_roll_pitch_yaw({0, -pitch_up * kRadians, n[3] * kRadians}), {n[0], n[1], n[2]}};
+}
+
+void write_picture(const std::filesystem::path& file, const cv::Mat& picture) {
+  const std::string ending = file.extension().string();
+  const bool lossy = ending == ".jpg" || ending == ".jpeg";
+  if (!lossy && ending != ".png")
+    fail("{}: expected a name that ends in .png or .jpg", file.string());
+  if (lossy && picture.depth() != CV_8U) fail("{}: depth needs a .png", file.string());
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(ending, for_encoder(picture), bytes,
+               lossy ? std::vector<int>{cv::IMWRITE_JPEG_QUALITY, 88} : std::vector<int>{});
+  write_file_atomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+cv::Mat colour_labels(const cv::Mat& labels) {
+  cv::Mat colours(labels.size(), CV_8UC3);
+  for (int y = 0; y < labels.rows; ++y) {
+    for (int x = 0; x < labels.cols; ++x) {
+      colours.at<cv::Vec3b>(y, x) = label_colour(labels.at<std::uint8_t>(y, x));
+    }
+  }
+  return colours;
+}
+
+cv::Mat turntable(const WorldConfig& world, std::uint64_t seed, const PinholeCamera& camera) {
+  constexpr int kViews = 8;
+  constexpr int kColumns = 4;
+  constexpr double kPitchDown = 22 * kRadians;
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& post : post_positions(world)) box.extend(post);
+  const double distance = 1.5 + 0.75 * box.diagonal().norm();
+  Renderer renderer(build_scene(world, seed, default_cache()), {});
+  cv::Mat sheet(camera.height * (kViews / kColumns), camera.width * kColumns, CV_8UC3);
+  for (int i = 0; i < kViews; ++i) {
+    const double yaw = (i + 0.5) * 2 * std::numbers::pi / kViews;
+    const Eigen::Vector2d eye =
+        box.center() - distance * Eigen::Vector2d(std::cos(yaw), std::sin(yaw));
+    const Pose T_world_cam =
+        Rig::mount({eye.x(), eye.y(), 0.5 + distance * std::tan(kPitchDown)}, {0, kPitchDown, yaw});
+    const cv::Rect place((i % kColumns) * camera.width, (i / kColumns) * camera.height,
+                         camera.width, camera.height);
+    renderer.render(camera, T_world_cam, {}).rgb.copyTo(sheet(place));
+  }
+  return sheet;
+}
+
+}  // namespace vinebench

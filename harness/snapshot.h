@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+#include "core/geometry/camera.h"
+#include "harness/experiment/scenario.h"
+#include "sim/world/world.h"
+
+namespace vinebench {
+
+/// Reads "WIDTHxHEIGHT@FOCAL" (px), such as 1920x1080@733, the principal point in the middle.
+/// Throws Error for anything else.
+PinholeCamera parse_camera(const std::string& text);
+
+/// Reads "X,Y,Z,YAW" or "X,Y,Z,YAW,PITCH" (m and degrees; x ahead of that heading, pitch up) as
+/// the pose of a frame with x ahead, y left, z up. Throws Error for anything else.
+Pose parse_view(const std::string& text);
+
+/// Writes a picture as PNG or JPEG by the name's ending: CV_8UC3 (RGB), CV_8UC1, or CV_32FC1 (depth
+/// in m, written as 16-bit PNG in mm). Throws Error for other endings and when it cannot be
+/// written.
+void write_picture(const std::filesystem::path& file, const cv::Mat& picture);
+
+/// Labels (CV_8UC1 of Label) in colours for the eye, CV_8UC3.
+cv::Mat colour_labels(const cv::Mat& labels);
+
+/// Eight views of a world from all round, from above a person's eyes, on one sheet.
+cv::Mat turntable(const WorldConfig& world, std::uint64_t seed, const PinholeCamera& camera);
+
+}  // namespace vinebench

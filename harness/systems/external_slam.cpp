@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/systems/external_slam.h"
+
+#include <optional>
+
+#include "core/util/error.h"
+#include "harness/systems/foreign_trajectory.h"
+#include "harness/systems/program.h"
+
+namespace vinebench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kBody = "body";
+
+void replace_all(std::string& text, const std::string& what, const std::string& by) {
+  for (std::size_t at = text.find(what); at != std::string::npos;
+       at = text.find(what, at + by.size())) {
+    text.replace(at, what.size(), by);
+  }
+}
+
+/// Takes away what an earlier run left, and nothing else.
+fs::path clear_recording(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::exists(folder / "frames.csv", ignored) && fs::exists(folder / "mav0", ignored)) {
+    fs::remove_all(folder, ignored);
+  }
+  return folder;
+}
+
+class ExternalSlam : public SlamSystem {
+ public:
+  ExternalSlam(const ExternalSlamConfig& config, const RecordingNotes& notes,
+               const fs::path& folder, std::function<bool()> stopped)
+      : config_(config),
+        rig_(notes.rig.make()),
+        recording_(fs::absolute(clear_recording(folder / "recording"))),
+        output_(fs::absolute(folder / "external")),
+        stopped_(std::move(stopped)) {
+    check_external_slam(config, rig_);
+    std::error_code error;
+    fs::create_directories(output_, error);
+    if (error) fail("{}: cannot be made: {}", output_.string(), error.message());
+    fs::remove(output_ / config.trajectory, error);  // of an earlier run
+    writer_.emplace(recording_, notes);
+  }
+
+  Estimate process(const Frame& frame) override {
+    Estimate estimate;
+    estimate.stamp = frame.stamp;
+    Truth none;
+    none.known = false;
+    writer_->on_tick({frame, none, {}}, estimate);
+    stamps_.push_back(frame.stamp);
+    return estimate;
+  }
+
+  SlamSummary finish() override {
+    SlamSummary summary;
+    writer_->on_finish(summary);
+    writer_.reset();
+    std::error_code ignored;
+    fs::remove_all(recording_ / "mav0/state_groundtruth_estimate0", ignored);  // is empty
+    if (!run()) return summary;
+    summary.trajectory = read_trajectory();
+    if (!config_.keep_recording) fs::remove_all(recording_, ignored);
+    return summary;
+  }
+
+  const StageTimes& times() const override { return times_; }
+
+ private:
+  /// False when it was stopped.
+  bool run() {
+    const ScopedTimer timer(times_, "external");
+    Program program{.file = config_.program,
+                    .arguments = config_.arguments,
+                    .environment = {{"VINEBENCH_RECORDING", recording_.string()},
+                                    {"VINEBENCH_OUTPUT", output_.string()}},
+                    .folder = output_,
+                    .log = output_ / "log.txt",
+                    .timeout = config_.timeout,
+                    .stopped = stopped_};
+    for (std::string& argument : program.arguments) {
+      replace_all(argument, "{recording}", recording_.string());
+      replace_all(argument, "{output}", output_.string());
+    }
+    return run_program(program);
+  }
+
+  Trajectory read_trajectory() const {
+    const fs::path file = output_ / config_.trajectory;
+    std::error_code ignored;
+    if (!fs::exists(file, ignored)) {
+      fail("{}: left no trajectory; expected {}, and its messages are in {}",
+           config_.program.string(), file.string(), (output_ / "log.txt").string());
+    }
+    Pose T_sensor_body;
+    if (config_.poses_of != kBody) {
+      const auto camera = static_cast<std::size_t>(rig_.find_camera(config_.poses_of));
+      T_sensor_body = rig_.cameras[camera].T_body_cam.inverse();
+    }
+    return read_foreign_trajectory(file, stamps_, T_sensor_body);
+  }
+
+  ExternalSlamConfig config_;
+  Rig rig_;
+  fs::path recording_;
+  fs::path output_;
+  std::function<bool()> stopped_;
+  std::optional<EurocWriter> writer_;
+  std::vector<Stamp> stamps_;
+  StageTimes times_;
+};
+
+}  // namespace
+
+void check_external_slam(const ExternalSlamConfig& config, const Rig& rig) {
+  if (config.poses_of != kBody && rig.find_camera(config.poses_of) < 0) {
+    fail("slam.external.poses_of: expected 'body' or a camera of the rig, found '{}'",
+         config.poses_of);
+  }
+}
+
+std::unique_ptr<SlamSystem> make_external_slam(const ExternalSlamConfig& config,
+                                               const RecordingNotes& notes, const fs::path& folder,
+                                               std::function<bool()> stopped) {
+  return std::make_unique<ExternalSlam>(config, notes, folder, std::move(stopped));
+}
+
+}  // namespace vinebench

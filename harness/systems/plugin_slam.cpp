@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/systems/plugin_slam.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/slam_plugin.h"
+#include "core/util/error.h"
+
+namespace vinebench {
+namespace {
+
+constexpr double kNormTolerance = 1e-3;  // of a quaternion
+
+vinebench_pose to_plugin(const Pose& pose) {
+  const Eigen::Vector3d& p = pose.translation;
+  const Eigen::Quaterniond& q = pose.rotation;
+  return {{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}};
+}
+
+template <std::size_t N, class Values>
+void copy_into(double (&target)[N], const Values& values) {
+  std::copy_n(values.data(), N, target);
+}
+
+/// The setup of a plugin, and what its pointers point at.
+class Setup {
+ public:
+  Setup(const PluginSlamConfig& config, const Rig& rig, const std::vector<RegisteredTag>& tags,
+        const std::optional<MecanumWheels>& wheels, int threads)
+      : rig_(rig), tags_(tags), settings_(config.settings ? config.settings->string() : "") {
+    for (const RigCamera& camera : rig_.cameras) {
+      const PinholeCamera& lens = camera.model;
+      vinebench_camera c{camera.name.c_str(),
+                         lens.width,
+                         lens.height,
+                         lens.fx,
+                         lens.fy,
+                         lens.cx,
+                         lens.cy,
+                         {},
+                         to_plugin(camera.T_body_cam)};
+      copy_into(c.distortion, lens.distortion);
+      cameras_.push_back(c);
+    }
+    for (const StereoPair& pair : rig_.stereo_pairs) {
+      pairs_.push_back({pair.name.c_str(), pair.left, pair.right});
+    }
+    for (const RegisteredTag& tag : tags_) {
+      known_tags_.push_back({tag.family.c_str(), tag.id, tag.size, to_plugin(tag.T_world_tag)});
+    }
+    tag_cameras_.assign(rig_.tag_cameras.begin(), rig_.tag_cameras.end());
+    const MecanumWheels w = wheels.value_or(MecanumWheels{0, 0, 0});
+    setup_ = {rig_.name.c_str(),
+              rig_.rate_hz,
+              cameras_.data(),
+              cameras_.size(),
+              pairs_.data(),
+              pairs_.size(),
+              tag_cameras_.data(),
+              tag_cameras_.size(),
+              known_tags_.data(),
+              known_tags_.size(),
+              w.radius,
+              w.half_track,
+              w.half_wheelbase,
+              settings_.c_str(),
+              threads};
+  }
+  Setup(const Setup&) = delete;
+  Setup& operator=(const Setup&) = delete;
+  const vinebench_setup& get() const { return setup_; }
+
+ private:
+  Rig rig_;
+  std::vector<RegisteredTag> tags_;
+  std::string settings_;
+  std::vector<vinebench_camera> cameras_;
+  std::vector<vinebench_stereo_pair> pairs_;
+  std::vector<vinebench_tag> known_tags_;
+  std::vector<std::int32_t> tag_cameras_;
+  vinebench_setup setup_{};
+};
+
+/// A frame as a plugin is given it; the pictures stay where they are.
+class FrameView {
+ public:
+  explicit FrameView(const Frame& frame) {
+    for (const cv::Mat& image : frame.images) {
+      images_.push_back({image.data, image.cols, image.rows, image.channels(),
+                         image.empty() ? 0 : image.step[0]});
+    }
+    for (const ImuSample& sample : frame.imu) {
+      vinebench_imu_sample& s = imu_.emplace_back();
+      s.stamp = sample.stamp;
+      copy_into(s.angular_velocity, sample.angular_velocity);
+      copy_into(s.specific_force, sample.specific_force);
+    }
+    for (const WheelSample& sample : frame.wheels) {
+      vinebench_wheel_sample& s = wheels_.emplace_back();
+      s.stamp = sample.stamp;
+      copy_into(s.angle, sample.angle);
+      copy_into(s.velocity, sample.velocity);
+    }
+    frame_ = {frame.index, frame.stamp,    images_.data(), imu_.data(),
+              imu_.size(), wheels_.data(), wheels_.size()};
+  }
+  FrameView(const FrameView&) = delete;
+  FrameView& operator=(const FrameView&) = delete;
+  const vinebench_frame& get() const { return frame_; }
+
+ private:
+  std::vector<vinebench_image> images_;
+  std::vector<vinebench_imu_sample> imu_;
+  std::vector<vinebench_wheel_sample> wheels_;
+  vinebench_frame frame_{};
+};
+
+class PluginSlam : public SlamSystem {
+ public:
+  PluginSlam(const PluginSlamConfig& config, const Rig& rig, const std::vector<RegisteredTag>& tags,
+             const std::optional<MecanumWheels>& wheels, int threads)
+      : file_(std::filesystem::absolute(config.library).string()),
+        functions_(load(file_)),
+        setup_(config, rig, tags, wheels, threads) {
+    system_ = functions_.create(&setup_.get(), message());
+    if (system_ == nullptr) fail_with("create");
+  }
+  PluginSlam(const PluginSlam&) = delete;
+  PluginSlam& operator=(const PluginSlam&) = delete;
+  /// The shared object stays loaded: libraries that it brought may have threads and exit handlers.
+  ~PluginSlam() override { functions_.destroy(system_); }
+
+  Estimate process(const Frame& frame) override {
+    const ScopedTimer timer(times_, functions_.name);
+    std::vector<vinebench_counts> counts(setup_.get().camera_count);
+    vinebench_estimate answer{};
+    answer.counts = counts.data();
+    const FrameView view(frame);
+    if (functions_.process(system_, &view.get(), &answer, message()) != 0) fail_with("process");
+    return estimate_of(frame.stamp, answer, counts);
+  }
+
+  SlamSummary finish() override {
+    vinebench_summary answer{};
+    if (functions_.finish(system_, &answer, message()) != 0) fail_with("finish");
+    SlamSummary summary;
+    summary.trajectory = trajectory_of(answer.trajectory, answer.trajectory_count);
+    summary.keyframes = trajectory_of(answer.keyframes, answer.keyframe_count);
+    summary.landmarks = static_cast<std::size_t>(std::max<std::int64_t>(0, answer.landmarks));
+    return summary;
+  }
+
+  const StageTimes& times() const override { return times_; }
+
+ private:
+  static vinebench_slam_functions load(const std::string& file) {
+    void* object = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (object == nullptr) fail("slam.plugin.library: {}", dlerror());
+    using Entry = const vinebench_slam_functions* (*)();
+    const auto entry = reinterpret_cast<Entry>(dlsym(object, "vinebench_slam"));
+    if (entry == nullptr) {
+      fail("slam.plugin.library: {}: exports no vinebench_slam (core/slam_plugin.h)", file);
+    }
+    const vinebench_slam_functions* functions = entry();
+    if (functions == nullptr || functions->version != VINEBENCH_SLAM_PLUGIN_VERSION) {
+      fail("slam.plugin.library: {}: expected version {} of core/slam_plugin.h, found {}", file,
+           VINEBENCH_SLAM_PLUGIN_VERSION, functions == nullptr ? 0 : functions->version);
+    }
+    return *functions;
+  }
+
+  vinebench_message message() {
+    message_.fill('\0');
+    return {message_.data(), message_.size()};
+  }
+
+  [[noreturn]] void fail_with(const char* function) const {
+    const std::string text(message_.begin(), std::ranges::find(message_, '\0'));
+    fail("{}: {}: {}", file_, function, text.empty() ? "failed without a message" : text);
+  }
+
+  Pose pose_of(const vinebench_pose& pose) const {
+    const double* q = pose.quaternion;
+    const double* p = pose.position;
+    const Pose result{Eigen::Quaterniond(q[3], q[0], q[1], q[2]), {p[0], p[1], p[2]}};
+    if (!result.translation.allFinite() ||
+        !(std::abs(result.rotation.norm() - 1) <= kNormTolerance)) {
+      fail("{}: a pose of it is none: position {} {} {}, quaternion {} {} {} {}", file_, p[0], p[1],
+           p[2], q[0], q[1], q[2], q[3]);
+    }
+    return result;
+  }
+
+  Estimate estimate_of(Stamp stamp, const vinebench_estimate& answer,
+                       const std::vector<vinebench_counts>& counts) const {
+    if (answer.status < VINEBENCH_INITIALIZING || answer.status > VINEBENCH_LOST) {
+      fail("{}: process: expected a status from 0 to 3, found {}", file_, answer.status);
+    }
+    Estimate estimate;
+    estimate.stamp = stamp;
+    estimate.status = static_cast<TrackingStatus>(answer.status);
+    if (answer.has_pose != 0) estimate.T_map_body = pose_of(answer.T_map_body);
+    estimate.covariance = Eigen::Map<const Matrix6d>(answer.covariance);
+    estimate.keyframe = answer.keyframe != 0;
+    for (const vinebench_counts& c : counts) {
+      estimate.cameras.push_back({c.features, c.stereo, c.matches, c.inliers});
+    }
+    if (answer.has_loop_closure != 0) {
+      const vinebench_loop_closure& loop = answer.loop_closure;
+      estimate.loop_closure = {loop.tag_id, loop.earlier, loop.later, pose_of(loop.T_earlier_later),
+                               loop.correction};
+    }
+    return estimate;
+  }
+
+  Trajectory trajectory_of(const vinebench_stamped_pose* poses, std::size_t count) const {
+    Trajectory trajectory;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i > 0 && poses[i].stamp <= poses[i - 1].stamp) {
+        fail("{}: finish: expected ascending stamps, found {} after {}", file_, poses[i].stamp,
+             poses[i - 1].stamp);
+      }
+      trajectory.push_back({poses[i].stamp, pose_of(poses[i].T_map_body)});
+    }
+    return trajectory;
+  }
+
+  std::string file_;
+  vinebench_slam_functions functions_;
+  Setup setup_;
+  std::array<char, 1024> message_{};
+  void* system_ = nullptr;
+  StageTimes times_;
+};
+
+}  // namespace
+
+std::unique_ptr<SlamSystem> load_plugin_slam(const PluginSlamConfig& config, const Rig& rig,
+                                             const std::vector<RegisteredTag>& tags,
+                                             const std::optional<MecanumWheels>& wheels,
+                                             int threads) {
+  return std::make_unique<PluginSlam>(config, rig, tags, wheels, threads);
+}
+
+}  // namespace vinebench

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/geometry/rig.h"
+#include "core/slam_system.h"
+#include "harness/systems/slam_choice.h"
+#include "slam/odometry/wheel_odometry.h"
+
+namespace vinebench {
+
+/// Makes the SLAM system of a shared object (core/slam_plugin.h). Throws Error when it cannot
+/// be loaded, is of another version of that interface, or says that something failed; process and
+/// finish do too.
+std::unique_ptr<SlamSystem> load_plugin_slam(const PluginSlamConfig& config, const Rig& rig,
+                                             const std::vector<RegisteredTag>& tags,
+                                             const std::optional<MecanumWheels>& wheels,
+                                             int threads);
+
+}  // namespace vinebench

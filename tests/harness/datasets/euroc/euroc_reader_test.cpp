@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/config/yaml_writer.h"
+#include "tests/support/recorded_folders.h"
+
+namespace vinebench {
+namespace {
+
+using test::error_of;
+using test::kFirstStamp;
+using test::kPeriod;
+using testing::HasSubstr;
+using Counts = std::map<std::string, int>;
+
+class EurocReaderTest : public testing::Test {
+ protected:
+  void expect_error(const std::string& what) {
+    EXPECT_THAT(error_of([&] { open_recording(root_); }), HasSubstr(what));
+  }
+  void set_sensor(const std::string& camera, const std::string& text) {
+    test::write_text(root_ / "mav0" / camera / "sensor.yaml", text);
+  }
+  std::string edited(const std::string& from, const std::string& to) {
+    std::string text = test::sensor_yaml(0);
+    return text.replace(text.find(from), from.size(), to);
+  }
+
+  test::TestFolder folder_;
+  std::filesystem::path root_ = test::write_euroc(folder_);
+};
+
+TEST_F(EurocReaderTest, ReadsCamerasAndFrames) {
+  for (const auto& named : {root_, root_ / "mav0"}) {
+    const Recording recording = open_recording(named);
+    EXPECT_EQ(recording.name, "euroc");
+    EXPECT_EQ(recording.rig.rate_hz, 20);
+    ASSERT_EQ(recording.frames.size(), 5u);
+    EXPECT_EQ(recording.frames[4].stamp, kFirstStamp + 4 * kPeriod);
+    ASSERT_EQ(recording.rig.cameras.size(), 2u);
+    EXPECT_EQ(recording.rig.cameras[0].model.cx, 15);
+    EXPECT_NEAR(recording.rig.baseline(recording.rig.stereo_pairs[0]), 0.1, 1e-15);
+    const Pose ahead = Rig::mount({0, -0.1, 0}, {0, 0, 0});
+    const Pose difference = ahead.inverse() * recording.rig.cameras[1].T_body_cam;
+    EXPECT_LT((difference.matrix() - Eigen::Matrix4d::Identity()).norm(), 1e-12);
+  }
+}
+
+TEST_F(EurocReaderTest, GivesPicturesReadingsAndInterpolatedTruth) {
+  const std::vector<Sample> samples = test::play_all(root_);
+  ASSERT_EQ(samples.size(), 5u);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    EXPECT_EQ(test::grey_of(samples[i].frame.images[0]), int(i));
+    EXPECT_EQ(test::grey_of(samples[i].frame.images[1]), 20 + int(i));
+    // 10 readings a frame; the first frame gets the one at its own stamp.
+    EXPECT_EQ(samples[i].frame.imu.size(), i == 0 ? 1u : 10u);
+    EXPECT_TRUE(samples[i].events.empty());
+    // 1 m/s: true poses lie 3 ms after and 7 ms before the frame's stamp.
+    ASSERT_TRUE(samples[i].truth.known);
+    const Eigen::Vector3d expected(0.05 * double(i), 2, 3);
+    EXPECT_LT((samples[i].truth.T_world_body.translation - expected).norm(), 1e-6);
+  }
+  EXPECT_EQ(samples[1].frame.imu[0].angular_velocity, Eigen::Vector3d(0.1, 0.2, 0.3));
+  EXPECT_EQ(samples[1].frame.imu[0].specific_force, Eigen::Vector3d(1, 0, 9.81));
+}
+
+TEST_F(EurocReaderTest, ReadingsAreTurnedIntoTheBodyFrame) {
+  // The unit's x is the body's y.
+  test::write_text(root_ / "mav0/imu0/sensor.yaml",
+                   "%YAML:1.0\nT_BS: {cols: 4, rows: 4, data: "
+                   "[0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}\n");
+  const ImuSample reading = open_recording(root_).imu.at(2);
+  EXPECT_LT((reading.specific_force - Eigen::Vector3d(0, 2, 9.81)).norm(), 1e-12);
+  EXPECT_LT((reading.angular_velocity - Eigen::Vector3d(-0.2, 0.1, 0.3)).norm(), 1e-12);
+}
+
+TEST_F(EurocReaderTest, MotionCaptureIsTheTruthWhereThereIsNoOther) {
+  std::filesystem::remove_all(root_ / "mav0/state_groundtruth_estimate0");
+  EXPECT_FALSE(test::play_all(root_).at(0).truth.known);
+  // The markers are 0.5 m above the body.
+  test::write_text(root_ / "mav0/vicon0/data.csv",
+                   fmt::format("#t\n{},1,2,3,1,0,0,0\n", kFirstStamp));
+  test::write_text(root_ / "mav0/vicon0/sensor.yaml",
+                   "T_BS: {data: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0.5, 0, 0, 0, 1]}\n");
+  const Truth truth = test::play_all(root_).at(0).truth;
+  EXPECT_TRUE(truth.known);
+  EXPECT_LT((truth.T_world_body.translation - Eigen::Vector3d(1, 2, 2.5)).norm(), 1e-12);
+}
+
+TEST_F(EurocReaderTest, StampsOutOfOrderAndTwiceAreMendedAndTold) {
+  const std::string list =
+      fmt::format("{0},{0}.png\n{1},{1}.png\n{2},{2}.png\n{1},{1}.png\n{3},{3}.png\n", kFirstStamp,
+                  kFirstStamp + 2 * kPeriod, kFirstStamp + kPeriod, kFirstStamp + 3 * kPeriod);
+  test::write_text(root_ / "mav0/cam0/data.csv", list);
+  const std::vector<Sample> samples = test::play_all(root_);
+  ASSERT_EQ(samples.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(test::grey_of(samples[i].frame.images[0]), int(i));
+  // cam1's fifth picture has no frame any more.
+  EXPECT_EQ(test::count_events(samples),
+            (Counts{{"stamp_out_of_order", 1}, {"stamp_repeated", 1}, {"picture_unmatched", 1}}));
+}
+
+TEST_F(EurocReaderTest, CamerasWithStampsOfTheirOwnAreAssociated) {
+  std::vector<std::int64_t> stamps = test::regular_stamps(5);
+  for (std::int64_t& stamp : stamps) stamp += kPeriod / 5;
+  stamps.erase(stamps.begin() + 2);
+  stamps.insert(stamps.begin() + 1, stamps[0] + kPeriod / 5);  // a further one between 0 and 1
+  test::write_euroc_camera(root_, 1, stamps);
+  const std::vector<Sample> samples = test::play_all(root_);
+  ASSERT_EQ(samples.size(), 5u);
+  EXPECT_EQ(test::grey_of(samples[0].frame.images[1]), 20);
+  EXPECT_EQ(test::grey_of(samples[1].frame.images[1]), 22);
+  EXPECT_TRUE(samples[2].frame.images[1].empty());
+  EXPECT_EQ(test::grey_of(samples[3].frame.images[1]), 23);
+  EXPECT_EQ(test::count_events(samples),
+            (Counts{{"picture_missing", 1}, {"picture_unmatched", 1}, {"stamps_differ", 1}}));
+  EXPECT_THAT(samples[0].events.at(0).detail + samples[0].events.back().detail,
+              HasSubstr("in 4 frames, by 10.000 ms at most"));
+}
+
+TEST_F(EurocReaderTest, AGapIsTold) {
+  std::vector<std::int64_t> stamps = test::regular_stamps(12);
+  stamps.erase(stamps.begin() + 6, stamps.begin() + 9);
+  for (int camera = 0; camera < 2; ++camera) test::write_euroc_camera(root_, camera, stamps);
+  const std::vector<Sample> samples = test::play_all(root_);
+  ASSERT_EQ(samples.size(), 9u);
+  ASSERT_FALSE(samples[6].events.empty());
+  EXPECT_EQ(samples[6].events[0].event, "frames_missing");
+  EXPECT_THAT(samples[6].events[0].detail, HasSubstr("about 3 frames"));
+}
+
+TEST_F(EurocReaderTest, MissingAndDamagedPicturesAreBlindCameras) {
+  const std::vector<std::int64_t> stamps = test::regular_stamps(5);
+  const auto picture = [&](int camera, std::size_t i) {
+    return root_ / fmt::format("mav0/cam{}/data/{}.png", camera, stamps[i]);
+  };
+  std::filesystem::remove(picture(0, 1));
+  test::write_text(picture(1, 2), "");
+  std::filesystem::resize_file(picture(0, 3), std::filesystem::file_size(picture(0, 3)) / 2);
+  const std::vector<Sample> samples = test::play_all(root_);
+  ASSERT_EQ(samples.size(), 5u);
+  EXPECT_TRUE(samples[1].frame.images[0].empty());
+  EXPECT_TRUE(samples[2].frame.images[1].empty());
+  EXPECT_TRUE(samples[3].frame.images[0].empty());
+  EXPECT_FALSE(samples[3].frame.images[1].empty());
+  EXPECT_EQ(test::count_events(samples),
+            (Counts{{"picture_missing", 1}, {"picture_unreadable", 2}}));
+}
+
+TEST_F(EurocReaderTest, FaultyCalibrationsAreErrors) {
+  set_sensor("cam1", edited("0, 0, 0, 1]", "0, 0, 1]"));
+  expect_error("cam1/sensor.yaml:5: T_BS: expected 16 numbers, found 15");
+  set_sensor("cam1", edited("-1, 0, 0, 0", "-1, 0.5, 0, 0"));
+  expect_error("T_BS: expected a rotation");
+  set_sensor("cam1", edited("[20, 20, 15, 11]", "[20, 20, 15]"));
+  expect_error("intrinsics: expected 4 numbers, found 3");
+  set_sensor("cam1", edited("[0, 0, 0, 0]\n", "[0, 0, 0]\n"));
+  expect_error("distortion_coefficients: expected 4 numbers, found 3");
+  set_sensor("cam1", edited("radial-tangential", "equidistant"));
+  expect_error("distortion_model: expected radial-tangential");
+  set_sensor("cam1", edited("resolution: [32", "resolution: [64"));
+  expect_error(
+      "camera 'cam1': its calibration is for 64 x 24 pixels, its first picture has 32 x 24");
+  set_sensor("cam1", "T_BS: [1, 2");
+  expect_error("is not valid YAML");
+  std::filesystem::remove(root_ / "mav0/cam1/sensor.yaml");
+  expect_error("cam1/sensor.yaml: cannot be read");
+}
+
+TEST_F(EurocReaderTest, FaultyFoldersAreErrors) {
+  test::write_text(root_ / "mav0/cam1/data.csv", "#timestamp [ns],filename\n");
+  expect_error("cam1/data.csv: expected a line for each picture");
+  test::write_text(root_ / "mav0/cam1/data.csv", "12345\n");
+  expect_error("cam1/data.csv:1: expected 2 columns");
+  test::write_text(root_ / "mav0/cam1/data.csv", "1.5,1.png\n");
+  expect_error("cam1/data.csv:1: expected a whole number of nanoseconds, found '1.5'");
+  std::filesystem::remove_all(root_ / "mav0/cam1");
+  expect_error("expected a cam1 beside cam0");
+  std::filesystem::remove_all(root_ / "mav0/cam0");
+  expect_error("expected the folders cam0 and cam1");
+}
+
+TEST_F(EurocReaderTest, FaultyReadingsAreErrors) {
+  test::write_text(root_ / "mav0/imu0/data.csv", "1,2,3\n");
+  expect_error("imu0/data.csv:1: expected 7 columns");
+  std::filesystem::remove_all(root_ / "mav0/imu0");
+  test::write_text(root_ / "mav0/state_groundtruth_estimate0/data.csv", "#\n1,0,0,0,2,0,0,0\n");
+  expect_error("state_groundtruth_estimate0/data.csv:2: expected a unit quaternion");
+}
+
+TEST_F(EurocReaderTest, ARigOfOnesOwnTakesTheCalibrationsPlace) {
+  RigConfig rig;
+  for (const char* name : {"left", "right"}) {
+    RigConfig::Camera camera;
+    camera.name = name;
+    camera.width = test::kWidth;
+    camera.height = test::kHeight;
+    camera.position.y() = rig.cameras.empty() ? 0 : -0.3;
+    rig.cameras.push_back(camera);
+  }
+  rig.stereo_pairs = {{"eyes", "left", "right"}};
+  test::write_text(root_ / "own.yaml", format_yaml(rig));
+  const Recording recording = open_recording(root_, {.rig = root_ / "own.yaml", .groundtruth = {}});
+  EXPECT_EQ(recording.rig.cameras[1].name, "right");
+  EXPECT_NEAR(recording.rig.baseline(recording.rig.stereo_pairs[0]), 0.3, 1e-15);
+  rig.cameras.push_back(rig.cameras[0]);
+  test::write_text(root_ / "own.yaml", format_yaml(rig));
+  EXPECT_THAT(
+      error_of([&] { open_recording(root_, {.rig = root_ / "own.yaml", .groundtruth = {}}); }),
+      HasSubstr("has 3 cameras, the recording has 2"));
+}
+
+TEST(PoseAtTest, LiesBetweenItsNeighbours) {
+  const auto at = [](Stamp stamp, double x) {
+    return StampedPose{stamp, {Eigen::Quaterniond::Identity(), {x, 0, 0}}};
+  };
+  const Trajectory way{at(1'000'000'000, 0), at(1'200'000'000, 2), at(3'000'000'000, 9)};
+  const Stamp gap = kNanosecondsPerSecond / 4;
+  EXPECT_NEAR(pose_at(way, 1'050'000'000, gap)->translation.x(), 0.5, 1e-12);
+  EXPECT_EQ(pose_at(way, 1'200'000'000, gap)->translation.x(), 2);
+  EXPECT_EQ(pose_at(way, 1'200'000'800, gap)->translation.x(), 2);  // within a microsecond
+  EXPECT_EQ(pose_at(way, 3'000'000'000, gap)->translation.x(), 9);
+  EXPECT_FALSE(pose_at(way, 2'000'000'000, gap));  // a gap of 1.8 s
+  EXPECT_FALSE(pose_at(way, 900'000'000, gap));
+  EXPECT_FALSE(pose_at(way, 3'100'000'000, gap));
+  EXPECT_FALSE(pose_at({}, 0, gap));
+}
+
+}  // namespace
+}  // namespace vinebench

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/experiment/randomisation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "tests/support/test_folder.h"
+
+namespace vinebench {
+namespace {
+
+using test::error_of;
+using testing::HasSubstr;
+
+constexpr int kSeeds = 2000;
+
+class RandomisationTest : public testing::Test {
+ protected:
+  std::vector<Override> draw(const std::string& text, std::int64_t seed) const {
+    return draw_overrides(folder_.write("draws.yaml", text), seed);
+  }
+  /// The first key's values over many seeds.
+  std::vector<double> values(const std::string& text) const {
+    std::vector<double> values;
+    const auto file = folder_.write("draws.yaml", text);
+    for (int seed = 0; seed < kSeeds; ++seed) {
+      values.push_back(std::stod(draw_overrides(file, seed).at(0).second));
+    }
+    return values;
+  }
+  static double mean(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double value : values) sum += value;
+    return sum / static_cast<double>(values.size());
+  }
+
+  test::TestFolder folder_;
+};
+
+TEST_F(RandomisationTest, ADrawIsAFunctionOfSeedAndKeyAlone) {
+  const std::string sun = "  - {key: world.sun.elevation_deg, uniform: [15, 70]}\n";
+  const std::string sky = "  - {key: world.sky.overcast, uniform: [0, 1]}\n";
+  EXPECT_EQ(draw("draws:\n" + sun + sky, 5), draw("draws:\n" + sun + sky, 5));
+  EXPECT_EQ(draw("draws:\n" + sun, 5).at(0), draw("draws:\n" + sky + sun, 5).at(1));
+  EXPECT_NE(draw("draws:\n" + sun, 5), draw("draws:\n" + sun, 6));
+}
+
+TEST_F(RandomisationTest, DistributionsAreWhatTheySay) {
+  // Standard error of a mean of 2000 draws: the deviation / 45; bounds are four of them.
+  const auto uniform = values("draws: [{key: a, uniform: [2, 4]}]");
+  EXPECT_NEAR(mean(uniform), 3, 4 * 2 / std::sqrt(12.0) / std::sqrt(kSeeds));
+  EXPECT_GE(*std::ranges::min_element(uniform), 2);
+  EXPECT_LT(*std::ranges::max_element(uniform), 4);
+  const auto normal = values("draws: [{key: a, normal: [1, 0.2], min: 0.5, max: 1.5}]");
+  EXPECT_NEAR(mean(normal), 1, 4 * 0.2 / std::sqrt(kSeeds));
+  EXPECT_GE(*std::ranges::min_element(normal), 0.5);
+  EXPECT_LE(*std::ranges::max_element(normal), 1.5);
+  // The logarithm is uniform: its mean is that of log 1 and log 100, in decades 1 +- 0.58 / 45.
+  auto logs = values("draws: [{key: a, log_uniform: [1, 100]}]");
+  for (double& value : logs) value = std::log10(value);
+  EXPECT_NEAR(mean(logs), 1, 4 * 0.58 / std::sqrt(kSeeds));
+  std::map<double, int> counts;
+  for (const double value : values("draws: [{key: a, integer: [3, 5]}]")) ++counts[value];
+  EXPECT_EQ(counts.size(), 3u);
+  EXPECT_NEAR(counts.at(5), kSeeds / 3.0, 4 * std::sqrt(kSeeds * 2 / 9.0));
+  counts.clear();
+  for (const double value : values("draws: [{key: a, choice: [75, 89], weights: [1, 3]}]")) {
+    ++counts[value];
+  }
+  EXPECT_NEAR(counts.at(89), kSeeds * 0.75, 4 * std::sqrt(kSeeds * 0.75 * 0.25));
+}
+
+TEST_F(RandomisationTest, FaultsNameFileLineAndKey) {
+  const auto error = [&](const std::string& text) {
+    return error_of([&] { draw("draws:\n" + text, 1); });
+  };
+  EXPECT_THAT(error("  - {key: a}"), HasSubstr("draws.yaml:2: draws.0.key: expected exactly one"));
+  EXPECT_THAT(error("  - {key: a, uniform: [4, 2]}"), HasSubstr("draws.0.uniform"));
+  EXPECT_THAT(error("  - {key: a, uniform: [1, 2], max: 3}"), HasSubstr("go with normal alone"));
+  EXPECT_THAT(error("  - {key: a, choice: [1, 2], weights: [1]}"),
+              HasSubstr("one for each choice"));
+  EXPECT_THAT(error("  - {key: a, integer: [1, 2]}\n  - {key: a, integer: [1, 2]}"),
+              HasSubstr("stands twice"));
+  EXPECT_THAT(error("  - {kee: a, integer: [1, 2]}"), HasSubstr("kee: unknown key"));
+  EXPECT_THAT(error_of([&] { draw_overrides(folder_ / "none.yaml", 1); }), HasSubstr("none.yaml"));
+}
+
+}  // namespace
+}  // namespace vinebench

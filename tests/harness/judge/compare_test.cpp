@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/judge/compare.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/test_folder.h"
+
+namespace vinebench {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+Json run(int seed, double ate_m, const char* scenario = "row") {
+  return {{"scenario", scenario},   {"seed", seed}, {"ate_rmse_m", ate_m},
+          {"coverage", 1.0},        {"losses", 0},  {"real_time_factor", 0.5},
+          {"rpe_trans_percent", {}}};
+}
+
+/// The change of the ATE from some values to others, m.
+FigureChange ate_change(const std::vector<double>& before, const std::vector<double>& after) {
+  std::vector<RunPair> pairs;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const int seed = static_cast<int>(i);
+    pairs.push_back({"row", seed, run(seed, before[i]), run(seed, after[i])});
+  }
+  return compare_figures(pairs).front();
+}
+
+// Differences 1, 2, 3 mm: mean 2, standard deviation 1, t of two degrees 4.303:
+// 4.303 / sqrt(3) = 2.484, so that zero is within.
+TEST(CompareTest, AnIntervalThatHoldsZeroIsTheSame) {
+  const FigureChange change = ate_change({0.010, 0.011, 0.012}, {0.011, 0.013, 0.015});
+  EXPECT_EQ(change.figure.title, "ATE, mm");
+  EXPECT_EQ(change.pairs, 3u);
+  EXPECT_NEAR(change.before, 11, 1e-9);
+  EXPECT_NEAR(change.difference(), 2, 1e-9);
+  EXPECT_NEAR(change.half_width.value(), 4.303 / std::sqrt(3.0), 1e-9);
+  EXPECT_EQ(change.change, Change::kSame);
+}
+
+// Differences 2, 2.1, 1.9 mm: standard deviation 0.1, half width 0.248: zero is far out.
+TEST(CompareTest, PairsTakeOutWhatSeedsHaveInCommon) {
+  EXPECT_EQ(ate_change({0.01, 0.05, 0.2}, {0.012, 0.0521, 0.2019}).change, Change::kWorse);
+  EXPECT_EQ(ate_change({0.012, 0.0521, 0.2019}, {0.01, 0.05, 0.2}).change, Change::kBetter);
+}
+
+TEST(CompareTest, OnePairGivesNoInterval) {
+  const FigureChange change = ate_change({0.01}, {0.02});
+  EXPECT_FALSE(change.half_width);
+  EXPECT_EQ(change.change, Change::kUnknown);
+  EXPECT_EQ(ate_change({0.01}, {0.01}).change, Change::kSame);
+  EXPECT_EQ(ate_change({0.01, 0.02}, {0.01, 0.02}).change, Change::kSame);
+}
+
+TEST(CompareTest, TheOverallVerdictIsThatOfTheEstimate) {
+  const auto changes = [](Change ate, Change coverage, Change speed) {
+    const Figure cost{.of_estimate = false};
+    return std::vector<FigureChange>{
+        {.change = ate}, {.change = coverage}, {.figure = cost, .change = speed}};
+  };
+  using enum Change;
+  EXPECT_EQ(overall(changes(kSame, kSame, kWorse)), kSame);
+  EXPECT_EQ(overall(changes(kBetter, kSame, kWorse)), kBetter);
+  EXPECT_EQ(overall(changes(kSame, kWorse, kBetter)), kWorse);
+  EXPECT_EQ(overall(changes(kBetter, kWorse, kSame)), kMixed);
+  EXPECT_EQ(overall(changes(kUnknown, kSame, kSame)), kUnknown);
+}
+
+TEST(CompareTest, RunsArePairedByScenarioAndSeed) {
+  const test::TestFolder folder;
+  const auto write = [&](const std::string& place, const Json& metrics) {
+    std::filesystem::create_directories(folder / place);
+    folder.write(place + "/metrics.json", metrics.dump());
+  };
+  write("a/row/seed-1", run(1, 0.01));
+  write("a/row/seed-2", run(2, 0.01));
+  write("a/loop/seed-1", run(1, 0.03, "loop"));
+  write("b/anything/2", run(2, 0.02));
+  write("b/anything/1", run(1, 0.02, "loop"));
+  write("b/anything/3", run(3, 0.02));
+  const PairedRuns runs = pair_runs(folder / "a", folder / "b");
+  ASSERT_EQ(runs.pairs.size(), 2u);
+  EXPECT_EQ(runs.pairs[0].scenario, "loop");
+  EXPECT_EQ(runs.pairs[1].seed, 2);
+  EXPECT_EQ(runs.unpaired.size(), 2u);
+  EXPECT_THAT(format_comparison(runs),
+              AllOf(HasSubstr("all scenarios"), HasSubstr("not compared: row, seed 1 (only in")));
+  const Json json = comparison_json(runs);
+  EXPECT_EQ(json["groups"].size(), 3u);  // loop, row, all
+  EXPECT_NEAR(json["groups"][0]["figures"][0]["difference"].get<double>(), -10, 1e-9);  // mm
+
+  EXPECT_THAT(test::error_of([&] { pair_runs(folder / "a/loop", folder / "b/anything/2"); }),
+              HasSubstr("no scenario and seed is in both"));
+  EXPECT_THAT(test::error_of([&] { pair_runs(folder / "none", folder / "b"); }),
+              HasSubstr("none: expected a folder of runs"));
+  std::filesystem::create_directories(folder / "empty");
+  EXPECT_THAT(test::error_of([&] { pair_runs(folder / "a", folder / "empty"); }),
+              HasSubstr("empty: has no run"));
+  write("b/again", run(2, 0.02));
+  EXPECT_THAT(test::error_of([&] { pair_runs(folder / "a", folder / "b"); }),
+              HasSubstr("row, seed 2 is there twice"));
+  folder.write("b/again/metrics.json", "{");
+  EXPECT_THAT(test::error_of([&] { pair_runs(folder / "a", folder / "b"); }),
+              HasSubstr("is no metrics.json of a run"));
+}
+
+// Reference values of the distribution's 97.5 % quantile: 2.0395 (31), 1.9840 (100), 1.9600 (inf).
+TEST(StudentTest, JoinsItsTableAndTheNormalDistribution) {
+  EXPECT_EQ(student_t_95(4), 2.776);
+  EXPECT_NEAR(student_t_95(31), 2.0395, 1e-3);
+  EXPECT_NEAR(student_t_95(100), 1.9840, 1e-4);
+  EXPECT_NEAR(student_t_95(1'000'000), 1.9600, 1e-4);
+}
+
+}  // namespace
+}  // namespace vinebench

@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/judge/diagnosis.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "harness/judge/degraded_segments.h"
+#include "harness/run/lockstep.h"
+#include "tests/support/fakes.h"
+
+namespace vinebench {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// Twenty seconds of a straight way east at 0.5 m/s, 10 frames a second, seen by a pair and a side
+/// camera in clear view, with a tag in view from 5 s to 6 s. Everything is well.
+class ExplainTest : public testing::Test {
+ protected:
+  ExplainTest() {
+    record_.rig = fakes::rig();
+    record_.rig.stereo_pairs = {{"front", 0, 1}};
+    for (RigCamera& camera : record_.rig.cameras) camera.model.fx = 300;
+    record_.tags = scenario_.simulation.world.tags;
+    for (std::int64_t i = 0; i <= 200; ++i) {
+      Tick tick;
+      tick.index = i;
+      tick.stamp = stamp_of_frame(i, 10);
+      tick.truth.T_world_body.translation.x() = 0.05 * static_cast<double>(i);
+      tick.truth.box_share = {0, 0, 0};
+      tick.truth.blur_time = {0, 0, 0};
+      tick.delivered = {true, true, true};
+      tick.estimate.status = TrackingStatus::kTracking;
+      tick.estimate.T_map_body = tick.truth.T_world_body;
+      tick.estimate.cameras = {{500, 200, 100, 90}, {200, 0, 90, 90}, {}};
+      if (i >= 50 && i <= 60) {
+        tick.truth.visible_tags = {0};
+        TagSighting sighting;
+        sighting.family = record_.tags[0].family;
+        sighting.id = record_.tags[0].id;
+        tick.estimate.tags.push_back(sighting);
+      }
+      record_.ticks.push_back(tick);
+    }
+  }
+
+  /// Changes the ticks from 10 s to 12 s, both included: 100 to 120.
+  void meanwhile(const std::function<void(Tick&)>& change) {
+    for (std::size_t i = 100; i <= 120; ++i) change(record_.ticks[i]);
+  }
+  /// From 10 s on the estimate slides off to the left, by 0.1 m in the end, at 12 s.
+  void slide() {
+    for (std::size_t i = 100; i < record_.ticks.size(); ++i) {
+      const double share = std::min(1.0, static_cast<double>(i - 100) / 20);
+      record_.ticks[i].estimate.T_map_body->translation.y() = 0.1 * share;
+    }
+  }
+  std::vector<Explanation> found() const {
+    return explain(record_, measure(record_, {}), scenario_);
+  }
+  std::vector<Cause> causes() const {
+    std::vector<Cause> list;
+    for (const Explanation& explanation : found()) list.push_back(explanation.cause);
+    return list;
+  }
+
+  ScenarioConfig scenario_ = fakes::scenario();
+  RunRecord record_;
+};
+
+void weaken(Tick& tick) {
+  tick.estimate.cameras[0].inliers = tick.estimate.cameras[1].inliers = 10;
+}
+
+TEST_F(ExplainTest, AGoodRunHasNothingToExplain) {
+  EXPECT_TRUE(found().empty());
+  EXPECT_THAT(format_explanations(record_, {}), HasSubstr("nowhere"));
+  EXPECT_TRUE(explain({}, {}, scenario_).empty());
+}
+
+TEST_F(ExplainTest, WeakTrackingBehindACartonIsOcclusion) {
+  meanwhile([](Tick& tick) {
+    weaken(tick);
+    tick.truth.box_share = {0.9, 0.9, 0};
+    tick.estimate.cameras[0].features = 20;  // no lack of texture: a carton is in the way
+  });
+  const auto list = found();
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0].cause, Cause::kOcclusion);
+  EXPECT_EQ(list[0].first, 100u);
+  EXPECT_EQ(list[0].last, 120u);
+  EXPECT_THAT(list[0].cameras, ElementsAre(0));  // a pair's left eye stands for both
+  EXPECT_EQ(list[0].share, 1);
+  EXPECT_EQ(list[0].inliers, 20);
+  EXPECT_EQ(list[0].usual_inliers, 180);
+  EXPECT_EQ(list[0].error_growth, 0);
+  EXPECT_THAT(format_explanations(record_, list),
+              HasSubstr("10.00 to 12.00 s: occlusion in front_left (100 % of the time)"));
+}
+
+TEST_F(ExplainTest, LosingTrackIsSuffering) {
+  meanwhile([](Tick& tick) {
+    tick.estimate.status = TrackingStatus::kLost;
+    tick.estimate.T_map_body.reset();
+    tick.delivered[0] = false;
+  });
+  const auto list = found();
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0].cause, Cause::kDroppedPictures);
+  EXPECT_EQ(list[0].untracked, 21);
+}
+
+TEST_F(ExplainTest, FewFeaturesInAClearViewAreLittleTexture) {
+  meanwhile([](Tick& tick) {
+    weaken(tick);
+    tick.estimate.cameras[0].features = 150;  // of usually 500
+  });
+  EXPECT_THAT(causes(), ElementsAre(Cause::kLittleTexture));
+}
+
+// 0.5 m/s at 1 m and 300 px: 150 px/s; in 20 ms 3 px, in 10 ms 1.5 px.
+TEST_F(ExplainTest, MotionBlurIsCountedInPixels) {
+  meanwhile([](Tick& tick) {
+    weaken(tick);
+    tick.truth.blur_time = {0.020, 0.020, 0};
+  });
+  EXPECT_THAT(causes(), ElementsAre(Cause::kMotionBlur));
+  meanwhile([](Tick& tick) { tick.truth.blur_time = {0.010, 0.010, 0}; });
+  EXPECT_THAT(causes(), ElementsAre(Cause::kUnexplained));
+}
+
+TEST_F(ExplainTest, AnErrorThatGrowsFastIsFoundWithoutWeakTracking) {
+  slide();
+  const auto list = found();
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0].cause, Cause::kUnexplained);
+  // Seconds that end from 10.2 s (10 mm of growth; 7.5 mm are 1.5 % of 0.5 m) to 12.8 s are fast;
+  // they begin one earlier.
+  EXPECT_NEAR(static_cast<double>(list[0].first), 93, 1);
+  EXPECT_NEAR(static_cast<double>(list[0].last), 128, 1);
+  EXPECT_NEAR(list[0].error_growth, 0.1, 1e-9);
+}
+
+TEST_F(ExplainTest, ARightCorrectionIsNoGrowth) {
+  slide();
+  record_.ticks[110].estimate.loop_closure = LoopClosure{};
+  RunResults results;
+  JudgedClosure& closure = results.loops.closures.emplace_back();
+  closure.tick = 110;
+  closure.correct = true;
+  for (std::size_t i = 100; i < record_.ticks.size(); ++i) {
+    record_.ticks[i].estimate.T_map_body->translation.y() = i < 110 ? 0 : 0.1;
+  }
+  EXPECT_TRUE(explain(record_, results, scenario_).empty());
+  closure.correct = false;
+  const auto list = explain(record_, results, scenario_);
+  ASSERT_FALSE(list.empty());
+  EXPECT_EQ(list[0].cause, Cause::kWrongTag);
+}
+
+TEST_F(ExplainTest, AMiscalibratedRigIsBlamedForWhatNothingElseExplains) {
+  scenario_.simulation.sensors.calibration.rotation_deg = 0.5;
+  slide();
+  EXPECT_THAT(causes(), ElementsAre(Cause::kCalibrationError));
+  meanwhile([](Tick& tick) { tick.truth.box_share = {0.9, 0.9, 0}; });
+  EXPECT_THAT(causes(), ElementsAre(Cause::kOcclusion));
+}
+
+// A map 2 % too large: 10 mm in each second of 0.5 m, and never more than usual.
+TEST_F(ExplainTest, ASteadyDriftOfTheWholeRunIsSuffering) {
+  for (Tick& tick : record_.ticks) tick.estimate.T_map_body->translation *= 1.02;
+  scenario_.simulation.sensors.calibration.focal_px = 5;
+  const auto list = found();
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0].cause, Cause::kCalibrationError);
+  EXPECT_NEAR(list[0].error_growth, 0.2, 0.01);  // m, 2 % of 10 m
+  // Half a percent is 2.5 mm a second: the ordinary drift of a good system.
+  for (Tick& tick : record_.ticks) tick.estimate.T_map_body->translation *= 1.005 / 1.02;
+  EXPECT_TRUE(found().empty());
+}
+
+// Plants stand 1 m apart along the row, which leads east: a jump ahead by 2.05 m is two of them.
+TEST_F(ExplainTest, AJumpByPlantsIsARepeatedPattern) {
+  const auto jump = [&](double x, double y) {
+    for (std::size_t i = 110; i < record_.ticks.size(); ++i) {
+      record_.ticks[i].estimate.T_map_body->translation =
+          record_.ticks[i].truth.T_world_body.translation + Eigen::Vector3d(x, y, 0);
+    }
+    return causes();
+  };
+  EXPECT_THAT(jump(2.05, 0.05), ElementsAre(Cause::kRepeatedPattern));
+  EXPECT_THAT(jump(-1, 0), ElementsAre(Cause::kRepeatedPattern));
+  EXPECT_THAT(jump(1.5, 0), ElementsAre(Cause::kUnexplained));
+  EXPECT_THAT(jump(1, 0.5), ElementsAre(Cause::kUnexplained));
+  for (Tick& tick : record_.ticks) {
+    if (tick.index >= 105 && tick.index <= 130) weaken(tick);
+  }
+  EXPECT_THAT(jump(1, 0), ElementsAre(Cause::kUnexplained));  // no matches, no pattern
+}
+
+TEST_F(ExplainTest, TagsMayBeMissedOrWrong) {
+  meanwhile([](Tick& tick) {
+    weaken(tick);
+    tick.truth.visible_tags = {0};
+  });
+  EXPECT_THAT(causes(), ElementsAre(Cause::kMissedTag));
+  meanwhile([](Tick& tick) {
+    tick.truth.visible_tags.clear();
+    tick.estimate.rejected_tags.push_back({"tag36h11", 7, 2, TagRejection::kMisplaced});
+  });
+  EXPECT_THAT(causes(), ElementsAre(Cause::kWrongTag));
+  meanwhile([](Tick& tick) { tick.estimate.rejected_tags[0].reason = TagRejection::kAmbiguous; });
+  EXPECT_THAT(causes(), ElementsAre(Cause::kUnexplained));
+}
+
+TEST_F(ExplainTest, SeveralCausesComeStrongestFirst) {
+  meanwhile([](Tick& tick) {
+    weaken(tick);
+    tick.truth.box_share = {0.9, 0.9, 0};
+    if (tick.index <= 110) tick.delivered[0] = false;  // 11 of 21 ticks
+  });
+  EXPECT_THAT(causes(), ElementsAre(Cause::kOcclusion, Cause::kDroppedPictures));
+}
+
+TEST_F(ExplainTest, TheTrueMotionIsThatOfTheBody) {
+  const TrueMotion motion = true_motion(record_, 50);
+  EXPECT_NEAR(motion.speed, 0.5, 1e-9);
+  EXPECT_NEAR(motion.turn, 0, 1e-9);
+}
+
+}  // namespace
+}  // namespace vinebench

@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/judge/loop_judge.h"
+
+#include <gtest/gtest.h>
+
+#include "harness/run/lockstep.h"
+#include "tests/support/fakes.h"
+
+namespace vinebench {
+namespace {
+
+RunRecord record_of(fakes::Slam::Change change) {
+  fakes::Source source;
+  fakes::Slam slam(std::move(change));
+  Recorder recorder(source.rig(), fakes::scenario().simulation.world.tags);
+  run_lockstep(source, slam, {&recorder});
+  return recorder.record();
+}
+
+LoopVerdict verdict_of(double at, const LoopClosure& closure) {
+  return judge_loop_closures(record_of([=](Estimate& estimate) {
+    if (estimate.stamp == fakes::seconds(at)) estimate.loop_closure = closure;
+  }));
+}
+
+TEST(LoopJudgeTest, AgreementWithTheTruthIsCorrect) {
+  const LoopVerdict verdict = verdict_of(19, fakes::closure(fakes::seconds(1), fakes::seconds(19)));
+  EXPECT_EQ(verdict.correct(), 1);
+  EXPECT_EQ(verdict.wrong(), 0);
+  EXPECT_TRUE(verdict.missed.empty());
+  ASSERT_EQ(verdict.closures.size(), 1u);
+  EXPECT_NEAR(verdict.closures[0].error_m, 0, 1e-12);
+}
+
+TEST(LoopJudgeTest, TenCentimetresDecide) {
+  const auto off_by = [](double metres) {
+    return verdict_of(19, fakes::closure(fakes::seconds(1), fakes::seconds(19), metres));
+  };
+  EXPECT_EQ(off_by(0.09).correct(), 1);
+  EXPECT_EQ(off_by(0.11).wrong(), 1);
+}
+
+TEST(LoopJudgeTest, TwoDegreesDecide) {
+  const auto turned_by = [](double degrees) {
+    LoopClosure closure = fakes::closure(fakes::seconds(1), fakes::seconds(19));
+    closure.T_earlier_later.rotation =
+        (closure.T_earlier_later.rotation *
+         from_roll_pitch_yaw({degrees * std::numbers::pi / 180, 0, 0}))
+            .normalized();
+    return verdict_of(19, closure);
+  };
+  EXPECT_EQ(turned_by(1.9).correct(), 1);
+  EXPECT_EQ(turned_by(2.1).wrong(), 1);
+}
+
+TEST(LoopJudgeTest, FramesThatNeverWereAreWrong) {
+  const LoopVerdict verdict =
+      verdict_of(19, fakes::closure(fakes::seconds(1) + 5, fakes::seconds(19)));
+  EXPECT_EQ(verdict.wrong(), 1);
+}
+
+TEST(LoopJudgeTest, AReturnWithoutAClosureIsMissed) {
+  const LoopVerdict verdict = judge_loop_closures(record_of({}));
+  ASSERT_EQ(verdict.missed.size(), 1u);
+  EXPECT_EQ(verdict.missed[0].first, 180u);  // 18 s at 10 Hz
+  EXPECT_EQ(verdict.missed[0].last, 200u);
+}
+
+// The truth has the tag in view at the beginning and from 18 s on; a detector may read it from afar
+// before that. A closure while it was still in view the first time is none with its return.
+TEST(LoopJudgeTest, AClosureSinceTheTagWasLeftBelongsToItsReturn) {
+  const auto missed_with = [](double at) {
+    return verdict_of(at, fakes::closure(fakes::seconds(0.5), fakes::seconds(at))).missed.size();
+  };
+  EXPECT_EQ(missed_with(19), 0u);
+  EXPECT_EQ(missed_with(16.5), 0u);
+  EXPECT_EQ(missed_with(1), 1u);
+}
+
+TEST(LoopJudgeTest, AnotherTagsClosureDoesNotCount) {
+  LoopClosure other = fakes::closure(fakes::seconds(1), fakes::seconds(19));
+  other.tag_id = 8;
+  EXPECT_EQ(verdict_of(19, other).missed.size(), 1u);
+}
+
+// The way back comes past one tag from 16 to 18 s, where the loop is closed, and past another after
+// it. Where both are registered, the second tells nothing new; a tag that was mapped does.
+TEST(LoopJudgeTest, ARegisteredTagSoonAfterAnotherIsNoReturnOfItsOwn) {
+  RunRecord record = record_of([](Estimate& estimate) {
+    if (estimate.stamp != fakes::seconds(17)) return;
+    estimate.loop_closure = fakes::closure(fakes::seconds(1), fakes::seconds(17));
+  });
+  for (Tick& tick : record.ticks) {
+    const double t = to_seconds(tick.stamp);
+    tick.truth.visible_tags.clear();
+    if (t <= 2 || (t >= 16 && t <= 18)) tick.truth.visible_tags.push_back(0);
+    if (t <= 2 || t >= 18) tick.truth.visible_tags.push_back(1);
+  }
+  record.tags.push_back(record.tags.front());
+  record.tags.back().id = record.tags.front().id + 1;
+  EXPECT_TRUE(judge_loop_closures(record).missed.empty());
+  record.tags.back().registered = false;
+  const LoopVerdict mapped = judge_loop_closures(record);
+  ASSERT_EQ(mapped.missed.size(), 1u);
+  EXPECT_EQ(mapped.missed[0].tag, 1);
+}
+
+// Views: 0-2 s, 3-4 s (a gap of 1 s: the same visit) and 18-20 s with one frame missing.
+TEST(LoopJudgeTest, ShortGapsBelongToTheVisit) {
+  RunRecord record = record_of({});
+  for (Tick& tick : record.ticks) {
+    const double t = to_seconds(tick.stamp);
+    const bool seen = t <= 2 || (t >= 3 && t <= 4) || (t >= 18 && tick.index != 188);
+    tick.truth.visible_tags = seen ? std::vector<int>{0} : std::vector<int>{};
+  }
+  const std::vector<TagVisit> visits = tag_visits(record);
+  ASSERT_EQ(visits.size(), 2u);
+  EXPECT_EQ(visits[0].last, 40u);
+  EXPECT_EQ(visits[0].longest, fakes::seconds(2));
+  EXPECT_EQ(visits[1].longest, fakes::seconds(1.1));  // frames 189 to 200
+}
+
+TEST(LoopJudgeTest, AGlimpseNeedNotBeNoticed) {
+  RunRecord record = record_of({});
+  for (Tick& tick : record.ticks) {
+    if (to_seconds(tick.stamp) > 18.8) tick.truth.visible_tags.clear();
+  }
+  EXPECT_TRUE(judge_loop_closures(record).missed.empty());
+}
+
+// A rover that stands still while something hides its tag has closed no loop.
+TEST(LoopJudgeTest, AVisitNeedsAWayWithoutTheTag) {
+  RunRecord record = record_of({});
+  for (Tick& tick : record.ticks) tick.truth.T_world_body = fakes::circle(0);
+  EXPECT_EQ(tag_visits(record).size(), 1u);
+}
+
+}  // namespace
+}  // namespace vinebench

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/judge/metric_table.h"
+
+#include <gtest/gtest.h>
+
+namespace vinebench {
+namespace {
+
+TEST(FiguresTest, AreFoundInMetricsInTheirUnits) {
+  const Json metrics{{"ate_rmse_m", 0.0123}, {"loop_closures", {{"wrong", 2}}}, {"coverage", {}}};
+  for (const Figure& figure : figures()) {
+    const auto value = value_of(figure, metrics);
+    if (figure.key == "/ate_rmse_m") {
+      EXPECT_DOUBLE_EQ(value.value(), 12.3);  // mm
+    } else if (figure.key == "/loop_closures/wrong") {
+      EXPECT_EQ(value.value(), 2);
+    } else {
+      EXPECT_FALSE(value) << figure.key;  // absent, or null
+    }
+  }
+}
+
+TEST(FiguresTest, TablesLineUp) {
+  EXPECT_EQ(markdown_table({{"name", "x, mm"}, {"a", "–"}, {"longer", "12.5"}}, 1),
+            "| name   | x, mm |\n"
+            "|--------|------:|\n"
+            "| a      |     – |\n"
+            "| longer |  12.5 |\n");
+}
+
+}  // namespace
+}  // namespace vinebench

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/record.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "harness/datasets/dataset_check.h"
+#include "harness/datasets/format/dataset_card.h"
+#include "harness/datasets/reading/dataset_reader.h"
+#include "tests/support/small_scenario.h"
+
+namespace vinebench {
+namespace {
+
+using test::error_of;
+using testing::HasSubstr;
+
+constexpr std::int64_t kFrames = 6;
+
+class RecordTest : public test::SmallScenario {
+ protected:
+  std::string manifest() const { return read_file(request_.out / "files.xxh128"); }
+  std::vector<std::string> faults() const {
+    std::vector<std::string> texts;
+    for (const DatasetFault& fault : check_dataset(request_.out).faults) {
+      texts.push_back(fault.file + ": " + fault.problem);
+    }
+    return texts;
+  }
+};
+
+TEST_F(RecordTest, TheSameBytesForAnyNumberOfThreads) {
+  const std::vector<std::string> all = all_formats();
+  EXPECT_EQ(record(all).frames, kFrames);
+  const std::string first = manifest();
+  EXPECT_THAT(faults(), testing::IsEmpty());
+  request_.out = folder_ / "again";
+  request_.options.threads = 1;
+  record(all);
+  EXPECT_EQ(manifest(), first);
+  const DatasetCard card = read_card(request_.out);
+  EXPECT_TRUE(card.complete);
+  EXPECT_EQ(card.frames, kFrames);
+  EXPECT_EQ(card.cameras, (std::vector<std::string>{"left", "right", "side"}));
+}
+
+TEST_F(RecordTest, AnInterruptedRecordingIsReadableAndGoesOn) {
+  const RecordOutcome stopped = record({"euroc", "coco", "depth", "semantic"}, 3);
+  EXPECT_TRUE(stopped.interrupted);
+  EXPECT_EQ(stopped.frames, 3);
+  EXPECT_FALSE(read_card(request_.out).complete);
+  EXPECT_THAT(faults(), testing::IsEmpty());
+  EXPECT_EQ(check_dataset(request_.out).notes.size(), 1u);
+  EXPECT_EQ(open_recording(request_.out).frames.size(), 3u);
+
+  EXPECT_THAT(error_of([&] { record({"euroc"}); }), HasSubstr("is not empty"));
+  request_.resume = true;
+  EXPECT_THAT(error_of([&] { record({"euroc"}); }), HasSubstr("with other settings"));
+  EXPECT_EQ(open_recording(request_.out).frames.size(), 3u);  // which was left as it was
+  EXPECT_EQ(record({"euroc", "coco", "depth", "semantic"}).frames, kFrames);
+  const std::string resumed = manifest();
+  EXPECT_EQ(record({"euroc", "coco", "depth", "semantic"}).skipped, 1);
+  request_.resume = false;
+  request_.out = folder_ / "at once";
+  record({"euroc", "coco", "depth", "semantic"});
+  EXPECT_EQ(manifest(), resumed);
+}
+
+TEST_F(RecordTest, WhatAnAbruptEndLeavesIsReadable) {
+  record({"euroc", "depth"}, 3);
+  // As the power goes: the card of the beginning, half a line, half a picture.
+  DatasetCard card = read_card(request_.out);
+  card.frames = 0;
+  card.files_xxh128 = "";
+  write_card(request_.out, card);
+  std::ofstream(request_.out / "files.xxh128", std::ios::app) << "0123abc";
+  folder_.write("data/depth/left/000003.png.partial", "half");
+  EXPECT_THAT(faults(), testing::IsEmpty());
+  EXPECT_EQ(open_recording(request_.out).frames.size(), 3u);
+}
+
+TEST_F(RecordTest, DamageIsFound) {
+  record({"euroc", "tum", "depth", "semantic", "disparity"});
+  EXPECT_THAT(faults(), testing::IsEmpty());
+  EXPECT_EQ(check_dataset(request_.out).label_pictures, kFrames * (3 + 3 + 1));
+  const std::string good = read_file(request_.out / "depth/left/000002.png");
+  folder_.write("data/depth/left/000002.png", read_file(request_.out / "depth/left/000004.png"));
+  EXPECT_THAT(faults(), testing::Contains(HasSubstr("depth/left/000002.png: is damaged")));
+  EXPECT_THAT(faults(), testing::Contains(HasSubstr("disparity/left/000002.png: is not focal")));
+  folder_.write("data/depth/left/000002.png", good.substr(0, good.size() / 2));
+  EXPECT_THAT(faults(), testing::Contains(HasSubstr("000002.png: is damaged")));
+  folder_.write("data/depth/left/000002.png", good);
+  folder_.write("data/stray.txt", "");
+  EXPECT_THAT(faults(), testing::ElementsAre("stray.txt: is not in the list of files"));
+  std::filesystem::remove(request_.out / "stray.txt");
+  std::filesystem::remove(request_.out / "euroc/mav0/cam1/data/0.png");
+  EXPECT_THAT(faults(), testing::UnorderedElementsAre(
+                            HasSubstr("cam1/data/0.png: is missing"),
+                            HasSubstr("cam1/data.csv: 0.png: there is no such picture")));
+  EXPECT_THAT(error_of([&] { check_dataset(folder_.path()); }),
+              HasSubstr("is no data set of ours"));
+}
+
+TEST_F(RecordTest, SeedsAreSequencesWithDrawsOfTheirOwn) {
+  request_.seeds = {4, 5};
+  request_.options.cameras = {"left"};
+  request_.randomisation =
+      folder_.write("draws.yaml", "draws: [{key: world.sun.elevation_deg, uniform: [15, 70]}]");
+  const RecordOutcome outcome = record({"coco"});
+  EXPECT_EQ(outcome.sequences, 2);
+  EXPECT_EQ(outcome.frames, 2 * kFrames);
+  EXPECT_THAT(faults(), testing::IsEmpty());
+  EXPECT_EQ(check_dataset(request_.out).sequences, 2);
+  const std::string all = read_file(request_.out / "instances.json");
+  EXPECT_THAT(all, HasSubstr("\"file_name\":\"seed_000004/coco/images/left_000000.png\""));
+  EXPECT_THAT(all, HasSubstr("\"file_name\":\"seed_000005/coco/images/left_000005.png\""));
+  const auto sun = [&](const std::string& sequence) {
+    return load_scenario(request_.out / sequence / "scenario.resolved.yaml")
+        .simulation.world.sun.elevation_deg;
+  };
+  EXPECT_NE(sun("seed_000004"), sun("seed_000005"));
+}
+
+TEST_F(RecordTest, FramesAndCamerasAreThoseAskedFor) {
+  request_.options.first = 1;
+  request_.options.last = 4;
+  request_.options.every = 2;
+  request_.options.cameras = {"side"};
+  EXPECT_EQ(record({"rgb", "depth"}).frames, 2);
+  const std::string sparse = read_file(request_.out / "rgb/side/000001.png");
+  EXPECT_FALSE(std::filesystem::exists(request_.out / "rgb/left"));
+  EXPECT_THAT(faults(), testing::IsEmpty());
+  request_.options = {};
+  request_.out = folder_ / "all";
+  record({"rgb"});
+  EXPECT_EQ(read_file(request_.out / "rgb/side/000003.png"), sparse);
+}
+
+TEST_F(RecordTest, BadRequestsAreOneError) {
+  request_.options.cameras = {"lefft"};
+  EXPECT_THAT(error_of([&] { record({"rgb"}); }), HasSubstr("no camera named 'lefft'"));
+  request_.options.cameras = {"left"};
+  EXPECT_THAT(error_of([&] {
+                record({"rgb", "kitti"});
+              }),
+              HasSubstr("kitti: expected a stereo pair"));
+  EXPECT_TRUE(std::filesystem::is_empty(request_.out));
+  request_.options.cameras = {};
+  request_.out = folder_ / "late";
+  request_.options.first = 1000;
+  EXPECT_THAT(error_of([&] { record({"rgb"}); }), HasSubstr("--frames"));
+  EXPECT_THAT(error_of([] { parse_formats({"eroc"}); }),
+              HasSubstr("expected some of euroc, kitti"));
+  EXPECT_THAT(error_of([] { parse_categories({"grape"}); }), HasSubstr("expected some of bunch"));
+  for (const char* bad : {"5..3", "a..b", "1..", "-1..3", "..", "1.5"}) {
+    EXPECT_THAT(error_of([&] { parse_span(bad, "--seeds"); }), HasSubstr("expected A..B")) << bad;
+  }
+  EXPECT_EQ(parse_span("3..12", "--seeds"), (std::pair<std::int64_t, std::int64_t>{3, 12}));
+  EXPECT_EQ(parse_span("7", "--seeds"), (std::pair<std::int64_t, std::int64_t>{7, 7}));
+}
+
+}  // namespace
+}  // namespace vinebench

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/run/prefetch.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+
+#include "core/util/error.h"
+#include "tests/support/fakes.h"
+
+namespace vinebench {
+namespace {
+
+TEST(LookAheadTest, GivesTheSourcesSamplesInOrder) {
+  fakes::Source alone(1, 20);
+  fakes::Source source(1, 20);
+  LookAhead ahead(source);
+  EXPECT_EQ(ahead.size(), 20);
+  for (int i = 0; i < 20; ++i) {
+    const auto expected = alone.next();
+    const auto sample = ahead.next();
+    ASSERT_TRUE(sample);
+    EXPECT_EQ(sample->frame.index, i);
+    EXPECT_EQ(cv::norm(sample->frame.images[0], expected->frame.images[0], cv::NORM_INF), 0);
+  }
+  EXPECT_FALSE(ahead.next());
+  EXPECT_FALSE(ahead.next());
+  ahead.times();  // nothing is under way: must not wait for ever
+}
+
+TEST(LookAheadTest, MayBeLeftBeforeTheEnd) {
+  fakes::Source source(1, 20);
+  {
+    LookAhead ahead(source);
+    ahead.next();
+  }
+  // One was given, one was under way: the source goes on with the third.
+  EXPECT_EQ(source.next()->frame.index, 2);
+}
+
+class Failing : public fakes::Source {
+ public:
+  std::optional<Sample> next() override {
+    auto sample = fakes::Source::next();
+    if (sample->frame.index == 2) fail("the third one is broken");
+    return sample;
+  }
+};
+
+TEST(LookAheadTest, AnErrorComesInItsTurn) {
+  Failing source;
+  LookAhead ahead(source);
+  EXPECT_TRUE(ahead.next());
+  EXPECT_TRUE(ahead.next());
+  EXPECT_THAT([&] { ahead.next(); },
+              testing::ThrowsMessage<Error>(testing::HasSubstr("the third one")));
+  EXPECT_FALSE(ahead.next());
+}
+
+}  // namespace
+}  // namespace vinebench

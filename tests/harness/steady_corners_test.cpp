@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Whether pictures of the shipped worlds give SLAM corners that stay: near and far, and without the
+// flicker that aliasing makes. The corners that the SLAM's extractor selects in one picture are
+// looked for among all that it finds in the next, before it selects: which of many good corners is
+// taken is its matter, whether one is there is the picture's.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "core/geometry/rig.h"
+#include "harness/benchmarks/render_benchmark.h"
+#include "harness/run_scenario.h"
+#include "sim/config_files.h"
+#include "sim/render/renderer.h"
+#include "slam/features/orb_extractor.h"
+
+namespace vinebench {
+namespace {
+
+const std::filesystem::path kSource = VINEBENCH_SOURCE_DIR;
+constexpr double kShift = 0.25;    // px
+constexpr double kNear = 1.5;      // px; a corner found again lies within this of where it moved
+constexpr double kFar = 10;        // m
+constexpr double kElsewhere = 31;  // px; a shift at which only chance finds a corner
+
+struct Corners {
+  std::vector<Eigen::Vector2d> pixels;
+  cv::Mat depth;
+
+  bool has(const Eigen::Vector2d& expected) const {
+    return std::ranges::any_of(
+        pixels, [&](const Eigen::Vector2d& pixel) { return (pixel - expected).norm() < kNear; });
+  }
+};
+
+class SteadyCornersTest : public testing::TestWithParam<const char*> {
+ protected:
+  static Corners corners(const OrbExtractor& orb, Renderer& renderer, const PinholeCamera& camera,
+                         const Pose& T_world_cam) {
+    Renderer::Request request;
+    request.depth = true;
+    const Picture picture = renderer.render(camera, T_world_cam, request);
+    cv::Mat grey;
+    cv::cvtColor(picture.rgb, grey, cv::COLOR_RGB2GRAY);
+    Corners found;
+    found.depth = picture.depth;
+    for (const Keypoint& keypoint : orb.extract(grey).features.keypoints) {
+      found.pixels.emplace_back(keypoint.x, keypoint.y);
+    }
+    return found;
+  }
+
+  OrbExtractor selecting_{OrbConfig{}};
+  OrbExtractor finding_{OrbConfig{20000}};
+};
+
+TEST_P(SteadyCornersTest, RepeatUnderAShiftOfAQuarterPixelNearAndFar) {
+  const WorldConfig world = load_world(kSource / "worlds" / GetParam());
+  const Rig rig = load_rig(kSource / "models" / "csl-rover" / "rig.yaml");
+  Renderer renderer(build_scene(world, 1, default_cache()), {});
+  int all = 0, again = 0, by_chance = 0;
+  std::array<int, 3> at_depth{};  // below 1 m, 1 to 2 m, 2 to 10 m
+  for (const Pose& T_world_body : aisle_route(world, 4)) {
+    const RigCamera& mounted = rig.cameras[0];
+    const Pose T_world_cam = T_world_body * mounted.T_body_cam;
+    // Moving the principal point moves the whole picture, without parallax.
+    PinholeCamera moved = mounted.model;
+    moved.cx += kShift;
+    moved.cy += kShift;
+    const Corners before = corners(selecting_, renderer, mounted.model, T_world_cam);
+    const Corners after = corners(finding_, renderer, moved, T_world_cam);
+    for (const Eigen::Vector2d& pixel : before.pixels) {
+      const float depth = before.depth.at<float>(static_cast<int>(std::lround(pixel.y())),
+                                                 static_cast<int>(std::lround(pixel.x())));
+      if (depth <= 0 || depth > kFar) continue;
+      const Eigen::Vector2d expected = pixel + Eigen::Vector2d(kShift, kShift);
+      ++all;
+      again += after.has(expected);
+      by_chance += after.has(expected + Eigen::Vector2d(kElsewhere, 0));
+      ++at_depth[depth < 1 ? 0 : depth < 2 ? 1 : 2];
+    }
+  }
+  RecordProperty("repeated_percent", 100 * again / std::max(1, all));
+  EXPECT_GE(again, 0.8 * all) << again << " of " << all;
+  EXPECT_LE(by_chance, 0.35 * all) << by_chance << " of " << all;
+  for (std::size_t i = 0; i < at_depth.size(); ++i) {
+    EXPECT_GE(at_depth[i], 0.08 * all) << "at depths of class " << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds, SteadyCornersTest,
+                         testing::Values("csl-vineyard.yaml", "many-rows.yaml",
+                                         "typical-vineyard.yaml"));
+
+}  // namespace
+}  // namespace vinebench

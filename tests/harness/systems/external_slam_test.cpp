@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/systems/external_slam.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/core/mat.hpp>
+
+#include "core/util/files.h"
+#include "harness/report/run_folder.h"
+#include "harness/run.h"
+#include "tests/support/fakes.h"
+#include "tests/support/test_folder.h"
+
+namespace vinebench {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// The fakes' rig; its first camera is 0.1 m ahead of the body and 0.5 m above it.
+RecordingNotes notes() {
+  RecordingNotes notes;
+  for (const RigCamera& camera : fakes::rig().cameras) {
+    RigConfig::Camera c;
+    c.name = camera.name;
+    c.width = 16;
+    c.height = 16;
+    c.position = {0.1, 0, 0.5};
+    notes.rig.cameras.push_back(c);
+  }
+  notes.rig.rate_hz = fakes::kRate;
+  return notes;
+}
+
+class ExternalSlamTest : public testing::Test {
+ protected:
+  /// Runs a shell script as the system, on 21 frames of 0.1 s.
+  RunOutcome run(const std::string& script) {
+    config_.program = folder_.write("slam.sh", "#!/bin/sh\n" + script + "\n");
+    fs::permissions(config_.program, fs::perms::owner_all);
+    prepare_run_folder(folder_.path(), fakes::scenario());
+    fakes::Source source(1, 21);
+    const auto slam = make_external_slam(config_, notes(), folder_.path(), stopped_);
+    RunOptions options;
+    options.folder = folder_.path();
+    options.stopped = stopped_;
+    return run_lockstep_and_judge(fakes::scenario(), source, *slam, options);
+  }
+  std::string error(const std::string& script) {
+    return test::error_of([&] { run(script); });
+  }
+
+  test::TestFolder folder_;
+  ExternalSlamConfig config_;
+  std::function<bool()> stopped_;
+};
+
+/// A pose at the origin for every frame but the first and the last five; stamps in ns.
+constexpr const char* kStand =
+    "sed -n '3,17p' \"$1/frames.csv\" | sed 's/$/ 0 0 0 0 0 0 1/' >\"$2/trajectory.txt\"";
+
+TEST_F(ExternalSlamTest, FramesWithoutAPoseCountAgainstCoverage) {
+  const RunOutcome outcome = run(kStand);
+  EXPECT_DOUBLE_EQ(outcome.metrics["coverage"].get<double>(), 15.0 / 21);
+  EXPECT_EQ(outcome.metrics["losses"], 1);
+  EXPECT_EQ(outcome.metrics["lost_frames"], 5);
+  EXPECT_EQ(read_tum(folder_ / "estimate.tum").size(), 15u);
+  EXPECT_EQ(read_tum(folder_ / "estimate_live.tum").size(), 15u);
+  // Stamps 0.1 to 1.5 s of a circle: the first pose is the origin of the map.
+  EXPECT_GT(outcome.metrics["ate_origin_rmse_m"].get<double>(), 0.1);
+  EXPECT_FALSE(fs::exists(folder_ / "recording"));
+}
+
+TEST_F(ExternalSlamTest, TheRecordingHasAllButTheTruth) {
+  config_.keep_recording = true;
+  config_.arguments = {"--in={recording}", "{output}/out.txt"};
+  config_.trajectory = "out.txt";
+  run("[ \"$1\" = \"--in=$VINEBENCH_RECORDING\" ] && [ \"$2\" = \"$VINEBENCH_OUTPUT/out.txt\" ] &&"
+      "[ \"$PWD\" = \"$VINEBENCH_OUTPUT\" ] && : >out.txt");
+  EXPECT_TRUE(fs::exists(folder_ / "recording/mav0/cam2/data/2000000000.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "recording/rig.yaml"));
+  EXPECT_FALSE(fs::exists(folder_ / "recording/mav0/state_groundtruth_estimate0"));
+  EXPECT_EQ(run(": >out.txt").metrics["coverage"], 0);  // replaces the recording of before
+}
+
+// The truth of the left camera: the body's circle and the camera's place on it.
+TEST_F(ExternalSlamTest, PosesOfACameraAreJudgedAsTheBodys) {
+  config_.poses_of = "front_left";
+  std::string poses;
+  for (int i = 0; i < 21; ++i) {
+    const Stamp stamp = stamp_of_frame(i, fakes::kRate);
+    const Pose T_world_cam = fakes::circle(stamp) * notes().rig.make().cameras[0].T_body_cam;
+    poses += format_tum({{stamp, T_world_cam}});
+  }
+  folder_.write("poses.tum", poses);
+  const RunOutcome outcome = run("cp ../poses.tum trajectory.txt");
+  EXPECT_EQ(outcome.metrics["coverage"], 1);
+  EXPECT_NEAR(outcome.metrics["ate_origin_rmse_m"].get<double>(), 0, 1e-8);  // m, of nine digits
+}
+
+TEST_F(ExternalSlamTest, SaysWhatWentWrong) {
+  EXPECT_THAT(
+      error("echo no vocabulary >&2; exit 3"),
+      testing::AllOf(HasSubstr("slam.sh: exit code 3"), HasSubstr("log.txt: no vocabulary")));
+  EXPECT_THAT(error("kill -SEGV $$"), HasSubstr("slam.sh: ended by signal 11; it printed nothing"));
+  EXPECT_THAT(error(":"), HasSubstr("left no trajectory; expected "));
+  EXPECT_THAT(error("echo 1 2 3 >trajectory.txt"), HasSubstr("trajectory.txt:1: expected 8"));
+  config_.timeout = 0.1;
+  EXPECT_THAT(error("sleep 60"), HasSubstr("took more than 0.1 s"));
+  config_.poses_of = "top";
+  EXPECT_THAT(error(":"), HasSubstr("poses_of: expected 'body' or a camera of the rig"));
+}
+
+TEST_F(ExternalSlamTest, AProgramThatCannotBeRunIsAnError) {
+  config_.program = folder_.write("readme.txt", "not a program");
+  const auto slam = make_external_slam(config_, notes(), folder_.path(), {});
+  EXPECT_THAT(test::error_of([&] { slam->finish(); }),
+              HasSubstr("readme.txt: cannot be started: Permission denied"));
+}
+
+TEST_F(ExternalSlamTest, AStopEndsTheProgram) {
+  stopped_ = [&] { return fs::exists(folder_ / "external/started"); };
+  const RunOutcome outcome = run(": >started; sleep 60");
+  EXPECT_TRUE(outcome.interrupted);
+  EXPECT_FALSE(fs::exists(folder_ / "metrics.json"));
+}
+
+}  // namespace
+}  // namespace vinebench

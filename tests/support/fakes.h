@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numbers>
+
+#include "harness/experiment/scenario.h"
+#include "harness/run/run_record.h"
+
+namespace vinebench::fakes {
+
+inline constexpr double kRate = 10;  // frames a second
+
+inline Rig rig() {
+  Rig rig;
+  rig.name = "fake";
+  rig.rate_hz = kRate;
+  const PinholeCamera model{.width = 8, .height = 6, .fx = 5, .fy = 5, .cx = 3.5, .cy = 2.5};
+  for (const char* name : {"front_left", "front_right", "side"}) {
+    rig.cameras.push_back({name, model, Rig::mount({0.1, 0, 0.5}, {0, 0, 0})});
+  }
+  return rig;
+}
+
+/// Once round a circle of 1 m radius in 20 s: 0.314 m/s.
+inline Pose circle(Stamp stamp) {
+  const double angle = 2 * std::numbers::pi * to_seconds(stamp) / 20;
+  return {from_roll_pitch_yaw({0, 0, angle + std::numbers::pi / 2}),
+          {std::cos(angle), std::sin(angle), 0}};
+}
+
+/// Twenty seconds on the circle; the tag is in view during the first and the last 2 s, the front
+/// cameras see nothing but carton from 8 s to 12 s.
+class Source : public FrameSource {
+ public:
+  explicit Source(int seed = 1, std::int64_t frames = 201) : seed_(seed), frames_(frames) {}
+
+  std::optional<Sample> next() override {
+    if (index_ >= frames_) return std::nullopt;
+    Sample sample;
+    sample.frame.index = index_;
+    sample.frame.stamp = stamp_of_frame(index_, kRate);
+    for (int camera = 0; camera < 3; ++camera) {
+      sample.frame.images.emplace_back(6, 8, CV_8UC3,
+                                       cv::Scalar(seed_, camera, double(index_ % 256)));
+    }
+    const double t = to_seconds(sample.frame.stamp);
+    const double share = t >= 8 && t <= 12 ? 0.95 : 0.0;
+    sample.truth = {circle(sample.frame.stamp), true, {share, share, 0.0}, {}, {}, {}};
+    if (t <= 2 || t >= 18) sample.truth.visible_tags = {0};
+    ++index_;
+    return sample;
+  }
+  std::int64_t size() const override { return frames_; }
+  const Rig& rig() const override { return rig_; }
+  const StageTimes& times() const override { return times_; }
+
+ private:
+  Rig rig_ = fakes::rig();
+  int seed_;
+  std::int64_t frames_;
+  std::int64_t index_ = 0;
+  StageTimes times_;
+};
+
+/// A SLAM system that knows the way and answers as `change` makes it.
+class Slam : public SlamSystem {
+ public:
+  using Change = std::function<void(Estimate&)>;
+  explicit Slam(Change change = {}) : change_(std::move(change)) {}
+
+  Estimate process(const Frame& frame) override {
+    Estimate estimate;
+    estimate.stamp = frame.stamp;
+    estimate.status = TrackingStatus::kTracking;
+    estimate.T_map_body = circle(0).inverse() * circle(frame.stamp);
+    estimate.cameras = {{500, 200, 100, 80}, {500, 0, 100, 80}, {}};
+    estimate.keyframe = frame.index % 50 == 0;
+    if (change_) change_(estimate);
+    if (estimate.T_map_body) summary_.trajectory.push_back({frame.stamp, *estimate.T_map_body});
+    if (estimate.keyframe) summary_.keyframes.push_back({frame.stamp, *estimate.T_map_body});
+    return estimate;
+  }
+  SlamSummary finish() override {
+    summary_.landmarks = 1234;
+    return summary_;
+  }
+  const StageTimes& times() const override { return times_; }
+
+ private:
+  Change change_;
+  SlamSummary summary_;
+  StageTimes times_;
+};
+
+/// The closure that the truth would measure between two stamps, off by `offset` metres along x.
+inline LoopClosure closure(Stamp earlier, Stamp later, double offset = 0) {
+  LoopClosure closure;
+  closure.tag_id = 7;
+  closure.earlier = earlier;
+  closure.later = later;
+  closure.T_earlier_later = circle(earlier).inverse() * circle(later) *
+                            Pose{Eigen::Quaterniond::Identity(), {offset, 0, 0}};
+  return closure;
+}
+
+inline Stamp seconds(double s) {
+  return from_seconds(s);
+}
+
+/// A scenario for these fakes: one row, one tag of id 7 beside the start.
+inline ScenarioConfig scenario() {
+  ScenarioConfig scenario;
+  scenario.name = "fake";
+  WorldConfig& world = scenario.simulation.world;
+  world.rows = {{{-1, 1.5}, {1, 1.5}}};
+  world.tags.push_back({});
+  world.tags.back().id = 7;
+  world.tags.back().position = {1.3, 0, 0.5};
+  world.boxes.push_back({});
+  world.boxes.back().position = {-1.4, 0};
+  return scenario;
+}
+
+}  // namespace vinebench::fakes
