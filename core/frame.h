@@ -29,8 +29,8 @@ struct WheelSample {
 struct Frame {
   std::int64_t index = 0;
   Stamp stamp = 0;
-  /// One picture a camera of the rig, in its order; CV_8UC1 (grey) or CV_8UC3 (RGB), top row first.
-  /// An empty picture is a camera that delivered none.
+  /// One image a camera of the rig, in its order; CV_8UC1 (grey) or CV_8UC3 (RGB), top row first.
+  /// An empty image is a camera that delivered none.
   std::vector<cv::Mat> images;
   std::vector<ImuSample> imu;       ///< since the frame before, oldest first
   std::vector<WheelSample> wheels;  ///< since the frame before, oldest first

@@ -72,7 +72,7 @@ typedef struct vinebench_setup {
 } vinebench_setup;
 
 typedef struct vinebench_image {
-  const uint8_t* data; /* top row first; NULL where the camera delivered no picture */
+  const uint8_t* data; /* top row first; NULL where the camera delivered no image */
   int32_t width, height;
   int32_t channels; /* 1: grey, 3: red, green, blue */
   size_t stride;    /* bytes from a row to the next */

@@ -32,12 +32,12 @@ enum class TrackingStatus {
 /// How well one camera took part in a frame.
 struct CameraCounts {
   int features = 0;  ///< extracted
-  int stereo = 0;    ///< with a depth within the stereo limit (left eyes only)
+  int stereo = 0;    ///< with a depth within the stereo limit (left cameras only)
   int matches = 0;   ///< with landmarks of the map
   int inliers = 0;   ///< of these, in agreement with the estimated pose
 };
 
-/// A tag found in a picture of this frame.
+/// A tag found in an image of this frame.
 struct TagSighting {
   int camera = 0;  ///< index into Rig::cameras
   std::string family;
@@ -51,8 +51,8 @@ struct TagSighting {
 
 /// Why a sighting of a tag is not believed.
 enum class TagRejection {
-  kAmbiguous,  ///< two poses explain it
-  kMisplaced,  ///< farther from where the map has the tag than the way driven can explain
+  kAmbiguous,  ///< two poses diagnose it
+  kMisplaced,  ///< farther from where the map has the tag than the way driven can diagnose
   kDuplicate,  ///< two of this name are in view, in different places
 };
 

@@ -18,7 +18,7 @@ namespace {
 
 CapturePlan plan_of(const StreamRequest& request, const Rig& rig) {
   if (request.first < 0 || request.last < request.first || request.every < 1) {
-    fail("frames: expected 0 <= first <= last, and every so-manieth from 1 on, found {} to {}, {}",
+    fail("frames: expected 0 <= first <= last, and every n-th from 1 on, found {} to {}, {}",
          request.first, request.last, request.every);
   }
   CapturePlan plan;
@@ -39,11 +39,11 @@ CapturePlan plan_of(const StreamRequest& request, const Rig& rig) {
   return plan;
 }
 
-/// What label pictures and the like are made of, where the request said so.
+/// What label images and the like are made of, where the request said so.
 const TruthView& view_of(const DatasetFrame& frame, std::size_t camera,
-                         const cv::Mat Picture::*part, const char* truth) {
-  if (camera >= frame.truth.views.size() || (frame.truth.views[camera].picture.*part).empty()) {
-    fail("{}: this camera's picture of frame {} came without; ask for truth \"{}\"", truth,
+                         const cv::Mat RenderedImage::*part, const char* truth) {
+  if (camera >= frame.truth.views.size() || (frame.truth.views[camera].image.*part).empty()) {
+    fail("{}: this camera's image of frame {} came without; ask for truth \"{}\"", truth,
          frame.number, truth);
   }
   return frame.truth.views[camera];
@@ -75,13 +75,15 @@ std::shared_ptr<const DatasetFrame> FrameStream::next() {
       DatasetFrame{frames_++, std::move(sample->frame), std::move(sample->truth)});
 }
 
-PictureLabels FrameStream::things(const DatasetFrame& frame, std::size_t camera) const {
-  return label_things(view_of(frame, camera, &Picture::instances, "things"), source_->scene());
+ImageLabels FrameStream::things(const DatasetFrame& frame, std::size_t camera) const {
+  return label_things(view_of(frame, camera, &RenderedImage::instances, "things"),
+                      source_->scene());
 }
 
 FlowTruth FrameStream::flow(const DatasetFrame& from, const DatasetFrame& to,
                             std::size_t camera) const {
-  for (const DatasetFrame* frame : {&from, &to}) view_of(*frame, camera, &Picture::normals, "flow");
+  for (const DatasetFrame* frame : {&from, &to})
+    view_of(*frame, camera, &RenderedImage::normals, "flow");
   if (to.number != from.number + 1) {
     fail("flow: expected a frame and the next one, found {} and {}", from.number, to.number);
   }

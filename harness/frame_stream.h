@@ -18,7 +18,7 @@
 
 namespace vinebench {
 
-/// Which frames of a scenario are wanted, and what comes with their pictures.
+/// Which frames of a scenario are wanted, and what comes with their images.
 struct StreamRequest {
   std::filesystem::path scenario;
   std::vector<Override> overrides;
@@ -50,8 +50,8 @@ class FrameStream {
   /// Null after the last one.
   std::shared_ptr<const DatasetFrame> next();
 
-  /// The things of a frame's picture; of the request's truth, "things" is needed.
-  PictureLabels things(const DatasetFrame& frame, std::size_t camera) const;
+  /// The things of a frame's image; of the request's truth, "things" is needed.
+  ImageLabels things(const DatasetFrame& frame, std::size_t camera) const;
 
   /// From one frame to the next one asked for, px; "flow" is needed. Throws Error for a camera with
   /// lens distortion.
@@ -61,7 +61,7 @@ class FrameStream {
   ScenarioConfig scenario_;
   WorkerPool pool_;
   std::unique_ptr<SimulatedSource> source_;
-  std::optional<LookAhead> ahead_;  // last: it must go first
+  std::optional<Prefetch> ahead_;  // last: it must go first
   std::int64_t frames_ = 0;
 };
 

@@ -38,7 +38,7 @@ struct RecordOutcome {
   std::int64_t sequences = 0;  ///< that are complete
   std::int64_t skipped = 0;    ///< of these, what an earlier recording had completed
   std::int64_t frames = 0;     ///< recorded now
-  std::uint64_t bytes = 0;     ///< likewise, in pictures
+  std::uint64_t bytes = 0;     ///< likewise, in images
 };
 
 /// Simulates without a SLAM system and records. Sequences that are complete are kept where it

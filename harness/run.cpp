@@ -17,7 +17,7 @@ struct Sinks {
   Sinks(const ScenarioConfig& scenario, const FrameSource& source, const RunOptions& options)
       : recorder(source.rig(), scenario.simulation.world.tags) {
     if (!options.folder.empty()) {
-      pictures.emplace(options.folder / "frames", source.rig(), source.size(), options.pictures);
+      images.emplace(options.folder / "frames", source.rig(), source.size(), options.images);
     }
     if (options.progress != nullptr) {
       progress.emplace(*options.progress, options.terminal, options.title, source.size());
@@ -25,14 +25,14 @@ struct Sinks {
   }
   std::vector<Sink*> list() {
     std::vector<Sink*> sinks{&recorder, &hash};
-    if (pictures) sinks.push_back(&*pictures);
+    if (images) sinks.push_back(&*images);
     if (progress) sinks.push_back(&*progress);
     return sinks;
   }
 
-  Recorder recorder;
+  RunRecorder recorder;
   RunHash hash;
-  std::optional<FramePictures> pictures;
+  std::optional<FrameImages> images;
   std::optional<Progress> progress;
 };
 
@@ -66,12 +66,12 @@ RunOutcome run_lockstep_and_judge(const ScenarioConfig& scenario, FrameSource& s
 
   const RunRecord& record = sinks.recorder.record();
   const RunResults results = measure(record, scenario);
-  const std::vector<Explanation> explanations = explain(record, results, scenario);
+  const std::vector<DegradedSegment> segments = diagnose(record, results, scenario);
   if (!options.folder.empty()) {
-    write_run_files(options.folder, scenario, record, results, explanations);
+    write_run_files(options.folder, scenario, record, results, segments);
   }
   RunOutcome outcome;
-  outcome.summary = format_explanations(record, explanations);
+  outcome.summary = format_diagnosis(record, segments);
   outcome.frames = static_cast<std::int64_t>(record.ticks.size());
   // A system that works at the end alone may be stopped there.
   const bool whole = outcome.frames == source.size() && !record.summary.trajectory.empty();

@@ -23,7 +23,7 @@ struct MapFiles {
 struct RunOptions {
   std::filesystem::path folder;  ///< where results go; nothing is written when empty
   MapFiles maps;
-  int pictures = 12;                 ///< frames whose pictures are kept as PNG
+  int images = 12;                   ///< frames whose images are kept as PNG
   std::ostream* progress = nullptr;  ///< told how far the run is
   bool terminal = false;             ///< `progress` is a terminal
   std::string title = "run";         ///< of the progress line

@@ -111,7 +111,7 @@ RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOp
   const auto simulation =
       make_simulation(scenario.simulation, static_cast<std::uint64_t>(scenario.seed),
                       default_cache(), drawing, plan);
-  std::optional<LookAhead> ahead;
+  std::optional<Prefetch> ahead;
   if (threads > 1 && scenario.simulation.route.steering == Steering::kTruth) {
     ahead.emplace(*simulation);
   }

@@ -38,17 +38,17 @@ std::vector<double> parse_numbers(const std::string& text, const std::string& ex
   return numbers;
 }
 
-cv::Mat for_encoder(const cv::Mat& picture) {
+cv::Mat for_encoder(const cv::Mat& image) {
   cv::Mat out;
-  switch (picture.type()) {
+  switch (image.type()) {
     case CV_8UC3:
-      cv::cvtColor(picture, out, cv::COLOR_RGB2BGR);
+      cv::cvtColor(image, out, cv::COLOR_RGB2BGR);
       return out;
     case CV_32FC1:
-      picture.convertTo(out, CV_16U, 1000);
+      image.convertTo(out, CV_16U, 1000);
       return out;
     default:
-      return picture;
+      return image;
   }
 }
 
@@ -77,14 +77,14 @@ Pose parse_view(const std::string& text) {
   return {from_roll_pitch_yaw({0, -pitch_up * kRadians, n[3] * kRadians}), {n[0], n[1], n[2]}};
 }
 
-void write_picture(const std::filesystem::path& file, const cv::Mat& picture) {
+void write_image(const std::filesystem::path& file, const cv::Mat& image) {
   const std::string ending = file.extension().string();
   const bool lossy = ending == ".jpg" || ending == ".jpeg";
   if (!lossy && ending != ".png")
     fail("{}: expected a name that ends in .png or .jpg", file.string());
-  if (lossy && picture.depth() != CV_8U) fail("{}: depth needs a .png", file.string());
+  if (lossy && image.depth() != CV_8U) fail("{}: depth needs a .png", file.string());
   std::vector<std::uint8_t> bytes;
-  cv::imencode(ending, for_encoder(picture), bytes,
+  cv::imencode(ending, for_encoder(image), bytes,
                lossy ? std::vector<int>{cv::IMWRITE_JPEG_QUALITY, 88} : std::vector<int>{});
   write_file_atomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
@@ -110,10 +110,10 @@ cv::Mat turntable(const WorldConfig& world, std::uint64_t seed, const PinholeCam
   cv::Mat sheet(camera.height * (kViews / kColumns), camera.width * kColumns, CV_8UC3);
   for (int i = 0; i < kViews; ++i) {
     const double yaw = (i + 0.5) * 2 * std::numbers::pi / kViews;
-    const Eigen::Vector2d eye =
+    const Eigen::Vector2d camera =
         box.center() - distance * Eigen::Vector2d(std::cos(yaw), std::sin(yaw));
-    const Pose T_world_cam =
-        Rig::mount({eye.x(), eye.y(), 0.5 + distance * std::tan(kPitchDown)}, {0, kPitchDown, yaw});
+    const Pose T_world_cam = Rig::mount(
+        {camera.x(), camera.y(), 0.5 + distance * std::tan(kPitchDown)}, {0, kPitchDown, yaw});
     const cv::Rect place((i % kColumns) * camera.width, (i / kColumns) * camera.height,
                          camera.width, camera.height);
     renderer.render(camera, T_world_cam, {}).rgb.copyTo(sheet(place));

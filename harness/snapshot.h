@@ -22,15 +22,15 @@ PinholeCamera parse_camera(const std::string& text);
 /// the pose of a frame with x ahead, y left, z up. Throws Error for anything else.
 Pose parse_view(const std::string& text);
 
-/// Writes a picture as PNG or JPEG by the name's ending: CV_8UC3 (RGB), CV_8UC1, or CV_32FC1 (depth
+/// Writes an image as PNG or JPEG by the name's ending: CV_8UC3 (RGB), CV_8UC1, or CV_32FC1 (depth
 /// in m, written as 16-bit PNG in mm). Throws Error for other endings and when it cannot be
 /// written.
-void write_picture(const std::filesystem::path& file, const cv::Mat& picture);
+void write_image(const std::filesystem::path& file, const cv::Mat& image);
 
-/// Labels (CV_8UC1 of Label) in colours for the eye, CV_8UC3.
+/// Labels (CV_8UC1 of Label) in colours for the camera, CV_8UC3.
 cv::Mat colour_labels(const cv::Mat& labels);
 
-/// Eight views of a world from all round, from above a person's eyes, on one sheet.
+/// Eight views of a world from all round, from above a person's cameras, on one sheet.
 cv::Mat turntable(const WorldConfig& world, std::uint64_t seed, const PinholeCamera& camera);
 
 }  // namespace vinebench

@@ -38,11 +38,11 @@ py::dtype dtype_of(const cv::Mat& mat) {
     case CV_32F:
       return py::dtype::of<float>();
     default:
-      fail("a picture of OpenCV type {} has no array", mat.type());
+      fail("an image of OpenCV type {} has no array", mat.type());
   }
 }
 
-/// (h, w) or (h, w, channels), without a copy: the array keeps the picture's memory alive.
+/// (h, w) or (h, w, channels), without a copy: the array keeps the image's memory alive.
 py::array to_array(const cv::Mat& mat) {
   const auto item = static_cast<py::ssize_t>(mat.elemSize1());
   std::vector<py::ssize_t> shape{mat.rows, mat.cols};
@@ -74,23 +74,23 @@ struct PyFrame {
 };
 
 /// One array a camera that delivered, by its name.
-template <class PictureOf>
-py::dict by_camera(const PyFrame& self, const PictureOf& picture_of) {
+template <class ImageOf>
+py::dict by_camera(const PyFrame& self, const ImageOf& image_of) {
   py::dict arrays;
   const std::vector<RigCamera>& cameras = self.stream->rig().cameras;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    const cv::Mat* picture = picture_of(i);
-    if (picture != nullptr && !picture->empty()) {
-      arrays[py::str(cameras[i].name)] = to_array(*picture);
+    const cv::Mat* image = image_of(i);
+    if (image != nullptr && !image->empty()) {
+      arrays[py::str(cameras[i].name)] = to_array(*image);
     }
   }
   return arrays;
 }
 
-py::dict truth_arrays(const PyFrame& self, const cv::Mat Picture::*part) {
+py::dict truth_arrays(const PyFrame& self, const cv::Mat RenderedImage::*part) {
   const std::vector<TruthView>& views = self.frame->truth.views;
   return by_camera(
-      self, [&](std::size_t i) { return i < views.size() ? &(views[i].picture.*part) : nullptr; });
+      self, [&](std::size_t i) { return i < views.size() ? &(views[i].image.*part) : nullptr; });
 }
 
 /// (n, 7): s, rad/s x y z, m/s^2 x y z.
@@ -121,7 +121,7 @@ Eigen::MatrixXd wheel_readings(const PyFrame& self) {
 
 py::list things_of(const PyFrame& self, const std::string& name) {
   const std::size_t camera = self.camera(name);
-  const PictureLabels labels = self.stream->things(*self.frame, camera);
+  const ImageLabels labels = self.stream->things(*self.frame, camera);
   const cv::Size size = labels.segments.size();
   py::list things;
   for (const ThingLabel& thing : labels.things) {
@@ -214,7 +214,7 @@ void define_camera(py::module_& module) {
 }
 
 void define_frame(py::module_& module) {
-  py::class_<PyFrame>(module, "Frame", "One instant: pictures and truth, each by camera name.")
+  py::class_<PyFrame>(module, "Frame", "One instant: images and truth, each by camera name.")
       .def_property_readonly(
           "number", [](const PyFrame& f) { return f.frame->number; },
           "among those asked for, from 0 on")
@@ -236,16 +236,16 @@ void define_frame(py::module_& module) {
           },
           "uint8, (h, w, 3) RGB, or (h, w) of a grey camera")
       .def_property_readonly(
-          "depth", [](const PyFrame& f) { return truth_arrays(f, &Picture::depth); },
+          "depth", [](const PyFrame& f) { return truth_arrays(f, &RenderedImage::depth); },
           "float32 (h, w), m along the optical axis; 0 for sky")
       .def_property_readonly(
-          "labels", [](const PyFrame& f) { return truth_arrays(f, &Picture::labels); },
+          "labels", [](const PyFrame& f) { return truth_arrays(f, &RenderedImage::labels); },
           "uint8 (h, w), what label_names says")
       .def_property_readonly(
-          "instances", [](const PyFrame& f) { return truth_arrays(f, &Picture::instances); },
+          "instances", [](const PyFrame& f) { return truth_arrays(f, &RenderedImage::instances); },
           "int32 (h, w): 256 times the thing's number, and of a vine its bunch in the low byte")
       .def_property_readonly(
-          "normals", [](const PyFrame& f) { return truth_arrays(f, &Picture::normals); },
+          "normals", [](const PyFrame& f) { return truth_arrays(f, &RenderedImage::normals); },
           "float32 (h, w, 3), unit, camera axes, towards the camera")
       .def_property_readonly("imu", &inertial_readings,
                              "(n, 7) since the frame before: s, rad/s x y z, m/s^2 x y z")

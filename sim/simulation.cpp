@@ -28,8 +28,8 @@ class Simulation : public SimulatedSource {
       : config_(config),
         pool_(pool),
         plan_(plan),
-        told_rig_(checked_rig(config)),
-        rig_(vinebench::true_rig(told_rig_, config.sensors.calibration, seed)),
+        nominal_rig_(checked_rig(config)),
+        rig_(vinebench::true_rig(nominal_rig_, config.sensors.calibration, seed)),
         rover_(config.rover, config.world, config.route, seed),
         timing_(config.sensors.timing, config.sensors.drops, rig_, seed),
         exposure_(config.sensors.camera.exposure, rig_),
@@ -79,11 +79,11 @@ class Simulation : public SimulatedSource {
   std::int64_t size() const override { return plan_.count(frames_); }
   const SceneIndex& scene() const override { return index_of_scene_; }
   const Rig& true_rig() const override { return rig_; }
-  const Rig& rig() const override { return told_rig_; }
+  const Rig& rig() const override { return nominal_rig_; }
   const StageTimes& times() const override { return times_; }
 
  private:
-  /// Past the frame's instant, where a picture's exposure or the stamps ask for it; readings are
+  /// Past the frame's instant, where an image's exposure or the stamps ask for it; readings are
   /// handed out up to the stamp.
   void drive(Frame& frame) {
     const ScopedTimer timer(times_, "physics");
@@ -105,7 +105,7 @@ class Simulation : public SimulatedSource {
                   [&](WheelSample& reading) { wheels_.measure(reading); });
   }
 
-  /// Every picture has its part in what an automatic exposure does next.
+  /// Every image has its part in what an automatic exposure does next.
   bool takes_all() const { return config_.sensors.camera.exposure.automatic; }
   bool takes(std::size_t camera) const { return takes_all() || plan_.has_camera(camera); }
 
@@ -119,7 +119,7 @@ class Simulation : public SimulatedSource {
     return plan_.labels || plan_.depth || plan_.instances || plan_.normals || plan_.motion;
   }
 
-  /// Each renderer draws every so-manieth camera; who draws what changes no pixel.
+  /// Each renderer draws every n-th camera; who draws what changes no pixel.
   void render(Sample& sample) {
     const std::size_t cameras = rig_.cameras.size();
     std::vector<double> spent(cameras);
@@ -166,21 +166,21 @@ class Simulation : public SimulatedSource {
     const bool wants_labels = reads_tags || !config_.world.boxes.empty();
     if (plan_.has_camera(camera)) ask_for_truth(shot.request);
     shot.request.labels |= wants_labels;
-    Picture picture = cameras_[camera].capture(
+    RenderedImage image = cameras_[camera].capture(
         shot, [&](Stamp stamp) { return rover_.T_world_body(stamp); },
         [&](const PinholeCamera& view, const Pose& T_world_cam, const Renderer::Request& request) {
           return renderer.render(view, T_world_cam, request);
         });
     if (wants_labels) {
-      sample.truth.box_share[camera] = label_share(picture.labels, Label::kBox);
+      sample.truth.box_share[camera] = label_share(image.labels, Label::kBox);
     }
-    if (reads_tags) visible = tags_seen(camera, shot.instant, picture.labels);
-    sample.frame.images[camera] = std::move(picture.rgb);
+    if (reads_tags) visible = tags_seen(camera, shot.instant, image.labels);
+    sample.frame.images[camera] = std::move(image.rgb);
     if (!plans_truth() || !plan_.has_camera(camera)) return;
     const RigCamera& mounted = rig_.cameras[camera];
     const Pose T_world_body = rover_.T_world_body(cameras_[camera].truth_instant(shot));
     sample.truth.views[camera] = {mounted.model, T_world_body * mounted.T_body_cam,
-                                  std::move(picture)};
+                                  std::move(image)};
   }
 
   void ask_for_truth(Renderer::Request& request) const {
@@ -219,7 +219,7 @@ class Simulation : public SimulatedSource {
   WorkerPool& pool_;
   CapturePlan plan_;
   SceneIndex index_of_scene_;
-  Rig told_rig_;
+  Rig nominal_rig_;
   Rig rig_;  ///< the true one
   DrivenRover rover_;
   std::optional<Pose> T_world_map_;  ///< the estimator's map, once there is one
@@ -230,7 +230,7 @@ class Simulation : public SimulatedSource {
   std::vector<CameraSensor> cameras_;
   std::vector<Renderer> renderers_;
   StageTimes times_;
-  Stamp window_ = 0;  ///< the most that a picture is exposed before or after the frame's instant
+  Stamp window_ = 0;  ///< the most that an image is exposed before or after the frame's instant
   std::int64_t frames_ = 0;
   std::int64_t index_ = 0;
 };

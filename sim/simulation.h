@@ -30,18 +30,18 @@ struct Truth {
   Pose T_world_body;
   bool known = true;  ///< false where a recording has no ground truth; the pose means nothing then
   std::vector<double> box_share;  ///< of each camera's pixels, 0 to 1, those that show a carton box
-  /// Indices into WorldConfig::tags that are wholly in the picture of a tag camera, unoccluded at
+  /// Indices into WorldConfig::tags that are wholly in the image of a tag camera, unoccluded at
   /// their centre and corners.
   std::vector<int> visible_tags;
-  /// Of each camera's picture, s, the time over which motion blurs it; empty where not known.
+  /// Of each camera's image, s, the time over which motion blurs it; empty where not known.
   std::vector<double> blur_time{};
-  /// Of each camera the truth pictures that a CapturePlan asks for, without colours, with the true
+  /// Of each camera the truth images that a CapturePlan asks for, without colours, with the true
   /// camera and its place; their motion is the wind's, to the next frame of the plan. Empty where
   /// no plan asks for any.
   std::vector<TruthView> views;
 };
 
-/// Something wrong with the data of a frame that its source survived, such as a picture that cannot
+/// Something wrong with the data of a frame that its source survived, such as an image that cannot
 /// be read.
 struct SourceEvent {
   std::string event;   ///< its kind, for counting: "picture_missing"
@@ -72,26 +72,26 @@ class FrameSource {
   virtual const StageTimes& times() const = 0;
 };
 
-/// A simulation, with what its truth pictures mean.
+/// A simulation, with what its truth images mean.
 class SimulatedSource : public FrameSource {
  public:
   virtual const SceneIndex& scene() const = 0;
-  /// The cameras that take the pictures.
+  /// The cameras that take the images.
   virtual const Rig& true_rig() const = 0;
 };
 
 /// What a recording asks of a simulation: more than a SLAM system needs, or less.
 struct CapturePlan {
-  // Which truth pictures come with each picture (Picture says what they are).
+  // Which truth images come with each image (RenderedImage says what they are).
   bool labels = false;
   bool depth = false;
   bool instances = false;
   bool normals = false;
   bool motion = false;
-  std::vector<bool> cameras;  ///< of the rig, which ones deliver pictures; all where empty
+  std::vector<bool> cameras;  ///< of the rig, which ones deliver images; all where empty
   std::int64_t first = 0;     ///< the first frame that is delivered
   std::int64_t last = std::numeric_limits<std::int64_t>::max();
-  std::int64_t every = 1;  ///< from the first on, every so-manieth frame is delivered
+  std::int64_t every = 1;  ///< from the first on, every n-th frame is delivered
 
   bool has_frame(std::int64_t index) const {
     return index >= first && index <= last && (index - first) % every == 0;
@@ -122,16 +122,16 @@ struct SimulationConfig {
   }
 };
 
-/// Drives the rover along its route and takes a picture with every camera at each frame's instant.
-/// rig() is what a SLAM system is told; the pictures are taken by the true one, which differs by
+/// Drives the rover along its route and takes an image with every camera at each frame's instant.
+/// rig() is what a SLAM system is told; the images are taken by the true one, which differs by
 /// the calibration error. Stamps are what the cameras say; the truth is that of the frame's
-/// instant. A picture that is dropped is empty and shows nothing: its box share is 0 and no tag is
+/// instant. An image that is dropped is empty and shows nothing: its box share is 0 and no tag is
 /// visible. Where the route says so the rover is steered by the estimates that it is answered:
 /// the first one of a pose is taken to be where the rover stands, and while there is none it goes
 /// on as commanded.
 ///
 /// A frame that the plan leaves out is driven through and not delivered; its readings come with the
-/// next one. No picture that is delivered depends on the plan: where exposure is automatic, the
+/// next one. No image that is delivered depends on the plan: where exposure is automatic, the
 /// others are taken too.
 std::unique_ptr<SimulatedSource> make_simulation(const SimulationConfig& config, std::uint64_t seed,
                                                  const std::filesystem::path& cache,

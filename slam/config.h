@@ -25,7 +25,7 @@ struct TrackingConfig {
   int min_inliers = 20;           ///< fewer is lost
   double min_inlier_share = 0.4;  ///< of the matches; a camera (or all) below it is not believed
   int local_keyframes = 20;       ///< keyframes whose landmarks are looked for
-  double max_speed = 35;          ///< m/s; a pose found by looks alone lies within its reach
+  double max_speed = 35;          ///< m/s; a pose found by appearance alone lies within its reach
 
   template <class Archive>
   void serialize(Archive& archive) {

@@ -33,19 +33,18 @@ FrontEnd::FrontEnd(const SlamConfig& config, const StereoRig& rig,
 cv::Mat FrontEnd::grey(const Frame& frame, int camera) const {
   const RigCamera& expected = rig_.cameras[static_cast<std::size_t>(camera)];
   if (frame.images.size() != rig_.cameras.size()) {
-    fail("frame {}: expected {} pictures, one a camera of the rig, found {}", frame.index,
+    fail("frame {}: expected {} images, one a camera of the rig, found {}", frame.index,
          rig_.cameras.size(), frame.images.size());
   }
   const cv::Mat& image = frame.images[static_cast<std::size_t>(camera)];
   if (image.empty()) return image;
   if (image.cols != expected.model.width || image.rows != expected.model.height) {
-    fail("frame {}: camera '{}': expected a picture of {} x {}, found {} x {}", frame.index,
+    fail("frame {}: camera '{}': expected an image of {} x {}, found {} x {}", frame.index,
          expected.name, expected.model.width, expected.model.height, image.cols, image.rows);
   }
   if (image.type() == CV_8UC1) return image;
   if (image.type() != CV_8UC3) {
-    fail("frame {}: camera '{}': expected an 8-bit grey or RGB picture", frame.index,
-         expected.name);
+    fail("frame {}: camera '{}': expected an 8-bit grey or RGB image", frame.index, expected.name);
   }
   cv::Mat converted;
   cv::cvtColor(image, converted, cv::COLOR_RGB2GRAY);
@@ -53,7 +52,7 @@ cv::Mat FrontEnd::grey(const Frame& frame, int camera) const {
 }
 
 void FrontEnd::extract(const Frame& frame, StageTimes& times) {
-  // The tag camera's large picture first: it takes longest.
+  // The tag camera's large image first: it takes longest.
   const std::size_t tag_jobs = rig_.tag_cameras.size();
   std::vector<double> spent(tag_jobs + rig_.pairs.size());
   pool_.for_each(spent.size(), [&](std::size_t job) {
@@ -94,7 +93,7 @@ void FrontEnd::match(FrameFeatures& features, StageTimes& times) {
     const auto start = std::chrono::steady_clock::now();
     Extraction& left = left_[p];
     StereoView& view = features.views[p];
-    const StereoEye& pair = rig_.pairs[p];
+    const RectifiedPair& pair = rig_.pairs[p];
     view.stereo.assign(left.features.size(), StereoMatch{});
     if (!left.pyramid.empty() && !right_pyramids_[p].empty()) {
       view.stereo =

@@ -15,14 +15,14 @@
 
 namespace vinebench {
 
-/// Boils a frame's pictures down to features with stereo matches, and tags.
+/// Boils a frame's images down to features with stereo matches, and tags.
 class FrontEnd {
  public:
   FrontEnd(const SlamConfig& config, const StereoRig& rig, const std::vector<RegisteredTag>& tags,
            WorkerPool& pool);
 
-  /// Throws Error for a picture of the wrong size or type. A missing (empty) picture has no
-  /// features. Adds the stages "features", "stereo" and "tags", each summed over its pictures.
+  /// Throws Error for an image of the wrong size or type. A missing (empty) image has no
+  /// features. Adds the stages "features", "stereo" and "tags", each summed over its images.
   std::shared_ptr<FrameFeatures> process(const Frame& frame, StageTimes& times);
 
  private:

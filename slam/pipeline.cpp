@@ -16,7 +16,7 @@ namespace {
 constexpr int kMinFirstPoints = 100;
 
 /// Frames in a row that see that many and find nothing of the map: it begins anew.
-constexpr int kStrangeFrames = 3;
+constexpr int kFramesBeforeRestart = 3;
 
 /// While a tag is in view keyframes are this near to each other, so that it is seen from several
 /// places.
@@ -79,13 +79,13 @@ Estimate Pipeline::process(const std::shared_ptr<FrameFeatures>& frame) {
   Estimate estimate = report(tracked);
   if (tracked.tracked) {
     estimate.rejected_tags =
-        loop_closer_.judge(*frame, tracked.motion.T_map_body, path_length_, map_);
+        loop_closer_.gate(*frame, tracked.motion.T_map_body, path_length_, map_);
   }
   if (tracked.tracked && wants_new_keyframe(tracked)) map_keyframe(tracked, estimate);
   frame->pyramids.clear();
   frame->right_pyramids.clear();
   if (tracked.tracked) {
-    loop_closer_.note(*frame, tracker_.T_map_body(), path_length_, map_);
+    loop_closer_.record(*frame, tracker_.T_map_body(), path_length_, map_);
   } else if (estimate.status != TrackingStatus::kDeadReckoning) {
     return estimate;
   }
@@ -120,7 +120,7 @@ Matrix6d Pipeline::covariance(const TrackedFrame& tracked, bool keyframe) const 
   const Pose T_last_now = map_.keyframes().back().T_map_body.inverse() * tracker_.T_map_body();
   if (keyframe) return uncertainty_.at({}, Matrix6d::Zero());
   if (tracked.tracked) return uncertainty_.at(T_last_now, tracked.motion.information);
-  return uncertainty_.at(T_last_now, Matrix6d::Zero()) + tracker_.dark().covariance();
+  return uncertainty_.at(T_last_now, Matrix6d::Zero()) + tracker_.dead_reckoning().covariance();
 }
 
 /// The first frame with enough stereo points is the map's first keyframe. A registered tag in it
@@ -131,8 +131,8 @@ TrackedFrame Pipeline::initialise(const std::shared_ptr<FrameFeatures>& frame) {
   tracked.associations = no_associations(*frame);
   for (std::size_t v = 0; v < frame->views.size(); ++v) {
     StereoView& view = frame->views[v];
-    reach_farther(view.features, rig_.eyes[v].lens, rig_.eyes[v].baseline, rig_.stereo,
-                  view.stereo);
+    reach_farther(view.features, rig_.left_cameras[v].lens, rig_.left_cameras[v].baseline,
+                  rig_.stereo, view.stereo);
     const int points = count_stereo(view);
     tracked.motion.matches_per_view.push_back(points);
     tracked.motion.inliers_per_view.push_back(points);
@@ -144,13 +144,13 @@ TrackedFrame Pipeline::initialise(const std::shared_ptr<FrameFeatures>& frame) {
     tracked.motion.T_map_body = by_tag.value_or(Pose{});
     tracker_.start(tracked.motion.T_map_body, frame->stamp);
     Matrix6d covariance = by_tag_covariance();
-    if (by_tag) covariance += loop_closer_.fix_covariance(frame->tags);
+    if (by_tag) covariance += loop_closer_.localisation_covariance(frame->tags);
     uncertainty_.start(covariance);
   }
   return tracked;
 }
 
-/// Where in a loaded map the body is: by a tag that the map knows, else by the looks of the place.
+/// Where in a loaded map the body is: by a tag that the map knows, else by appearance of the place.
 /// Either must be borne out by tracking from there.
 TrackedFrame Pipeline::relocalise(const std::shared_ptr<FrameFeatures>& frame) {
   const ScopedTimer timer(times_, "relocalisation");
@@ -179,15 +179,15 @@ TrackedFrame Pipeline::track(const std::shared_ptr<FrameFeatures>& frame) {
       tracked = tracker_.track(frame, map_);
     }
   }
-  if (!tracked.tracked) tracked.tracked = begin_anew(tracked);
+  if (!tracked.tracked) tracked.tracked = restart_map(tracked);
   path_length_ += (tracker_.T_map_body().translation - before.translation).norm();
   return tracked;
 }
 
-/// Where the body is by a tag that the map knows or, once it is lost, by the looks of the place.
+/// Where the body is by a tag that the map knows or, once it is lost, by appearance of the place.
 std::optional<Pose> Pipeline::pose_from_outside(const FrameFeatures& frame) {
   if (const auto by_tag = loop_closer_.map_pose(frame.tags, map_)) return by_tag;
-  if (!tracker_.dark().is_lost()) return std::nullopt;
+  if (!tracker_.dead_reckoning().is_lost()) return std::nullopt;
   for (const StereoView& view : frame.views) {
     if (view.followed > 0) return std::nullopt;  // would recognise what was put in
   }
@@ -196,16 +196,16 @@ std::optional<Pose> Pipeline::pose_from_outside(const FrameFeatures& frame) {
 
 /// Makes a frame that sees well, but nothing of the map, the map's next keyframe where dead
 /// reckoning says that it is. False where that is not the case.
-bool Pipeline::begin_anew(TrackedFrame& tracked) {
+bool Pipeline::restart_map(TrackedFrame& tracked) {
   int points = 0;
   for (const StereoView& view : tracked.frame->views) points += count_stereo(view);
   seeing_frames_ = points >= kMinFirstPoints ? seeing_frames_ + 1 : 0;
-  if (seeing_frames_ < kStrangeFrames || tracker_.dark().is_lost()) return false;
+  if (seeing_frames_ < kFramesBeforeRestart || tracker_.dead_reckoning().is_lost()) return false;
   const Keyframe& last = map_.keyframes().back();
   tracked.motion.T_map_body = tracker_.T_map_body();
   tracked.link = OdometryLink{last.id, last.T_map_body.inverse() * tracker_.T_map_body(),
-                              tracker_.dark().covariance()};
-  loop_closer_.bridge(path_length_, tracked.link->covariance);
+                              tracker_.dead_reckoning().covariance()};
+  loop_closer_.cross_gap(path_length_, tracked.link->covariance);
   tracked.associations = no_associations(*tracked.frame);
   tracked.motion.information.setZero();
   tracker_.start(tracked.motion.T_map_body, tracked.frame->stamp);
@@ -260,7 +260,7 @@ void Pipeline::map_keyframe(TrackedFrame& tracked, Estimate& estimate) {
 void Pipeline::grow_uncertainty(const TrackedFrame& tracked) {
   const Pose T_last_now = map_.keyframes().back().T_map_body.inverse() * tracked.motion.T_map_body;
   if (tracked.link) {
-    uncertainty_.bridge(T_last_now, tracked.link->covariance);
+    uncertainty_.cross_gap(T_last_now, tracked.link->covariance);
   } else {
     uncertainty_.keyframe(T_last_now, tracked.motion.information);
   }
@@ -270,7 +270,7 @@ void Pipeline::close_loop(int keyframe, Estimate& estimate) {
   const ScopedTimer timer(times_, "global adjustment");
   estimate.loop_closure = loop_closer_.close(keyframe, path_length_, map_);
   uncertainty_.start(by_tag_covariance() +
-                     loop_closer_.fix_covariance(map_.keyframe(keyframe).frame->tags));
+                     loop_closer_.localisation_covariance(map_.keyframe(keyframe).frame->tags));
   ++closures_;
   tags_since_adjustment_ = false;
 }
@@ -296,21 +296,21 @@ Estimate Pipeline::report(const TrackedFrame& tracked) const {
   const FrameFeatures& frame = *tracked.frame;
   Estimate estimate;
   estimate.stamp = frame.stamp;
-  estimate.status = tracked.tracked             ? TrackingStatus::kTracking
-                    : !started_                 ? TrackingStatus::kInitializing
-                    : tracker_.dark().is_lost() ? TrackingStatus::kLost
-                                                : TrackingStatus::kDeadReckoning;
+  estimate.status = tracked.tracked                       ? TrackingStatus::kTracking
+                    : !started_                           ? TrackingStatus::kInitializing
+                    : tracker_.dead_reckoning().is_lost() ? TrackingStatus::kLost
+                                                          : TrackingStatus::kDeadReckoning;
   estimate.tags = frame.tags;
   estimate.cameras.resize(rig_.rig.cameras.size());
   for (std::size_t p = 0; p < rig_.rig.pairs.size(); ++p) {
-    const StereoEye& pair = rig_.rig.pairs[p];
+    const RectifiedPair& pair = rig_.rig.pairs[p];
     const StereoView& view = frame.views[p];
     CameraCounts& left = estimate.cameras[static_cast<std::size_t>(pair.left_camera)];
     left.features = static_cast<int>(view.features.size());
     for (const StereoMatch& match : view.stereo) left.stereo += match.depth > 0;
     left.matches = tracked.motion.matches_per_view[p];
     left.inliers = tracked.motion.inliers_per_view[p];
-    // The right eye's part is where the left eye's features were found in it.
+    // The right camera's part is where the left camera's features were found in it.
     estimate.cameras[static_cast<std::size_t>(pair.right_camera)].features = left.stereo;
   }
   return estimate;

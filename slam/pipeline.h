@@ -20,7 +20,7 @@
 namespace vinebench {
 
 /// The paper's Fig. 4 from features on: tracking, keyframes, local mapping and loop closing, one
-/// after the other for each frame. Knows no pictures, so that it can be tested without any.
+/// after the other for each frame. Knows no images, so that it can be tested without any.
 class Pipeline {
  public:
   Pipeline(const SlamConfig& config, const StereoRig& rig, const std::vector<RegisteredTag>& tags);
@@ -51,7 +51,7 @@ class Pipeline {
   TrackedFrame relocalise(const std::shared_ptr<FrameFeatures>& frame);
   TrackedFrame track(const std::shared_ptr<FrameFeatures>& frame);
   std::optional<Pose> pose_from_outside(const FrameFeatures& frame);
-  bool begin_anew(TrackedFrame& tracked);
+  bool restart_map(TrackedFrame& tracked);
   bool wants_new_keyframe(const TrackedFrame& tracked) const;
   void join_mapping(TrackedFrame* tracked = nullptr);
   void map_keyframe(TrackedFrame& tracked, Estimate& estimate);

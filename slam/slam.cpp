@@ -11,7 +11,7 @@
 namespace vinebench {
 namespace {
 
-/// Pictures to features to poses, in lockstep.
+/// Images to features to poses, in lockstep.
 class MulticameraSlam : public MappingSystem {
  public:
   MulticameraSlam(const SlamConfig& config, const StereoRig& rig,

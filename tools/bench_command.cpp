@@ -25,7 +25,7 @@ struct BenchArguments {
   std::vector<std::string> worlds;
   std::string rig = "models/csl-rover/rig.yaml";
   std::string json;
-  std::string pictures;
+  std::string images;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   int frames = 24;
   bool no_mujoco = false;
@@ -43,7 +43,7 @@ RenderBenchmark benchmark_of(const BenchArguments& arguments, const std::string&
   benchmark.route = aisle_route(benchmark.world, arguments.frames);
   benchmark.threads = arguments.threads;
   benchmark.mujoco = !arguments.no_mujoco && benchmark.name == "csl-vineyard";
-  benchmark.pictures = arguments.pictures;
+  benchmark.images = arguments.images;
   return benchmark;
 }
 
@@ -72,7 +72,7 @@ std::vector<RenderBenchmark> benchmarks_of(const BenchArguments& arguments) {
   return benchmarks;
 }
 
-/// CPU time of a frame's pictures, each by itself, ms.
+/// CPU time of a frame's images, each by itself, ms.
 double frame_cpu(const Json& world) {
   double sum = 0;
   for (const Json& camera : world.at("cameras")) sum += camera.at("cpu_ms").get<double>();
@@ -120,8 +120,8 @@ void add_bench_render(CLI::App& bench, Command& chosen) {
   render->add_flag("--no-mujoco", arguments->no_mujoco,
                    "Leave out MuJoCo's own renderer, which draws csl-vineyard for comparison");
   render
-      ->add_option("--pictures", arguments->pictures,
-                   "Folder for the pictures that the renderers made of the route's first place")
+      ->add_option("--pictures", arguments->images,
+                   "Folder for the images that the renderers made of the route's first place")
       ->check(CLI::ExistingDirectory);
   render->callback(
       [&chosen, arguments] { chosen = [arguments] { return bench_render(*arguments); }; });

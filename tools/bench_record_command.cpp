@@ -54,7 +54,7 @@ int bench_record(const BenchRecordArguments& arguments) {
 void add_bench_record(CLI::App& bench, Command& chosen) {
   const auto arguments = std::make_shared<BenchRecordArguments>();
   CLI::App* record = bench.add_subcommand(
-      "record", "What recording costs beside the simulation: pictures, all labels, training sets");
+      "record", "What recording costs beside the simulation: images, all labels, training sets");
   record->add_option("--scenario", arguments->scenario,
                      "Scenario to record (default: scenarios/occluded-camera.yaml)");
   record->add_option("--json", arguments->json, "Also write the results to this file");

@@ -22,9 +22,9 @@ int check(const std::string& folder) {
   if (report.faults.size() > kShown) {
     fmt::print("and {} more\n", report.faults.size() - kShown);
   }
-  fmt::print("{}: {} ({} sequences, {} frames, {} files, {} label pictures compared)\n", folder,
+  fmt::print("{}: {} ({} sequences, {} frames, {} files, {} label images compared)\n", folder,
              report.faults.empty() ? "SOUND" : fmt::format("{} FAULTS", report.faults.size()),
-             report.sequences, report.frames, report.files, report.label_pictures);
+             report.sequences, report.frames, report.files, report.label_images);
   return report.faults.empty() ? 0 : kExpectationFailed;
 }
 

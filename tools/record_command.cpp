@@ -22,7 +22,7 @@ struct RecordArguments {
   std::vector<std::string> labels;
   std::string seeds;
   std::string frames;
-  std::string pictures;
+  std::string images;
 };
 
 RecordRequest request_of(const RecordArguments& arguments) {
@@ -35,10 +35,10 @@ RecordRequest request_of(const RecordArguments& arguments) {
     std::tie(request.options.first, request.options.last) =
         parse_span(arguments.frames, "--frames");
   }
-  const std::vector<std::string> kinds = yaml_names(PictureKind{});
-  if (!arguments.pictures.empty()) {
-    request.options.pictures =
-        static_cast<PictureKind>(std::ranges::find(kinds, arguments.pictures) - kinds.begin());
+  const std::vector<std::string> kinds = yaml_names(ImageKind{});
+  if (!arguments.images.empty()) {
+    request.options.images =
+        static_cast<ImageKind>(std::ranges::find(kinds, arguments.images) - kinds.begin());
   }
   return request;
 }
@@ -80,15 +80,15 @@ void add_what(CLI::App& command, RecordArguments& arguments) {
       ->delimiter(',');
   command.add_option("--frames", arguments.frames, "Frames of the run, from 0 on (default: all)")
       ->type_name("A..B");
-  command.add_option("--every", options.every, "Only every so-manieth of them")
+  command.add_option("--every", options.every, "Only every n-th of them")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}))
       ->capture_default_str();
   command
-      .add_option("--image", arguments.pictures,
-                  "Pictures of rgb, coco and ros: png, jpg, webp (default: png; ros's are raw)")
-      ->check(CLI::IsMember(yaml_names(PictureKind{})));
+      .add_option("--image", arguments.images,
+                  "Images of rgb, coco and ros: png, jpg, webp (default: png; ros's are raw)")
+      ->check(CLI::IsMember(yaml_names(ImageKind{})));
   command.add_flag("--colour", options.colour,
-                   "Pictures of euroc, dcvslam and ros in colour; kitti's also in colour");
+                   "Images of euroc, dcvslam and ros in colour; kitti's also in colour");
 }
 
 }  // namespace

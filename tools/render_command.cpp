@@ -72,15 +72,15 @@ Renderer::Request request_of(const RenderArguments& arguments) {
   return request;
 }
 
-void write_pictures(const RenderArguments& arguments, const Picture& picture) {
-  write_picture(arguments.out, picture.rgb);
+void write_images(const RenderArguments& arguments, const RenderedImage& image) {
+  write_image(arguments.out, image.rgb);
   const auto write = [](const std::string& file, const auto& colours) {
-    if (!file.empty()) write_picture(file, colours());
+    if (!file.empty()) write_image(file, colours());
   };
-  write(arguments.labels, [&] { return colour_labels(picture.labels); });
-  write(arguments.depth, [&] { return picture.depth; });
-  write(arguments.instances, [&] { return colour_instances(picture.instances); });
-  write(arguments.normals, [&] { return colour_normals(picture.normals); });
+  write(arguments.labels, [&] { return colour_labels(image.labels); });
+  write(arguments.depth, [&] { return image.depth; });
+  write(arguments.instances, [&] { return colour_instances(image.instances); });
+  write(arguments.normals, [&] { return colour_normals(image.normals); });
 }
 
 /// What takes a second view: flow and disparity.
@@ -96,12 +96,12 @@ void write_warps(const RenderArguments& arguments, Renderer& renderer, const Tru
     const Pose there = parse_view(arguments.flow_to) * camera.T_body_cam;
     const FlowTruth truth = optical_flow(view, view_from(there, later));
     if (!arguments.flow.empty()) write_flow(arguments.flow, truth.flow);
-    if (!arguments.flow_visible.empty()) write_picture(arguments.flow_visible, truth.visible);
+    if (!arguments.flow_visible.empty()) write_image(arguments.flow_visible, truth.visible);
   }
   if (!arguments.disparity.empty()) {
     const Pose T_left_right{Eigen::Quaterniond::Identity(), {arguments.baseline, 0, 0}};
     const TruthView right = view_from(view.T_world_cam * T_left_right, request);
-    write_picture(arguments.disparity, kitti_disparity(disparity(view, right).disparity));
+    write_image(arguments.disparity, kitti_disparity(disparity(view, right).disparity));
   }
 }
 
@@ -132,7 +132,7 @@ int render(const RenderArguments& arguments) {
   const RigCamera camera = camera_of(arguments);
   if (arguments.turntable) {
     const auto seed = static_cast<std::uint64_t>(arguments.seed);
-    write_picture(arguments.out, turntable(world, seed, camera.model));
+    write_image(arguments.out, turntable(world, seed, camera.model));
     return 0;
   }
   check(arguments);
@@ -140,7 +140,7 @@ int render(const RenderArguments& arguments) {
   Renderer renderer(scene_of(arguments, world), {});
   const TruthView view{camera.model, T_world_cam,
                        renderer.render(camera.model, T_world_cam, request_of(arguments))};
-  write_pictures(arguments, view.picture);
+  write_images(arguments, view.image);
   write_warps(arguments, renderer, view, camera);
   return 0;
 }
@@ -159,8 +159,8 @@ void add_truth_options(CLI::App& command, RenderArguments& arguments) {
   command.add_option("--flow-visible", arguments.flow_visible,
                      "Also write where that view still shows what a pixel shows, in white");
   command.add_option("--disparity", arguments.disparity,
-                     "Also write the disparity to a right eye, 16-bit PNG in 1/256 px");
-  command.add_option("--baseline", arguments.baseline, "m from the camera to that right eye")
+                     "Also write the disparity to a right camera, 16-bit PNG in 1/256 px");
+  command.add_option("--baseline", arguments.baseline, "m from the camera to that right camera")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
 }
@@ -177,9 +177,9 @@ void add_rover_options(CLI::App& command, RenderArguments& arguments) {
 
 void add_render_command(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<RenderArguments>();
-  CLI::App* command = app.add_subcommand("render", "Make a picture of a world");
+  CLI::App* command = app.add_subcommand("render", "Make an image of a world");
   command->add_option("WORLD", arguments->world, "World file (YAML)")->required();
-  command->add_option("--out", arguments->out, "Picture to write, .png or .jpg")->required();
+  command->add_option("--out", arguments->out, "RenderedImage to write, .png or .jpg")->required();
   command->add_option("--pose", arguments->pose,
                       "X,Y,Z,YAW[,PITCH] in m and degrees: the camera's place and view, or with "
                       "--rig the rover's");

@@ -10,7 +10,7 @@ namespace vinebench {
 /// Pinhole camera with radial-tangential (Brown-Conrady) distortion k1, k2, p1, p2.
 ///
 /// Camera frame: x right, y down, z into the scene (optical). Pixel (0, 0) is the centre of the top
-/// left pixel, so the picture covers [-0.5, width - 0.5) x [-0.5, height - 0.5).
+/// left pixel, so the image covers [-0.5, width - 0.5) x [-0.5, height - 0.5).
 struct PinholeCamera {
   int width = 0;   ///< pixels
   int height = 0;  ///< pixels
@@ -26,10 +26,10 @@ struct PinholeCamera {
   Eigen::Vector2d project(const Eigen::Vector3d& p_cam) const;
 
   /// Point of the plane z = 1 that is seen at `pixel`. Inverts the distortion by fixed-point
-  /// iteration to 1e-10 for lenses whose distortion is monotonic in the picture.
+  /// iteration to 1e-10 for lenses whose distortion is monotonic in the image.
   Eigen::Vector3d unproject(const Eigen::Vector2d& pixel) const;
 
-  /// Whether the pixel is on the picture, at least `margin` pixels from its edge.
+  /// Whether the pixel is on the image, at least `margin` pixels from its edge.
   bool contains(const Eigen::Vector2d& pixel, double margin = 0) const {
     return pixel.x() >= margin - 0.5 && pixel.y() >= margin - 0.5 &&
            pixel.x() < width - 0.5 - margin && pixel.y() < height - 0.5 - margin;

@@ -42,11 +42,11 @@ struct Rig {
   /// Index of the camera with that name, or -1.
   int find_camera(const std::string& name) const;
 
-  /// Distance between the two eyes of a pair, m.
+  /// Distance between the two cameras of a pair, m.
   double baseline(const StereoPair& pair) const;
 
-  /// One rectified pair whose left eye is the body's origin and looks along its x axis; the right
-  /// eye is `baseline` (m) to the right of it. Its cameras are "left" and "right".
+  /// One rectified pair whose left camera is the body's origin and looks along its x axis; the
+  /// right camera is `baseline` (m) to the right of it. Its cameras are "left" and "right".
   static Rig stereo(const PinholeCamera& lens, double baseline);
 
   /// Pose of a camera that sits at `position` (m) and looks along the x axis of a body-like frame
@@ -125,9 +125,10 @@ struct RigConfig {
       return false;
     };
     for (std::size_t i = 0; i < stereo_pairs.size(); ++i) {
-      for (const std::string& eye : {stereo_pairs[i].left, stereo_pairs[i].right}) {
-        archive.require(known(eye), fmt::format("stereo_pairs.{}", i),
-                        fmt::format("expected the name of a camera of this rig, found '{}'", eye));
+      for (const std::string& camera : {stereo_pairs[i].left, stereo_pairs[i].right}) {
+        archive.require(
+            known(camera), fmt::format("stereo_pairs.{}", i),
+            fmt::format("expected the name of a camera of this rig, found '{}'", camera));
       }
     }
     for (std::size_t i = 0; i < tag_cameras.size(); ++i) {

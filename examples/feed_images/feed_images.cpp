@@ -7,20 +7,21 @@
 
 using namespace vinebench;
 
-/// Reads FOLDER/left/000000.png, FOLDER/right/000000.png and on, and prints where the left eye is.
+/// Reads FOLDER/left/000000.png, FOLDER/right/000000.png and on, and prints where the left camera
+/// is.
 int main(int argc, char** argv) try {
   const std::string folder = argc == 2 ? argv[1] : throw Error("usage: feed_images FOLDER");
   const PinholeCamera lens{640, 400, 400, 400, 319.5, 199.5};  // width, height, fx, fy, cx, cy, px
-  const Rig rig = Rig::stereo(lens, 0.12);                     // rectified, the eyes 0.12 m apart
-  WorkerPool threads(2);                                       // more or fewer change no result
+  const Rig rig = Rig::stereo(lens, 0.12);  // rectified, the cameras 0.12 m apart
+  WorkerPool threads(2);                    // more or fewer change no result
   const auto slam = make_slam(SlamConfig{}, rig, {}, threads);
 
   Frame frame;
   for (;; ++frame.index) {
     frame.stamp = stamp_of_frame(frame.index, 15);  // ns
     frame.images.clear();
-    for (const char* eye : {"left", "right"}) {
-      const std::string file = fmt::format("{}/{}/{:06}.png", folder, eye, frame.index);
+    for (const char* camera : {"left", "right"}) {
+      const std::string file = fmt::format("{}/{}/{:06}.png", folder, camera, frame.index);
       frame.images.push_back(cv::imread(file, cv::IMREAD_GRAYSCALE));
     }
     if (frame.images[0].empty()) break;

@@ -62,17 +62,17 @@ SlamConfig config_of(const vinebench_setup& setup) {
   return config;
 }
 
-/// The pictures are not copied.
+/// The images are not copied.
 Frame frame_of(const vinebench_frame& given, std::size_t cameras) {
   Frame frame;
   frame.index = given.index;
   frame.stamp = given.stamp;
   for (std::size_t i = 0; i < cameras; ++i) {
     const vinebench_image& image = given.images[i];
-    cv::Mat& picture = frame.images.emplace_back();
+    cv::Mat& image = frame.images.emplace_back();
     if (image.data == nullptr) continue;
-    picture = cv::Mat(image.height, image.width, CV_8UC(image.channels),
-                      const_cast<std::uint8_t*>(image.data), image.stride);
+    image = cv::Mat(image.height, image.width, CV_8UC(image.channels),
+                    const_cast<std::uint8_t*>(image.data), image.stride);
   }
   for (std::size_t i = 0; i < given.imu_count; ++i) {
     const vinebench_imu_sample& s = given.imu[i];

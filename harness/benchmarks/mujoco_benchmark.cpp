@@ -45,10 +45,9 @@ nlohmann::ordered_json measure_variant(const RenderBenchmark& benchmark, const S
   config.shadows = variant.shadows;
   MujocoRenderer renderer(scene, config);
   const Pose& first = benchmark.route.front();
-  const cv::Mat picture = renderer.render(camera.model, first * camera.T_body_cam);  // warm up
-  if (!benchmark.pictures.empty()) {
-    write_picture(benchmark.pictures / fmt::format("{}-{}.png", camera.name, variant.file),
-                  picture);
+  const cv::Mat image = renderer.render(camera.model, first * camera.T_body_cam);  // warm up
+  if (!benchmark.images.empty()) {
+    write_image(benchmark.images / fmt::format("{}-{}.png", camera.name, variant.file), image);
   }
   std::vector<Timing> timings;
   for (const Pose& T_world_body : benchmark.route) {

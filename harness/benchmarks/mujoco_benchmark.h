@@ -9,8 +9,8 @@ namespace vinebench {
 /// MuJoCo's own renderer on the same scene from the same places, on the same software rasteriser:
 /// medians of `cpu_ms` and `wall_ms` for the first camera of each size. MuJoCo knows no levels of
 /// detail, so there are two variants of `meshes`: "finest" everywhere, and "at 2 m", the level that
-/// our renderer draws at 2 m from that camera, everywhere; and one with shadows, which our pictures
-/// have and MuJoCo draws anew for each picture. Neither of the first two is quite our picture:
+/// our renderer draws at 2 m from that camera, everywhere; and one with shadows, which our images
+/// have and MuJoCo draws anew for each image. Neither of the first two is quite our image:
 /// "finest" draws more triangles than needed; the cards of "at 2 m" come out opaque, without a
 /// leaf's outline, for MuJoCo's textures have no alpha.
 nlohmann::ordered_json measure_mujoco(const RenderBenchmark& benchmark);

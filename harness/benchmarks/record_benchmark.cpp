@@ -22,10 +22,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kSecondsPerHour = 3600;
 
-/// Labels of each kind once, with the pictures that they are of.
+/// Labels of each kind once, with the images that they are of.
 const std::vector<std::string> kEveryLabel{"rgb",     "depth", "semantic",  "instances",
                                            "normals", "flow",  "disparity", "coco"};
-const std::vector<std::string> kPictures{"rgb"};
+const std::vector<std::string> kImages{"rgb"};
 const std::vector<std::string> kTraining{"rgb", "depth", "semantic", "instances", "coco"};
 
 /// What is timed.
@@ -41,8 +41,8 @@ struct Measured {
   std::int64_t images = 0;
 };
 
-/// Counts the pictures that go by.
-class PictureCount : public Sink {
+/// Counts the images that go by.
+class ImageCount : public Sink {
  public:
   void on_tick(const Sample& sample, const Estimate&) override {
     for (const cv::Mat& image : sample.frame.images) images_ += image.empty() ? 0 : 1;
@@ -66,7 +66,7 @@ void drive_and_estimate(const RecordBenchmark& benchmark, FrameSource& source,
   WorkerPool estimating(benchmark.threads);
   const auto slam = make_slam(benchmark.scenario.slam, source.rig(),
                               registered_tags(benchmark.scenario.simulation.world), estimating);
-  LookAhead ahead(source);
+  Prefetch ahead(source);
   run_lockstep(ahead, *slam, sinks);
 }
 
@@ -85,7 +85,7 @@ Measured measure_kind(const RecordBenchmark& benchmark, const Kind& kind) {
   const fs::path folder = benchmark.folder / "recording";
   std::error_code ignored;
   fs::remove_all(folder, ignored);
-  PictureCount count;
+  ImageCount count;
   std::vector<Sink*> sinks{&count};
   std::optional<DatasetWriter> writer;
   if (!kind.formats.empty()) {
@@ -115,8 +115,8 @@ Json row_of(const Measured& measured, const Timing& base) {
 std::vector<std::string> pair_cameras(const Rig& rig) {
   std::vector<std::string> names;
   for (const StereoPair& pair : rig.stereo_pairs) {
-    for (const int eye : {pair.left, pair.right}) {
-      names.push_back(rig.cameras[static_cast<std::size_t>(eye)].name);
+    for (const int camera : {pair.left, pair.right}) {
+      names.push_back(rig.cameras[static_cast<std::size_t>(camera)].name);
     }
   }
   return names;
@@ -137,13 +137,13 @@ Json measure_recording(const RecordBenchmark& benchmark) {
   };
   const Measured alone = measure_kind(benchmark, {});
   result["rows"]["record"] = row_of(alone, alone.timing);
-  add("record rgb", {kPictures, {}, false}, alone.timing);
+  add("record rgb", {kImages, {}, false}, alone.timing);
   add("record labels", {kEveryLabel, {}, false}, alone.timing);
   const Measured of_pairs = measure_kind(benchmark, {{}, pairs, false});
   add("record training", {kTraining, pairs, false}, of_pairs.timing);
   const Measured run = measure_kind(benchmark, {{}, {}, true});
   result["rows"]["run"] = row_of(run, run.timing);
-  add("run rgb", {kPictures, {}, true}, run.timing);
+  add("run rgb", {kImages, {}, true}, run.timing);
   add("run labels", {kEveryLabel, {}, true}, run.timing);
   return result;
 }

@@ -20,9 +20,9 @@ struct RecordBenchmark {
 
 /// Wall and CPU time of the frames (`wall_s`, `cpu_s` of all threads), the ratio of wall time to
 /// that without recording, `megabytes` and `images_per_hour`, in `rows`: simulated alone (`record`)
-/// and with the SLAM core (`run`), each without recording, with every camera's colour pictures as
+/// and with the SLAM core (`run`), each without recording, with every camera's colour images as
 /// PNG (`rgb`) and with every kind of label besides (`labels`); `record training` is the stereo
-/// pairs' pictures with depth, semantic, instances and COCO. Growing the vineyard is in no figure.
+/// pairs' images with depth, semantic, instances and COCO. Growing the vineyard is in no figure.
 nlohmann::ordered_json measure_recording(const RecordBenchmark& benchmark);
 
 /// The result as a table for people.

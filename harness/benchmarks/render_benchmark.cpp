@@ -33,9 +33,10 @@ void prepare_software_rendering(int threads) {
 
 Json measure_camera(Renderer& renderer, const RigCamera& camera, const RenderBenchmark& benchmark) {
   const Pose& first = benchmark.route.front();
-  const Picture picture = renderer.render(camera.model, first * camera.T_body_cam, {});  // warm up
-  if (!benchmark.pictures.empty()) {
-    write_picture(benchmark.pictures / fmt::format("{}.png", camera.name), picture.rgb);
+  const RenderedImage image =
+      renderer.render(camera.model, first * camera.T_body_cam, {});  // warm up
+  if (!benchmark.images.empty()) {
+    write_image(benchmark.images / fmt::format("{}.png", camera.name), image.rgb);
   }
   std::vector<Timing> timings;
   for (const Pose& T_world_body : benchmark.route) {

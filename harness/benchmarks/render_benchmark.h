@@ -21,8 +21,8 @@ struct RenderBenchmark {
   std::vector<Pose> route;  ///< T_world_body of each frame
   std::uint64_t seed = 1;
   int threads = 2;
-  bool mujoco = false;             ///< also measure MuJoCo's own renderer on the same scene
-  std::filesystem::path pictures;  ///< folder for both renderers' pictures of one place, if any
+  bool mujoco = false;           ///< also measure MuJoCo's own renderer on the same scene
+  std::filesystem::path images;  ///< folder for both renderers' images of one place, if any
 };
 
 /// Poses of a rover in the middle aisle (in the order of `rows`), which sees the most of a world:
@@ -30,7 +30,7 @@ struct RenderBenchmark {
 std::vector<Pose> aisle_route(const WorldConfig& world, int count);
 
 /// Measures in processes of their own, so that memory is the world's. Returns medians over the
-/// frames: for each camera `cpu_ms` (all threads of the process) and `wall_ms` of a picture with
+/// frames: for each camera `cpu_ms` (all threads of the process) and `wall_ms` of an image with
 /// one thread; for whole frames `frame_wall_ms` with 1 and with `threads` threads and their ratio
 /// `scaling`; and `memory_mib` of the process with `threads` threads. Throws Error.
 nlohmann::ordered_json measure_rendering(const RenderBenchmark& benchmark);

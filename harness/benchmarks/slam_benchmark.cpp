@@ -17,7 +17,7 @@
 namespace vinebench {
 namespace {
 
-constexpr std::size_t kPictures = 40;  // of which ORB and tags are measured, at most
+constexpr std::size_t kImages = 40;  // of which ORB and tags are measured, at most
 constexpr std::size_t kQuarters = 4;
 
 double mean(const std::vector<double>& values) {
@@ -77,11 +77,11 @@ Json measure_cameras(const SlamBenchmark& benchmark, const std::string& name,
           {"memory_mib", rounded(peak_memory_mib() - before)}};
 }
 
-/// CPU time of work on single pictures of a camera, one thread.
-Json measure_pictures(const SlamBenchmark& benchmark, int camera,
-                      const std::function<void(const cv::Mat&)>& work) {
+/// CPU time of work on single images of a camera, one thread.
+Json measure_images(const SlamBenchmark& benchmark, int camera,
+                    const std::function<void(const cv::Mat&)>& work) {
   std::vector<double> cpu;
-  const std::size_t step = std::max<std::size_t>(1, benchmark.frames.size() / kPictures);
+  const std::size_t step = std::max<std::size_t>(1, benchmark.frames.size() / kImages);
   for (std::size_t i = 0; i < benchmark.frames.size(); i += step) {
     const cv::Mat& image = benchmark.frames[i].images[static_cast<std::size_t>(camera)];
     if (image.empty()) continue;
@@ -154,12 +154,12 @@ Json measure_slam(const SlamBenchmark& benchmark) {
     result["runs"].push_back(measure_cameras(benchmark, pairs.front(), {pairs.front()}));
   }
   const OrbExtractor extractor(benchmark.slam.features);
-  result["orb_cpu_ms"] = measure_pictures(benchmark, rig.stereo_pairs.front().left,
-                                          [&](const cv::Mat& image) { extractor.extract(image); });
+  result["orb_cpu_ms"] = measure_images(benchmark, rig.stereo_pairs.front().left,
+                                        [&](const cv::Mat& image) { extractor.extract(image); });
   if (rig.tag_cameras.empty()) return result;
   const int camera = rig.tag_cameras.front();
   TagDetector detector(benchmark.slam.tags, benchmark.tags);
-  result["tags_cpu_ms"] = measure_pictures(benchmark, camera, [&](const cv::Mat& image) {
+  result["tags_cpu_ms"] = measure_images(benchmark, camera, [&](const cv::Mat& image) {
     detector.detect(image, rig.cameras[static_cast<std::size_t>(camera)].model, camera);
   });
   return result;
@@ -167,7 +167,7 @@ Json measure_slam(const SlamBenchmark& benchmark) {
 
 std::string slam_table(const Json& result) {
   std::string text =
-      fmt::format("{}: {} frames, {} threads, {} features a picture\n",
+      fmt::format("{}: {} frames, {} threads, {} features an image\n",
                   result["name"].get<std::string>(), result["frames"].get<std::size_t>(),
                   result["threads"].get<int>(), result["features"].get<int>());
   for (const Json& run : result["runs"]) text += run_lines(run);

@@ -45,7 +45,7 @@ class Check {
     check_frames();
     check_lists();
     const LabelCheck labels = check_labels(folder_, frames_);
-    report_.label_pictures += labels.pictures;
+    report_.label_images += labels.images;
     for (const DatasetFault& found : labels.faults) fault(found.file, found.problem);
   }
 
@@ -142,7 +142,7 @@ class Check {
           fault(camera + "/data.csv", fmt::format("{}: no frame has this stamp", row.fields[0]));
         }
         if (!exists(camera + "/data/" + row.fields[1])) {
-          fault(camera + "/data.csv", fmt::format("{}: there is no such picture", row.fields[1]));
+          fault(camera + "/data.csv", fmt::format("{}: there is no such image", row.fields[1]));
         }
       }
     }

@@ -19,8 +19,8 @@ struct DatasetReport {
   std::vector<std::string> notes;  ///< what is no fault, such as an interruption
   std::int64_t sequences = 0;
   std::int64_t frames = 0;
-  std::int64_t files = 0;           ///< whose hashes were compared
-  std::int64_t label_pictures = 0;  ///< that were held against depth and calibration
+  std::int64_t files = 0;         ///< whose hashes were compared
+  std::int64_t label_images = 0;  ///< that were held against depth and calibration
 };
 
 /// Checks a data set that `vinebench record` made: that every file is there with the hash that the

@@ -125,8 +125,8 @@ DatasetEncoder::Formats DatasetWriter::make_formats(const RecordingNotes& notes,
   add(kDcvslam, [&](const fs::path& to) {
     return std::make_unique<DcvslamFormat>(to, notes, options_.colour);
   });
-  const PictureKind pictures = options_.pictures.value_or(PictureKind::kPng);
-  add(kRgb, [&](const fs::path& to) { return make_rgb_format(to, notes, pictures); });
+  const ImageKind images = options_.images.value_or(ImageKind::kPng);
+  add(kRgb, [&](const fs::path& to) { return make_rgb_format(to, notes, images); });
   add(kDepth, [&](const fs::path& to) { return make_depth_format(to, notes); });
   add(kDepth32, [&](const fs::path& to) { return make_depth32_format(to, notes); });
   add(kDisparity, [&](const fs::path& to) { return std::make_unique<DisparityFormat>(to, notes); });
@@ -137,10 +137,10 @@ DatasetEncoder::Formats DatasetWriter::make_formats(const RecordingNotes& notes,
   add(kCoco, [&](const fs::path& to) {
     return std::make_unique<CocoFormat>(
         to, notes, scene,
-        CocoOptions{pictures, options_.categories, options_.sequence * kCocoImagesPerSequence + 1});
+        CocoOptions{images, options_.categories, options_.sequence * kCocoImagesPerSequence + 1});
   });
   add(kRos, [&](const fs::path& to) {
-    return std::make_unique<RosFormat>(to, notes, options_.colour, options_.pictures);
+    return std::make_unique<RosFormat>(to, notes, options_.colour, options_.images);
   });
   if (options_.has(kFlow) || options_.has(kFlo)) {
     const auto folder = [&](RecordFormat format) {

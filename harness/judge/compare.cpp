@@ -59,8 +59,8 @@ std::map<RunName, Json> find_runs(const fs::path& folder) {
   return runs;
 }
 
-FigureChange change_of(const Figure& figure, const std::vector<RunPair>& pairs) {
-  FigureChange change{.figure = figure};
+MetricChange change_of(const Metric& figure, const std::vector<RunPair>& pairs) {
+  MetricChange change{.figure = figure};
   for (const RunPair& pair : pairs) {
     const auto before = value_of(figure, pair.before);
     const auto after = value_of(figure, pair.after);
@@ -103,17 +103,17 @@ std::vector<std::pair<std::string, std::vector<RunPair>>> groups_of(const Paired
   return groups;
 }
 
-std::string interval_text(const FigureChange& change) {
+std::string interval_text(const MetricChange& change) {
   if (!change.half_width) return "one pair";
   const double mean = change.difference();
   return fmt::format("{:+.{}f} .. {:+.{}f}", mean - *change.half_width, change.figure.decimals + 1,
                      mean + *change.half_width, change.figure.decimals + 1);
 }
 
-std::string table_of(const std::vector<FigureChange>& changes) {
+std::string table_of(const std::vector<MetricChange>& changes) {
   std::vector<std::vector<std::string>> rows{
       {"figure", "pairs", "A", "B", "B - A", "95 % interval", "verdict"}};
-  for (const FigureChange& change : changes) {
+  for (const MetricChange& change : changes) {
     rows.push_back({change.figure.title, std::to_string(change.pairs),
                     format_value(change.figure, change.before),
                     format_value(change.figure, change.after),
@@ -165,18 +165,18 @@ const char* name_of(Change change) {
   return "";
 }
 
-std::vector<FigureChange> compare_figures(const std::vector<RunPair>& pairs) {
-  std::vector<FigureChange> changes;
-  for (const Figure& figure : figures()) {
-    FigureChange change = change_of(figure, pairs);
+std::vector<MetricChange> compare_metrics(const std::vector<RunPair>& pairs) {
+  std::vector<MetricChange> changes;
+  for (const Metric& figure : shown_metrics()) {
+    MetricChange change = change_of(figure, pairs);
     if (change.pairs > 0) changes.push_back(std::move(change));
   }
   return changes;
 }
 
-Change overall(const std::vector<FigureChange>& changes) {
+Change overall(const std::vector<MetricChange>& changes) {
   const auto any = [&](Change change) {
-    return std::ranges::any_of(changes, [&](const FigureChange& figure) {
+    return std::ranges::any_of(changes, [&](const MetricChange& figure) {
       return figure.figure.of_estimate && figure.change == change;
     });
   };
@@ -189,7 +189,7 @@ Change overall(const std::vector<FigureChange>& changes) {
 std::string format_comparison(const PairedRuns& runs) {
   std::string text;
   for (const auto& [name, pairs] : groups_of(runs)) {
-    const std::vector<FigureChange> changes = compare_figures(pairs);
+    const std::vector<MetricChange> changes = compare_metrics(pairs);
     text += fmt::format("\n{}: B is {} (of its estimate; by {} {})\n\n{}", name,
                         name_of(overall(changes)), pairs.size(),
                         pairs.size() == 1 ? "pair, which gives no interval" : "pairs",
@@ -202,9 +202,9 @@ std::string format_comparison(const PairedRuns& runs) {
 Json comparison_json(const PairedRuns& runs) {
   Json groups = Json::array();
   for (const auto& [name, pairs] : groups_of(runs)) {
-    const std::vector<FigureChange> changes = compare_figures(pairs);
+    const std::vector<MetricChange> changes = compare_metrics(pairs);
     Json list = Json::array();
-    for (const FigureChange& change : changes) {
+    for (const MetricChange& change : changes) {
       list.push_back({{"figure", change.figure.title},
                       {"pairs", change.pairs},
                       {"a", change.before},

@@ -33,8 +33,8 @@ enum class Change { kBetter, kSame, kWorse, kMixed, kUnknown };
 const char* name_of(Change change);
 
 /// A figure over the pairs that have it on both sides, in its shown unit.
-struct FigureChange {
-  Figure figure{};
+struct MetricChange {
+  Metric figure{};
   std::size_t pairs = 0;
   double before = 0;                   ///< mean
   double after = 0;                    ///< mean
@@ -48,11 +48,11 @@ struct FigureChange {
 /// Better or worse where the interval of the mean difference (Student's t, n - 1 degrees of
 /// freedom) leaves out zero, same where it does not. One pair has no interval: unknown, unless both
 /// are equal. Figures that no pair has are left out.
-std::vector<FigureChange> compare_figures(const std::vector<RunPair>& pairs);
+std::vector<MetricChange> compare_metrics(const std::vector<RunPair>& pairs);
 
 /// Of the figures that say how good the estimate is: better or worse when some are and none is the
 /// other way; unknown when that is all there is.
-Change overall(const std::vector<FigureChange>& changes);
+Change overall(const std::vector<MetricChange>& changes);
 
 /// For people: each scenario by itself, and all together where there are several.
 std::string format_comparison(const PairedRuns& runs);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kWeak = 1.0 / 3;                  // of the run's median of inliers
 constexpr Stamp kWindow = kNanosecondsPerSecond;   // ns, that growth is looked at over
-constexpr Stamp kGap = kNanosecondsPerSecond / 2;  // ns, that a stretch goes on over
+constexpr Stamp kGap = kNanosecondsPerSecond / 2;  // ns, that a segment goes on over
 constexpr double kFastGrowth = 0.010;              // m a window, at least
 constexpr double kTimesUsual = 5;                  // and so many times the run's median
 constexpr double kDrift = 0.015;                   // of the way, or this much without a break,
@@ -88,7 +88,7 @@ void mark_growth(const std::vector<Growth>& growths, std::vector<bool>& bad) {
   }
 }
 
-/// From the last known pose before a stretch to the first one after it, or its own ends.
+/// From the last known pose before a segment to the first one after it, or its own ends.
 double growth_over(const RunRecord& record, std::size_t first, std::size_t last) {
   std::size_t from = first == 0 ? 0 : first - 1;
   std::size_t to = last;
@@ -98,14 +98,14 @@ double growth_over(const RunRecord& record, std::size_t first, std::size_t last)
   return growth ? growth->norm() : 0;
 }
 
-void describe(const RunRecord& record, Explanation& stretch) {
+void describe(const RunRecord& record, DegradedSegment& segment) {
   double sum = 0;
-  for (std::size_t i = stretch.first; i <= stretch.last; ++i) {
+  for (std::size_t i = segment.first; i <= segment.last; ++i) {
     sum += inliers_of(record.ticks[i]);
-    if (!is_tracked(record.ticks[i].estimate)) ++stretch.untracked;
+    if (!is_tracked(record.ticks[i].estimate)) ++segment.untracked;
   }
-  stretch.inliers = sum / static_cast<double>(stretch.last - stretch.first + 1);
-  stretch.error_growth = growth_over(record, stretch.first, stretch.last);
+  segment.inliers = sum / static_cast<double>(segment.last - segment.first + 1);
+  segment.error_growth = growth_over(record, segment.first, segment.last);
 }
 
 }  // namespace
@@ -128,7 +128,7 @@ std::optional<Eigen::Vector3d> error_growth(const RunRecord& record, std::size_t
   return T_world_map * end.estimate.T_map_body->translation - end.truth.T_world_body.translation;
 }
 
-std::vector<Explanation> bad_stretches(const RunRecord& record, const RunResults& results) {
+std::vector<DegradedSegment> degraded_segments(const RunRecord& record, const RunResults& results) {
   const bool any_truth =
       std::ranges::any_of(record.ticks, [](const Tick& tick) { return tick.truth.known; });
   if (!any_truth) return {};
@@ -136,21 +136,21 @@ std::vector<Explanation> bad_stretches(const RunRecord& record, const RunResults
   std::vector<bool> bad(record.ticks.size());
   mark_weak(record, usual, bad);
   mark_growth(growths_of(record, results), bad);
-  std::vector<Explanation> stretches;
+  std::vector<DegradedSegment> segments;
   for (std::size_t i = 0; i < bad.size(); ++i) {
     if (!bad[i]) continue;
-    const bool goes_on = !stretches.empty() &&
-                         record.ticks[i].stamp - record.ticks[stretches.back().last].stamp <= kGap;
+    const bool goes_on = !segments.empty() &&
+                         record.ticks[i].stamp - record.ticks[segments.back().last].stamp <= kGap;
     if (!goes_on) {
-      Explanation stretch;
-      stretch.first = i;
-      stretch.usual_inliers = usual;
-      stretches.push_back(stretch);
+      DegradedSegment segment;
+      segment.first = i;
+      segment.usual_inliers = usual;
+      segments.push_back(segment);
     }
-    stretches.back().last = i;
+    segments.back().last = i;
   }
-  for (Explanation& stretch : stretches) describe(record, stretch);
-  return stretches;
+  for (DegradedSegment& segment : segments) describe(record, segment);
+  return segments;
 }
 
 }  // namespace vinebench

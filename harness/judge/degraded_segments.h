@@ -24,7 +24,7 @@ TrueMotion true_motion(const RunRecord& record, std::size_t tick);
 std::optional<Eigen::Vector3d> error_growth(const RunRecord& record, std::size_t from,
                                             std::size_t to);
 
-/// Where the estimate suffered, as explain() defines it; without causes.
-std::vector<Explanation> bad_stretches(const RunRecord& record, const RunResults& results);
+/// Where the estimate suffered, as diagnose() defines it; without causes.
+std::vector<DegradedSegment> degraded_segments(const RunRecord& record, const RunResults& results);
 
 }  // namespace vinebench

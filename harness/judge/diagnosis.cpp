@@ -14,8 +14,8 @@
 namespace vinebench {
 namespace {
 
-constexpr double kShown = 1.0 / 3;         // of a stretch's ticks, for a cause to be named
-constexpr double kOccluded = 0.5;          // of a picture's pixels
+constexpr double kShown = 1.0 / 3;         // of a segment's ticks, for a cause to be named
+constexpr double kOccluded = 0.5;          // of an image's pixels
 constexpr double kClearView = 0.2;         // likewise, at most
 constexpr double kBlurPixels = 2;          // px
 constexpr double kNearThings = 1;          // m, seldom is anything seen nearer
@@ -24,10 +24,10 @@ constexpr double kFewFeatures = 100;       // however few are usual
 constexpr double kHealthyInliers = 0.5;    // of the run's median
 constexpr double kSpacingTolerance = 0.2;  // of the plants' spacing
 
-/// What shows in the ticks of a stretch.
-class Detective {
+/// What shows in the ticks of a segment.
+class CauseFinder {
  public:
-  Detective(const RunRecord& record, const RunResults& results, const ScenarioConfig& scenario)
+  CauseFinder(const RunRecord& record, const RunResults& results, const ScenarioConfig& scenario)
       : record_(record), results_(results), scenario_(scenario) {
     for (const StereoPair& pair : record.rig.stereo_pairs) {
       cameras_.push_back(static_cast<std::size_t>(pair.left));
@@ -40,22 +40,22 @@ class Detective {
                                       [](const Tick& tick) { return !tick.estimate.tags.empty(); });
   }
 
-  std::vector<Explanation> causes_of(const Explanation& stretch) const {
-    std::vector<Explanation> found;
+  std::vector<DegradedSegment> causes_of(const DegradedSegment& segment) const {
+    std::vector<DegradedSegment> found;
     const auto add = [&](Cause cause, const auto& shows) {
-      const Explanation one = seen_by_cameras(stretch, cause, shows);
+      const DegradedSegment one = seen_by_cameras(segment, cause, shows);
       if (!one.cameras.empty()) found.push_back(one);
     };
-    add(Cause::kDroppedPictures, [&](std::size_t i, std::size_t c) { return is_dropped(i, c); });
+    add(Cause::kDroppedImages, [&](std::size_t i, std::size_t c) { return is_dropped(i, c); });
     add(Cause::kOcclusion, [&](std::size_t i, std::size_t c) { return boxes(i, c) >= kOccluded; });
     add(Cause::kMotionBlur, [&](std::size_t i, std::size_t c) { return is_blurred(i, c); });
     add(Cause::kLittleTexture, [&](std::size_t i, std::size_t c) { return lacks_texture(i, c); });
-    add_share(found, stretch, Cause::kWrongTag, wrong_tags(stretch));
-    add_share(found, stretch, Cause::kMissedTag, missed_tags(stretch));
-    if (jumped_by_plants(stretch)) add_share(found, stretch, Cause::kRepeatedPattern, 1);
-    std::ranges::stable_sort(found, std::greater(), &Explanation::share);
+    add_share(found, segment, Cause::kWrongTag, wrong_tags(segment));
+    add_share(found, segment, Cause::kMissedTag, missed_tags(segment));
+    if (jumped_by_plants(segment)) add_share(found, segment, Cause::kRepeatedPattern, 1);
+    std::ranges::stable_sort(found, std::greater(), &DegradedSegment::share);
     if (found.empty()) {
-      add_share(found, stretch, is_miscalibrated() ? Cause::kCalibrationError : Cause::kUnexplained,
+      add_share(found, segment, is_miscalibrated() ? Cause::kCalibrationError : Cause::kUnexplained,
                 1);
     }
     return found;
@@ -74,23 +74,24 @@ class Detective {
     return counts.empty() ? 0 : percentile(counts, 0.5);
   }
 
-  static Explanation with(const Explanation& stretch, Cause cause, double share) {
-    Explanation explanation = stretch;
+  static DegradedSegment with(const DegradedSegment& segment, Cause cause, double share) {
+    DegradedSegment explanation = segment;
     explanation.cause = cause;
     explanation.share = share;
     return explanation;
   }
 
-  static void add_share(std::vector<Explanation>& found, const Explanation& stretch, Cause cause,
-                        double share) {
-    if (share >= kShown) found.push_back(with(stretch, cause, share));
+  static void add_share(std::vector<DegradedSegment>& found, const DegradedSegment& segment,
+                        Cause cause, double share) {
+    if (share >= kShown) found.push_back(with(segment, cause, share));
   }
 
   /// The cameras that it shows in for long enough, and the share of the worst of them.
-  Explanation seen_by_cameras(const Explanation& stretch, Cause cause, const auto& shows) const {
-    Explanation explanation = with(stretch, cause, 0);
+  DegradedSegment seen_by_cameras(const DegradedSegment& segment, Cause cause,
+                                  const auto& shows) const {
+    DegradedSegment explanation = with(segment, cause, 0);
     for (const std::size_t camera : cameras_) {
-      const double share = share_of(stretch, [&](std::size_t i) { return bool(shows(i, camera)); });
+      const double share = share_of(segment, [&](std::size_t i) { return bool(shows(i, camera)); });
       if (share < kShown) continue;
       explanation.cameras.push_back(camera);
       explanation.share = std::max(explanation.share, share);
@@ -98,10 +99,10 @@ class Detective {
     return explanation;
   }
 
-  static double share_of(const Explanation& stretch, const auto& shows) {
+  static double share_of(const DegradedSegment& segment, const auto& shows) {
     int count = 0;
-    for (std::size_t i = stretch.first; i <= stretch.last; ++i) count += shows(i) ? 1 : 0;
-    return count / static_cast<double>(stretch.last - stretch.first + 1);
+    for (std::size_t i = segment.first; i <= segment.last; ++i) count += shows(i) ? 1 : 0;
+    return count / static_cast<double>(segment.last - segment.first + 1);
   }
 
   bool is_dropped(std::size_t i, std::size_t camera) const {
@@ -133,21 +134,21 @@ class Detective {
   }
 
   /// A loop that was closed wrongly weighs more than tags that were not believed.
-  double wrong_tags(const Explanation& stretch) const {
+  double wrong_tags(const DegradedSegment& segment) const {
     const bool closed = std::ranges::any_of(results_.loops.closures, [&](const JudgedClosure& c) {
-      return c.judged && !c.correct && c.tick >= stretch.first && c.tick <= stretch.last;
+      return c.judged && !c.correct && c.tick >= segment.first && c.tick <= segment.last;
     });
     if (closed) return 1;
-    return share_of(stretch, [&](std::size_t i) {
+    return share_of(segment, [&](std::size_t i) {
       return std::ranges::any_of(tick(i).estimate.rejected_tags, [](const RejectedTag& tag) {
         return tag.reason != TagRejection::kAmbiguous;
       });
     });
   }
 
-  double missed_tags(const Explanation& stretch) const {
+  double missed_tags(const DegradedSegment& segment) const {
     if (!reads_tags_) return 0;
-    return share_of(stretch, [&](std::size_t i) {
+    return share_of(segment, [&](std::size_t i) {
       return std::ranges::any_of(tick(i).truth.visible_tags, [&](int visible) {
         const WorldConfig::Tag& tag = record_.tags[static_cast<std::size_t>(visible)];
         return std::ranges::none_of(tick(i).estimate.tags, [&](const TagSighting& sighting) {
@@ -158,11 +159,11 @@ class Detective {
   }
 
   /// Along a row, by once or several times the plants' spacing, while tracking looked well.
-  bool jumped_by_plants(const Explanation& stretch) const {
+  bool jumped_by_plants(const DegradedSegment& segment) const {
     const WorldConfig& world = scenario_.simulation.world;
-    const auto error = error_growth(record_, stretch.first, stretch.last);
-    if (world.rows.empty() || !error || stretch.untracked > 0 ||
-        stretch.inliers < kHealthyInliers * stretch.usual_inliers) {
+    const auto error = error_growth(record_, segment.first, segment.last);
+    if (world.rows.empty() || !error || segment.untracked > 0 ||
+        segment.inliers < kHealthyInliers * segment.usual_inliers) {
       return false;
     }
     const double spacing = world.vines.spacing;
@@ -187,12 +188,13 @@ class Detective {
   const RunRecord& record_;
   const RunResults& results_;
   const ScenarioConfig& scenario_;
-  std::vector<std::size_t> cameras_;  ///< left eyes: a right eye's features are found from theirs
+  std::vector<std::size_t>
+      cameras_;  ///< left cameras: a right camera's features are found from theirs
   std::vector<double> usual_features_;
   bool reads_tags_ = false;
 };
 
-std::string cameras_text(const RunRecord& record, const Explanation& explanation) {
+std::string cameras_text(const RunRecord& record, const DegradedSegment& explanation) {
   std::vector<std::string> names;
   for (const std::size_t camera : explanation.cameras) {
     names.push_back(record.rig.cameras[camera].name);
@@ -200,7 +202,7 @@ std::string cameras_text(const RunRecord& record, const Explanation& explanation
   return names.empty() ? "" : fmt::format(" in {}", fmt::join(names, ", "));
 }
 
-std::string line_of(const RunRecord& record, const Explanation& explanation) {
+std::string line_of(const RunRecord& record, const DegradedSegment& explanation) {
   std::string text = fmt::format(
       "  {:.2f} to {:.2f} s: {}{} ({:.0f} % of the time); error grew by {:.1f} mm",
       to_seconds(record.ticks[explanation.first].stamp),
@@ -218,7 +220,7 @@ std::string line_of(const RunRecord& record, const Explanation& explanation) {
 
 const char* name_of(Cause cause) {
   switch (cause) {
-    case Cause::kDroppedPictures:
+    case Cause::kDroppedImages:
       return "dropped pictures";
     case Cause::kOcclusion:
       return "occlusion";
@@ -240,24 +242,24 @@ const char* name_of(Cause cause) {
   return "";
 }
 
-std::vector<Explanation> explain(const RunRecord& record, const RunResults& results,
-                                 const ScenarioConfig& scenario) {
-  const Detective detective(record, results, scenario);
-  std::vector<Explanation> explanations;
-  for (const Explanation& stretch : bad_stretches(record, results)) {
-    const std::vector<Explanation> causes = detective.causes_of(stretch);
-    explanations.insert(explanations.end(), causes.begin(), causes.end());
+std::vector<DegradedSegment> diagnose(const RunRecord& record, const RunResults& results,
+                                      const ScenarioConfig& scenario) {
+  const CauseFinder finder(record, results, scenario);
+  std::vector<DegradedSegment> segments;
+  for (const DegradedSegment& segment : degraded_segments(record, results)) {
+    const std::vector<DegradedSegment> causes = finder.causes_of(segment);
+    segments.insert(segments.end(), causes.begin(), causes.end());
   }
-  return explanations;
+  return segments;
 }
 
-std::string format_explanations(const RunRecord& record,
-                                const std::vector<Explanation>& explanations) {
-  if (explanations.empty()) {
+std::string format_diagnosis(const RunRecord& record,
+                             const std::vector<DegradedSegment>& segments) {
+  if (segments.empty()) {
     return "the estimate suffered nowhere: no weak tracking, no fast growth of the error\n";
   }
   std::string text = "where the estimate suffered, and from what:\n";
-  for (const Explanation& explanation : explanations) text += line_of(record, explanation);
+  for (const DegradedSegment& explanation : segments) text += line_of(record, explanation);
   return text;
 }
 

@@ -19,8 +19,8 @@ std::size_t places(const std::string& cell) {
 
 }  // namespace
 
-const std::vector<Figure>& figures() {
-  static const std::vector<Figure> list{
+const std::vector<Metric>& shown_metrics() {
+  static const std::vector<Metric> list{
       {.key = "/ate_origin_rmse_m", .title = "ATE origin, mm", .scale = 1e3, .decimals = 2},
       {.key = "/ate_rmse_m", .title = "ATE, mm", .scale = 1e3, .decimals = 2},
       {.key = "/rpe_trans_percent", .title = "RPE, %", .decimals = 3},
@@ -43,13 +43,13 @@ const std::vector<Figure>& figures() {
   return list;
 }
 
-std::optional<double> value_of(const Figure& figure, const Json& metrics) {
+std::optional<double> value_of(const Metric& figure, const Json& metrics) {
   const Json::json_pointer place(figure.key);
   if (!metrics.contains(place) || !metrics.at(place).is_number()) return std::nullopt;
   return figure.scale * metrics.at(place).get<double>();
 }
 
-std::string format_value(const Figure& figure, const std::optional<double>& value) {
+std::string format_value(const Metric& figure, const std::optional<double>& value) {
   return value ? fmt::format("{:.{}f}", *value, figure.decimals) : kNothing;
 }
 

@@ -11,7 +11,7 @@
 namespace vinebench {
 
 /// A figure of metrics.json that runs are put side by side by.
-struct Figure {
+struct Metric {
   std::string key{};    ///< JSON pointer into metrics.json
   std::string title{};  ///< with the unit it is shown in
   double scale = 1;     ///< from the unit of metrics.json to the shown one
@@ -21,13 +21,13 @@ struct Figure {
 };
 
 /// In the order they are shown in.
-const std::vector<Figure>& figures();
+const std::vector<Metric>& shown_metrics();
 
 /// In the shown unit; nothing where the run could not measure it.
-std::optional<double> value_of(const Figure& figure, const Json& metrics);
+std::optional<double> value_of(const Metric& figure, const Json& metrics);
 
 /// A cell of a table, "–" for nothing.
-std::string format_value(const Figure& figure, const std::optional<double>& value);
+std::string format_value(const Metric& figure, const std::optional<double>& value);
 
 /// Rows of cells as a Markdown table whose columns line up; the first row is the header. The first
 /// `left` columns are aligned to the left, the others to the right.

@@ -47,7 +47,7 @@ void count_events(const Tick& tick, Json& metrics) {
   }
 }
 
-Json blind_metrics(const BlindStretch& blind) {
+Json blind_metrics(const OcclusionSegment& blind) {
   return {{"seconds", blind.seconds},
           {"metres", blind.metres},
           {"lost_frames", blind.lost_frames},

@@ -37,22 +37,22 @@ double mean_inliers(const RunRecord& record, const std::vector<int>& cameras, au
   return count > 0 ? sum / count : 0;
 }
 
-void describe(BlindStretch& stretch, const RunRecord& record, const std::vector<int>& cameras,
+void describe(OcclusionSegment& segment, const RunRecord& record, const std::vector<int>& cameras,
               double box_share) {
-  const auto in_stretch = [&](std::size_t i) { return i >= stretch.first && i <= stretch.last; };
-  stretch.inliers_blind = mean_inliers(record, cameras, in_stretch);
-  stretch.inliers_clear = mean_inliers(record, cameras, [&](std::size_t i) {
+  const auto in_segment = [&](std::size_t i) { return i >= segment.first && i <= segment.last; };
+  segment.inliers_blind = mean_inliers(record, cameras, in_segment);
+  segment.inliers_clear = mean_inliers(record, cameras, [&](std::size_t i) {
     return is_tracked(record.ticks[i].estimate) &&
            each_share(record.ticks[i], cameras, [&](double s) { return s <= box_share / 2; });
   });
-  for (std::size_t i = stretch.first; i <= stretch.last; ++i) {
-    if (!is_tracked(record.ticks[i].estimate)) ++stretch.lost_frames;
+  for (std::size_t i = segment.first; i <= segment.last; ++i) {
+    if (!is_tracked(record.ticks[i].estimate)) ++segment.lost_frames;
   }
 }
 
 }  // namespace
 
-std::optional<double> BlindStretch::inliers_drop() const {
+std::optional<double> OcclusionSegment::inliers_drop() const {
   if (inliers_clear <= 0) return std::nullopt;
   return 1 - inliers_blind / inliers_clear;
 }
@@ -67,14 +67,14 @@ std::vector<int> find_cameras(const Rig& rig, const std::vector<std::string>& na
   return cameras;
 }
 
-std::optional<BlindStretch> longest_blind_stretch(const RunRecord& record,
+std::optional<OcclusionSegment> longest_occlusion(const RunRecord& record,
                                                   const std::vector<int>& cameras,
                                                   double box_share) {
   const std::vector<double> lengths = true_path_lengths(record);
   const auto blind = [&](std::size_t i) {
     return each_share(record.ticks[i], cameras, [&](double share) { return share >= box_share; });
   };
-  std::optional<BlindStretch> longest;
+  std::optional<OcclusionSegment> longest;
   std::size_t begin = 0;
   for (std::size_t i = 1; i < record.ticks.size(); ++i) {
     const double step = to_seconds(record.ticks[i].stamp - record.ticks[i - 1].stamp);
@@ -85,7 +85,7 @@ std::optional<BlindStretch> longest_blind_stretch(const RunRecord& record,
     }
     const double seconds = to_seconds(record.ticks[i].stamp - record.ticks[begin].stamp);
     if (longest && seconds <= longest->seconds) continue;
-    longest = BlindStretch{
+    longest = OcclusionSegment{
         .first = begin, .last = i, .seconds = seconds, .metres = lengths[i] - lengths[begin]};
   }
   if (longest) describe(*longest, record, cameras, box_share);

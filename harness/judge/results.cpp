@@ -40,7 +40,7 @@ RunResults measure(const RunRecord& record, const ScenarioConfig& scenario) {
   results.loops = judge_loop_closures(record);
   if (const auto& blind = scenario.expectations.blind) {
     results.blind =
-        longest_blind_stretch(record, find_cameras(record.rig, blind->cameras), blind->box_share);
+        longest_occlusion(record, find_cameras(record.rig, blind->cameras), blind->box_share);
   }
   return results;
 }

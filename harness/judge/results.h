@@ -23,7 +23,7 @@ struct RunResults {
   std::optional<Consistency> consistency;
   std::optional<double> end_error;  ///< m, from the route's end to where the body truly ended
   LoopVerdict loops;
-  std::optional<BlindStretch> blind;  ///< where the scenario asks for one
+  std::optional<OcclusionSegment> blind;  ///< where the scenario asks for one
 };
 
 /// Throws Error when an expectation names a camera that the rig has not.

@@ -44,7 +44,7 @@ class Checks {
 
 void check_blind(Checks& checks, const Expectations& asked, const RunResults& results) {
   if (!asked.blind) return;
-  const std::optional<BlindStretch>& blind = results.blind;
+  const std::optional<OcclusionSegment>& blind = results.blind;
   const double seconds = blind ? blind->seconds : 0;
   checks.at_least<double>("blind in motion", asked.blind->seconds, seconds, " s");
   checks.at_least<double>("inliers' drop while blind", asked.blind->inliers_drop,

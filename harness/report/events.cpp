@@ -34,10 +34,10 @@ const char* name_of(TagRejection reason) {
 class EventLog {
  public:
   EventLog(const RunRecord& record, const RunResults& results,
-           const std::vector<Explanation>& explanations, double box_share)
+           const std::vector<DegradedSegment>& segments, double box_share)
       : record_(record),
         results_(results),
-        explanations_(explanations),
+        explanations_(segments),
         lengths_(true_path_lengths(record)) {
     for (std::size_t i = 0; i < record.ticks.size(); ++i) {
       tick_ = &record.ticks[i];
@@ -181,9 +181,9 @@ class EventLog {
     }
   }
 
-  /// When the stretch has ended.
+  /// When the segment has ended.
   void add_explanations() {
-    for (const Explanation& explanation : explanations_) {
+    for (const DegradedSegment& explanation : explanations_) {
       if (explanation.last != at_) continue;
       Json more{{"from", exact_seconds(record_.ticks[explanation.first].stamp)},
                 {"until", exact_seconds(tick_->stamp)},
@@ -203,7 +203,7 @@ class EventLog {
 
   const RunRecord& record_;
   const RunResults& results_;
-  const std::vector<Explanation>& explanations_;
+  const std::vector<DegradedSegment>& explanations_;
   std::vector<double> lengths_;
   const Tick* tick_ = nullptr;
   std::size_t at_ = 0;
@@ -219,8 +219,8 @@ class EventLog {
 }  // namespace
 
 std::string format_events(const RunRecord& record, const RunResults& results,
-                          const std::vector<Explanation>& explanations, double box_share) {
-  return EventLog(record, results, explanations, box_share).take();
+                          const std::vector<DegradedSegment>& segments, double box_share) {
+  return EventLog(record, results, segments, box_share).take();
 }
 
 }  // namespace vinebench

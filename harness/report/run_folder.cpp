@@ -20,7 +20,7 @@ void make_folder(const std::filesystem::path& folder) {
   if (error) fail("output folder {}: cannot be made: {}", folder.string(), error.message());
 }
 
-void remove_old_pictures(const std::filesystem::path& folder) {
+void remove_old_images(const std::filesystem::path& folder) {
   static const std::regex ours("[0-9]{6,}_.*\\.png");
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
@@ -48,12 +48,12 @@ void prepare_run_folder(const std::filesystem::path& folder, const std::string& 
   for (const char* stale : {"metrics.json", kInputsFile}) {
     std::filesystem::remove(folder / stale, ignored);
   }
-  remove_old_pictures(folder / "frames");
+  remove_old_images(folder / "frames");
 }
 
 void write_run_files(const std::filesystem::path& folder, const ScenarioConfig& scenario,
                      const RunRecord& record, const RunResults& results,
-                     const std::vector<Explanation>& explanations) {
+                     const std::vector<DegradedSegment>& segments) {
   const auto& blind = scenario.expectations.blind;
   const double box_share = blind ? blind->box_share : Expectations::Blind{}.box_share;
   write_tum(true_trajectory(record), folder / "groundtruth.tum");
@@ -61,8 +61,8 @@ void write_run_files(const std::filesystem::path& folder, const ScenarioConfig& 
   write_tum(record.summary.trajectory, folder / "estimate.tum");
   write_tum(record.summary.keyframes, folder / "keyframes.tum");
   write_file_atomically(folder / "events.jsonl",
-                        format_events(record, results, explanations, box_share));
-  write_file_atomically(folder / "summary.txt", format_explanations(record, explanations));
+                        format_events(record, results, segments, box_share));
+  write_file_atomically(folder / "summary.txt", format_diagnosis(record, segments));
   write_file_atomically(folder / "plot.svg", plot_svg(scenario, record, results));
 }
 

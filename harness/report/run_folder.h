@@ -14,7 +14,7 @@ namespace vinebench {
 inline constexpr const char* kInputsFile = "inputs.txt";
 
 /// Makes the folder of a run, writes its settings into it under the given name and takes away what
-/// an earlier run would leave beside the new one (metrics.json and pictures of frames). Throws
+/// an earlier run would leave beside the new one (metrics.json and images of frames). Throws
 /// Error when it cannot be written to, before any work is done.
 void prepare_run_folder(const std::filesystem::path& folder, const std::string& name,
                         const std::string& settings);
@@ -25,7 +25,7 @@ void prepare_run_folder(const std::filesystem::path& folder, const ScenarioConfi
 /// Trajectories, events, plot and summary: all but the metrics, which only a whole run has.
 void write_run_files(const std::filesystem::path& folder, const ScenarioConfig& scenario,
                      const RunRecord& record, const RunResults& results,
-                     const std::vector<Explanation>& explanations);
+                     const std::vector<DegradedSegment>& segments);
 
 void write_metrics(const std::filesystem::path& folder, const Json& metrics);
 

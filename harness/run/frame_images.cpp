@@ -10,8 +10,8 @@
 
 namespace vinebench {
 
-FramePictures::FramePictures(std::filesystem::path folder, const Rig& rig, std::int64_t total,
-                             int count)
+FrameImages::FrameImages(std::filesystem::path folder, const Rig& rig, std::int64_t total,
+                         int count)
     : folder_(std::move(folder)) {
   for (const RigCamera& camera : rig.cameras) cameras_.push_back(camera.name);
   const std::int64_t steps = std::max(1, count - 1);
@@ -19,7 +19,7 @@ FramePictures::FramePictures(std::filesystem::path folder, const Rig& rig, std::
     chosen_.insert(i * std::max<std::int64_t>(0, total - 1) / steps);
 }
 
-void FramePictures::on_tick(const Sample& sample, const Estimate&) {
+void FrameImages::on_tick(const Sample& sample, const Estimate&) {
   if (!chosen_.contains(sample.frame.index)) return;
   for (std::size_t i = 0; i < sample.frame.images.size(); ++i) {
     if (sample.frame.images[i].empty()) continue;

@@ -9,12 +9,12 @@
 
 namespace vinebench {
 
-/// Writes all cameras' pictures of a few frames, evenly spread over the run, as
+/// Writes all cameras' images of a few frames, evenly spread over the run, as
 /// frames/000123_front_left.png.
-class FramePictures : public Sink {
+class FrameImages : public Sink {
  public:
   /// `count` frames of a run of `total`; the first and the last are among them.
-  FramePictures(std::filesystem::path folder, const Rig& rig, std::int64_t total, int count);
+  FrameImages(std::filesystem::path folder, const Rig& rig, std::int64_t total, int count);
   void on_tick(const Sample& sample, const Estimate& estimate) override;
 
  private:

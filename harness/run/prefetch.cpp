@@ -4,22 +4,22 @@
 
 namespace vinebench {
 
-LookAhead::LookAhead(FrameSource& source) : source_(source) {
+Prefetch::Prefetch(FrameSource& source) : source_(source) {
   begin();
 }
 
-void LookAhead::begin() {
+void Prefetch::begin() {
   coming_ = std::async(std::launch::async, [this] { return source_.next(); });
 }
 
-std::optional<Sample> LookAhead::next() {
+std::optional<Sample> Prefetch::next() {
   if (!coming_.valid()) return std::nullopt;
   std::optional<Sample> sample = coming_.get();
   if (sample) begin();
   return sample;
 }
 
-const StageTimes& LookAhead::times() const {
+const StageTimes& Prefetch::times() const {
   if (coming_.valid()) coming_.wait();
   return source_.times();
 }

@@ -11,10 +11,10 @@ namespace vinebench {
 /// Makes the next sample of a source on another thread while the one before is worked on. The
 /// samples are the source's own, in its order; what it throws is thrown by the next() that would
 /// have given the sample.
-class LookAhead : public FrameSource {
+class Prefetch : public FrameSource {
  public:
   /// Keeps a reference to the source, which nobody else may use meanwhile.
-  explicit LookAhead(FrameSource& source);
+  explicit Prefetch(FrameSource& source);
 
   std::optional<Sample> next() override;
   std::int64_t size() const override { return source_.size(); }

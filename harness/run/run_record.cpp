@@ -56,12 +56,12 @@ void take_poses(const Trajectory& trajectory, std::vector<Tick>& ticks) {
 
 }  // namespace
 
-Recorder::Recorder(Rig rig, std::vector<WorldConfig::Tag> tags) {
+RunRecorder::RunRecorder(Rig rig, std::vector<WorldConfig::Tag> tags) {
   record_.rig = std::move(rig);
   record_.tags = std::move(tags);
 }
 
-void Recorder::on_tick(const Sample& sample, const Estimate& estimate) {
+void RunRecorder::on_tick(const Sample& sample, const Estimate& estimate) {
   record_.ticks.push_back(
       {sample.frame.index, sample.frame.stamp, sample.truth, estimate, sample.events});
   for (const cv::Mat& image : sample.frame.images) {
@@ -69,7 +69,7 @@ void Recorder::on_tick(const Sample& sample, const Estimate& estimate) {
   }
 }
 
-void Recorder::on_finish(const SlamSummary& summary) {
+void RunRecorder::on_finish(const SlamSummary& summary) {
   record_.summary = summary;
   const bool any = std::ranges::any_of(
       record_.ticks, [](const Tick& tick) { return tick.estimate.T_map_body.has_value(); });

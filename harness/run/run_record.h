@@ -8,14 +8,14 @@
 
 namespace vinebench {
 
-/// What one tick leaves behind once its pictures are gone.
+/// What one tick leaves behind once its images are gone.
 struct Tick {
   std::int64_t index = 0;
   Stamp stamp = 0;
   Truth truth;
   Estimate estimate;
   std::vector<SourceEvent> events;
-  std::vector<bool> delivered{};  ///< whether each camera gave a picture
+  std::vector<bool> delivered{};  ///< whether each camera gave an image
 };
 
 /// A whole run, or as much of it as there was: the one input of judge, log, plot and metrics.
@@ -44,9 +44,9 @@ std::vector<double> true_path_lengths(const RunRecord& record);
 /// Fills a record. A system that gave no pose while it ran worked at the end alone: then the poses
 /// of its trajectory are those of the frames with their stamps, and frames after the first one
 /// without a pose are lost.
-class Recorder : public Sink {
+class RunRecorder : public Sink {
  public:
-  Recorder(Rig rig, std::vector<WorldConfig::Tag> tags);
+  RunRecorder(Rig rig, std::vector<WorldConfig::Tag> tags);
   void on_tick(const Sample& sample, const Estimate& estimate) override;
   void on_finish(const SlamSummary& summary) override;
   const RunRecord& record() const { return record_; }

@@ -16,7 +16,7 @@ std::string verdict_of(const SetRun& run) {
 
 std::vector<std::optional<double>> medians_of(const std::vector<SetRun>& runs) {
   std::vector<std::optional<double>> medians;
-  for (const Figure& figure : figures()) {
+  for (const Metric& figure : shown_metrics()) {
     std::vector<double> values;
     for (const SetRun& run : runs) {
       if (const auto value = value_of(figure, run.metrics)) values.push_back(*value);
@@ -53,8 +53,8 @@ std::vector<Check> check_medians(const Expectations& expectations,
 
 std::vector<std::string> cells_of(const std::vector<std::optional<double>>& values) {
   std::vector<std::string> cells;
-  for (std::size_t i = 0; i < figures().size(); ++i) {
-    cells.push_back(format_value(figures()[i], values[i]));
+  for (std::size_t i = 0; i < shown_metrics().size(); ++i) {
+    cells.push_back(format_value(shown_metrics()[i], values[i]));
   }
   return cells;
 }
@@ -69,7 +69,7 @@ std::vector<std::string> row_of(const std::string& scenario, const std::string& 
 
 std::vector<std::string> header() {
   std::vector<std::string> titles;
-  for (const Figure& figure : figures()) titles.push_back(figure.title);
+  for (const Metric& figure : shown_metrics()) titles.push_back(figure.title);
   return row_of("scenario", "seed", titles, "verdict");
 }
 
@@ -104,7 +104,7 @@ std::string format_table(const std::vector<SeedsSummary>& scenarios) {
   for (const SeedsSummary& summary : scenarios) {
     for (const SetRun& run : summary.runs) {
       std::vector<std::optional<double>> values;
-      for (const Figure& figure : figures()) values.push_back(value_of(figure, run.metrics));
+      for (const Metric& figure : shown_metrics()) values.push_back(value_of(figure, run.metrics));
       rows.push_back(
           row_of(summary.scenario, std::to_string(run.seed), cells_of(values), verdict_of(run)));
     }
@@ -151,9 +151,9 @@ Json summary_json(const std::vector<SeedsSummary>& scenarios) {
                       {"metrics", run.metrics}});
     }
     Json medians = Json::object();
-    for (std::size_t i = 0; i < figures().size(); ++i) {
+    for (std::size_t i = 0; i < shown_metrics().size(); ++i) {
       const auto& value = summary.medians[i];
-      medians[figures()[i].title] = value ? Json(*value) : Json();
+      medians[shown_metrics()[i].title] = value ? Json(*value) : Json();
     }
     list.push_back({{"scenario", summary.scenario},
                     {"passed", summary.passed()},

@@ -15,8 +15,9 @@ namespace vinebench {
 struct SeedsSummary {
   std::string scenario;
   std::vector<SetRun> runs{};
-  std::vector<std::optional<double>> medians{};  ///< of figures(), over the runs that have each
-  std::vector<Check> checks{};                   ///< expectations of the median
+  std::vector<std::optional<double>>
+      medians{};                ///< of shown_metrics(), over the runs that have each
+  std::vector<Check> checks{};  ///< expectations of the median
 
   bool passed() const;
 };

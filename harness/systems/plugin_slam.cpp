@@ -86,7 +86,7 @@ class Setup {
   vinebench_setup setup_{};
 };
 
-/// A frame as a plugin is given it; the pictures stay where they are.
+/// A frame as a plugin is given it; the images stay where they are.
 class FrameView {
  public:
   explicit FrameView(const Frame& frame) {

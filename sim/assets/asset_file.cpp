@@ -83,29 +83,29 @@ void normalise(Asset& asset) {
 
 namespace {
 
-constexpr const char* kPictures = "expected a picture (PNG, JPEG, TIFF)";
+constexpr const char* kImages = "expected an image (PNG, JPEG, TIFF)";
 
 /// A few bytes can ask for gigabytes of pixels.
 void check_size(std::string_view bytes, const std::string& where) {
   constexpr double kLargest = 16384, kMost = 1 << 24;  // px, on a side and in all
-  const std::optional<cv::Size2d> size = picture_size(bytes);
-  if (!size) fail("{}: {}, found something else", where, kPictures);
+  const std::optional<cv::Size2d> size = image_size(bytes);
+  if (!size) fail("{}: {}, found something else", where, kImages);
   if (size->width >= 1 && size->height >= 1 && std::max(size->width, size->height) <= kLargest &&
       size->area() <= kMost) {
     return;
   }
-  fail("{}: expected a picture of 1 to {} pixels a side and {} in all, found {} x {}", where,
+  fail("{}: expected an image of 1 to {} pixels a side and {} in all, found {} x {}", where,
        kLargest, kMost, size->width, size->height);
 }
 
 cv::Mat decode(std::string_view bytes) {
   const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
-  cv::Mat picture = cv::imdecode(raw, cv::IMREAD_UNCHANGED);
-  if (picture.depth() == CV_16U) picture.convertTo(picture, CV_8U, 1 / 257.0);
-  if (picture.empty() || picture.depth() != CV_8U) return {};
+  cv::Mat image = cv::imdecode(raw, cv::IMREAD_UNCHANGED);
+  if (image.depth() == CV_16U) image.convertTo(image, CV_8U, 1 / 257.0);
+  if (image.empty() || image.depth() != CV_8U) return {};
   cv::Mat rgba;
-  const int channels = picture.channels();
-  cv::cvtColor(picture, rgba,
+  const int channels = image.channels();
+  cv::cvtColor(image, rgba,
                channels == 4   ? cv::COLOR_BGRA2RGBA
                : channels == 3 ? cv::COLOR_BGR2RGBA
                                : cv::COLOR_GRAY2RGBA);
@@ -131,7 +131,7 @@ std::string read_mesh_file(const std::filesystem::path& file) {
   return bytes;
 }
 
-cv::Mat decode_picture(std::string_view bytes, const std::string& where) {
+cv::Mat decode_image(std::string_view bytes, const std::string& where) {
   check_size(bytes, where);
   cv::Mat rgba;
   try {
@@ -139,7 +139,7 @@ cv::Mat decode_picture(std::string_view bytes, const std::string& where) {
   } catch (const cv::Exception&) {
     rgba.release();
   }
-  if (rgba.empty()) fail("{}: {} of 8 or 16 bits a channel, found a broken one", where, kPictures);
+  if (rgba.empty()) fail("{}: {} of 8 or 16 bits a channel, found a broken one", where, kImages);
   return rgba;
 }
 

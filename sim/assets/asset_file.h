@@ -14,7 +14,7 @@ namespace vinebench {
 /// Throws Error that names the file and what is wrong with it.
 Asset load_asset(const std::filesystem::path& file);
 
-/// The asset as the bytes of a .glb file with its pictures inside. Viewers show its finest level;
+/// The asset as the bytes of a .glb file with its images inside. Viewers show its finest level;
 /// load_asset brings back every level, material and bit.
 std::string to_glb(const Asset& asset);
 
@@ -23,13 +23,13 @@ std::string to_glb(const Asset& asset);
 Asset read_gltf(const std::filesystem::path& file);
 Asset import_mesh(const std::filesystem::path& file);  ///< by assimp
 
-/// The whole of a mesh's, a picture's or a buffer's file. Throws Error when it is no file, cannot
+/// The whole of a mesh's, an image's or a buffer's file. Throws Error when it is no file, cannot
 /// be read, is empty or larger than 1 GiB.
 std::string read_mesh_file(const std::filesystem::path& file);
 
-/// A picture file's bytes as the pixels of a Texture. Throws Error that names `where`, also
-/// for a picture of more than 16384 pixels on a side or 2^24 in all.
-cv::Mat decode_picture(std::string_view bytes, const std::string& where);
+/// An image file's bytes as the pixels of a Texture. Throws Error that names `where`, also
+/// for an image of more than 16384 pixels on a side or 2^24 in all.
+cv::Mat decode_image(std::string_view bytes, const std::string& where);
 
 /// Normals from the triangles around each vertex, weighted by their areas.
 void compute_normals(Primitive& primitive);

@@ -11,7 +11,7 @@
 namespace vinebench {
 namespace {
 
-/// Keeps a picture file's bytes as they are; those inside a buffer are found there later.
+/// Keeps an image file's bytes as they are; those inside a buffer are found there later.
 bool keep_bytes(tinygltf::Image* image, int, std::string*, std::string*, int, int,
                 const unsigned char* bytes, int size, void*) {
   if (image->bufferView < 0) image->image.assign(bytes, bytes + size);

@@ -8,7 +8,7 @@
 
 namespace vinebench {
 
-/// The parts of a .glb or .gltf file with its buffers; pictures stay as the bytes of their files.
+/// The parts of a .glb or .gltf file with its buffers; images stay as the bytes of their files.
 /// What the parts say of each other is not checked. Throws Error that names the file.
 tinygltf::Model parse_gltf(const std::filesystem::path& file);
 

@@ -37,17 +37,17 @@ class GltfReader {
 
  private:
   void add(const tinygltf::Texture& from) {
-    const tinygltf::Image& image = at(model_.images, from.source, "picture");
+    const tinygltf::Image& image = at(model_.images, from.source, "image");
     Texture texture;
     texture.name = image.name.empty() ? image.uri : image.name;
-    const std::string where = fmt::format("{}: picture \"{}\"", file_, texture.name);
+    const std::string where = fmt::format("{}: image \"{}\"", file_, texture.name);
     if (image.bufferView >= 0) {
-      texture.rgba = decode_picture(gltf_view(model_, image.bufferView, file_), where);
+      texture.rgba = decode_image(gltf_view(model_, image.bufferView, file_), where);
     } else if (image.image.empty()) {
       fail("{}: the file {} cannot be read", where, image.uri);
     } else {
       const auto* bytes = reinterpret_cast<const char*>(image.image.data());
-      texture.rgba = decode_picture({bytes, image.image.size()}, where);
+      texture.rgba = decode_image({bytes, image.image.size()}, where);
     }
     if (from.sampler >= 0) {
       const tinygltf::Sampler& sampler = at(model_.samplers, from.sampler, "sampler");

@@ -72,7 +72,7 @@ std::optional<cv::Size2d> tiff_size(std::string_view bytes) {
 
 }  // namespace
 
-std::optional<cv::Size2d> picture_size(std::string_view bytes) {
+std::optional<cv::Size2d> image_size(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG\r\n\x1a\n"sv)) return png_size(bytes);
   if (bytes.starts_with("\xff\xd8"sv)) return jpeg_size(bytes);
   if (bytes.starts_with("II*\0"sv) || bytes.starts_with("MM\0*"sv)) return tiff_size(bytes);

@@ -8,9 +8,9 @@
 
 namespace vinebench {
 
-/// Columns and rows of a picture, from the header of its file, before any memory is taken for its
+/// Columns and rows of an image, from the header of its file, before any memory is taken for its
 /// pixels. Knows PNG (ISO/IEC 15948), JPEG (ITU-T T.81) and TIFF (6.0); nothing for what is none of
 /// them or ends before it says its size.
-std::optional<cv::Size2d> picture_size(std::string_view bytes);
+std::optional<cv::Size2d> image_size(std::string_view bytes);
 
 }  // namespace vinebench

@@ -89,15 +89,15 @@ class MeshImporter {
   }
 
   void add(const aiMaterial& from, Asset& asset) const {
-    aiString name("material"), picture;
+    aiString name("material"), image;
     from.Get(AI_MATKEY_NAME, name);
     Material material = make_material(name.C_Str(), Label::kLeaf, -1);
     material.double_sided = true;
     aiColor3D colour(0.6f, 0.6f, 0.6f);
     from.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
     material.colour = {linear(colour.r), linear(colour.g), linear(colour.b)};
-    if (from.GetTexture(aiTextureType_DIFFUSE, 0, &picture) == aiReturn_SUCCESS) {
-      Texture texture = load_texture(picture.C_Str());
+    if (from.GetTexture(aiTextureType_DIFFUSE, 0, &image) == aiReturn_SUCCESS) {
+      Texture texture = load_texture(image.C_Str());
       cv::Mat alpha;
       cv::extractChannel(texture.rgba, alpha, 3);
       double lowest = 255;
@@ -111,10 +111,10 @@ class MeshImporter {
   Texture load_texture(std::string name) const {
     std::ranges::replace(name, '\\', '/');
     const std::filesystem::path path = file_.parent_path() / name;
-    const std::string where = fmt::format("{}: picture {}", file_.string(), path.string());
+    const std::string where = fmt::format("{}: image {}", file_.string(), path.string());
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) fail("{}: no such file", where);
-    return {name, decode_picture(read_mesh_file(path), where), true};
+    return {name, decode_image(read_mesh_file(path), where), true};
   }
 
   Primitive part(const aiMesh& mesh) const {

@@ -10,8 +10,8 @@
 
 namespace vinebench {
 
-/// What tells one grape variety from another by eye. Colours are sRGB, 0 to 1. The defaults are a
-/// red wine grape of middle size; sources stand in docs/plants.md.
+/// What tells one grape variety from another by camera. Colours are sRGB, 0 to 1. The defaults are
+/// a red wine grape of middle size; sources stand in docs/plants.md.
 struct Cultivar {
   struct Leaf {
     double area = 0.0105;     ///< m^2, mean of one side of a grown blade

@@ -66,12 +66,12 @@ Grapevine grow_grapevine(const PlantBrief& brief, std::uint64_t seed, int index)
 /// Area of one side of all its leaves, m^2.
 double leaf_area(const Grapevine& plant);
 
-/// Pictures that all plants of a cultivar, stage and seed share.
+/// Images that all plants of a cultivar, stage and seed share.
 std::vector<Texture> plant_textures(const Cultivar& cultivar, const GrowthStage& stage,
                                     std::uint64_t seed);
 
 /// The plants' levels of detail as triangles, one asset a plant. Near ones are meshes; far ones are
-/// painted from the plant itself into one more picture, which all share. Occlusion is baked from
+/// painted from the plant itself into one more image, which all share. Occlusion is baked from
 /// the leaves' density. Vertices of a plant's i-th bunch carry the part i + 1 (255 at most).
 std::vector<Asset> mesh_grapevines(const std::vector<Grapevine>& plants,
                                    const std::vector<Texture>& textures);

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-constexpr int kCellWidth = 512, kCellHeight = 256;  // px of the picture that a plant has
+constexpr int kCellWidth = 512, kCellHeight = 256;  // px of the image that a plant has
 constexpr int kSideWidth = 192, kSlabWidth = 64;    // px
 constexpr int kRim = 2;                             // px between neighbours
 constexpr int kReliefColumns = 4, kReliefRows = 6;

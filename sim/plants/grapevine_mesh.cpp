@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr float kSmallLeaf = 0.082f;  // m; shorter ones are drawn more coarsely up close
-constexpr float kShootFrom = 0.02f, kShootTo = 0.48f;  // u of the picture of canes
+constexpr float kShootFrom = 0.02f, kShootTo = 0.48f;  // u of the image of canes
 constexpr float kCaneFrom = 0.52f, kCaneTo = 0.98f;
 constexpr float kShelterGrain = 0.1f;  // v a metre
 

@@ -44,7 +44,7 @@ std::vector<Primitive> mesh_to_paint(const Grapevine& plant, const CanopyLight& 
 void add_far_wood(LevelOfDetail& level, const Grapevine& plant, int stride, int sides);
 void add_far_bunches(LevelOfDetail& level, const Grapevine& plant, int triangles);
 
-/// The plants as they look from both sides and from the row's end, all in one picture.
+/// The plants as they look from both sides and from the row's end, all in one image.
 class FarPlants {
  public:
   FarPlants(const std::vector<Grapevine>& plants, const std::vector<Texture>& textures,

@@ -11,7 +11,7 @@ namespace vinebench {
 namespace {
 
 constexpr int kSamples = 3;        // a side of a pixel
-constexpr int kTextureShrink = 4;  // pictures are seen from afar
+constexpr int kTextureShrink = 4;  // images are seen from afar
 constexpr float kGamma = 2.2f;     // the shaders'
 
 /// Light on a surface, up to a factor, under a sky that is brightest above and before it.
@@ -175,13 +175,13 @@ cv::Mat shrunk(const Texture& texture) {
 
 PlantPainting paint_plant(const std::vector<Primitive>& parts, const std::vector<Texture>& textures,
                           const std::vector<Material>& materials, const PaintWindow& window) {
-  std::vector<cv::Mat> pictures;
-  for (const Texture& texture : textures) pictures.push_back(shrunk(texture));
+  std::vector<cv::Mat> images;
+  for (const Texture& texture : textures) images.push_back(shrunk(texture));
   const cv::Mat white(1, 1, CV_8UC3, cv::Scalar::all(255));
   Canvas canvas(window);
   for (const Primitive& part : parts) {
     const int texture = materials.at(static_cast<std::size_t>(part.material)).texture;
-    canvas.draw(part, texture < 0 ? white : pictures.at(static_cast<std::size_t>(texture)));
+    canvas.draw(part, texture < 0 ? white : images.at(static_cast<std::size_t>(texture)));
   }
   return canvas.finish();
 }

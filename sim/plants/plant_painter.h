@@ -10,10 +10,10 @@
 
 namespace vinebench {
 
-/// What part of the model a painted picture shows, without perspective.
+/// What part of the model a painted image shows, without perspective.
 struct PaintWindow {
-  Eigen::Vector3f right;     ///< unit; grows along the picture's columns
-  Eigen::Vector3f towards;   ///< unit; to who looks at it; the picture's up is z
+  Eigen::Vector3f right;     ///< unit; grows along the image's columns
+  Eigen::Vector3f towards;   ///< unit; to who looks at it; the image's up is z
   Eigen::Vector2f from, to;  ///< m, along `right` and z, of the lower left and upper right corner
   cv::Size size;             ///< px
 };
@@ -21,7 +21,7 @@ struct PaintWindow {
 struct PlantPainting {
   cv::Mat rgba;         ///< CV_8UC4, sRGB; alpha is the share of a pixel that is covered
   cv::Mat depth;        ///< CV_32F, m along `towards`; NaN where nothing is
-  float occlusion = 1;  ///< mean of what is seen; the picture holds only how it varies
+  float occlusion = 1;  ///< mean of what is seen; the image holds only how it varies
 };
 
 /// Paints triangles as they look from afar: textures, and the light that reaches each place

@@ -26,7 +26,7 @@ void check_camera(const PinholeCamera& camera) {
   }
   if (camera.width < 1 || camera.height < 1 || camera.width > kLargest ||
       camera.height > kLargest) {
-    fail("renderer: a picture of {} x {} pixels, expected 1 to {} a side", camera.width,
+    fail("renderer: an image of {} x {} pixels, expected 1 to {} a side", camera.width,
          camera.height, kLargest);
   }
   if (!(camera.fx > 0) || !(camera.fy > 0)) {
@@ -46,7 +46,7 @@ void linearise(cv::Mat& depth) {
   }
 }
 
-/// Bytes of instance number (low, middle, high) and part to Picture::instances.
+/// Bytes of instance number (low, middle, high) and part to RenderedImage::instances.
 cv::Mat instance_numbers(const cv::Mat& bytes) {
   cv::Mat numbers(bytes.size(), CV_32SC1);
   for (int y = 0; y < bytes.rows; ++y) {
@@ -77,25 +77,26 @@ class Renderer::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  Picture render(const PinholeCamera& camera, const Pose& T_world_cam, const Request& request) {
+  RenderedImage render(const PinholeCamera& camera, const Pose& T_world_cam,
+                       const Request& request) {
     check_camera(camera);
     const TruthParts truth{request.depth, request.instances, request.normals, request.motion};
     const CurrentContext current(*context_);
     painter_->draw(target(camera.width, camera.height, truth.any()), camera, T_world_cam,
                    request.T_world_rover, config_.lod_scale,
                    {request.exposure, request.time, request.other_time}, truth);
-    Picture picture = read(camera, request);
+    RenderedImage image = read(camera, request);
     if (request.motion && request.T_world_rover && request.T_world_rover_other) {
-      const cv::Mat depth = request.depth ? picture.depth : read_depth(camera);
+      const cv::Mat depth = request.depth ? image.depth : read_depth(camera);
       move_rover(camera, T_world_cam, *request.T_world_rover, *request.T_world_rover_other,
-                 picture.labels, depth, picture.motion);
+                 image.labels, depth, image.motion);
     }
-    check_gl("drawing a picture");
+    check_gl("drawing an image");
     const Eigen::Vector3d sun = light_.towards_sun.cast<double>();
-    add_glare(picture.rgb, picture.labels, camera, T_world_cam.rotation.inverse() * sun, light_,
+    add_glare(image.rgb, image.labels, camera, T_world_cam.rotation.inverse() * sun, light_,
               request.exposure);
-    if (!request.labels) picture.labels.release();
-    return picture;
+    if (!request.labels) image.labels.release();
+    return image;
   }
 
  private:
@@ -103,24 +104,24 @@ class Renderer::Impl {
     return targets_.try_emplace({width, height, truth}, width, height, truth).first->second;
   }
 
-  /// The clip space is mirrored so that OpenGL's first row is the picture's top one.
-  Picture read(const PinholeCamera& camera, const Request& request) {
-    Picture picture;
+  /// The clip space is mirrored so that OpenGL's first row is the image's top one.
+  RenderedImage read(const PinholeCamera& camera, const Request& request) {
+    RenderedImage image;
     const cv::Size size(camera.width, camera.height);
     read_pixels(0, size, GL_RGBA, GL_UNSIGNED_BYTE, CV_8UC4, pixels_);
-    picture.rgb.create(size, CV_8UC3);
-    picture.labels.create(size, CV_8UC1);
-    cv::Mat parts[] = {picture.rgb, picture.labels};
+    image.rgb.create(size, CV_8UC3);
+    image.labels.create(size, CV_8UC1);
+    cv::Mat parts[] = {image.rgb, image.labels};
     constexpr int kFromTo[] = {0, 0, 1, 1, 2, 2, 3, 3};
     cv::mixChannels(&pixels_, 1, parts, 2, kFromTo, 4);
-    if (request.depth) picture.depth = read_depth(camera);
+    if (request.depth) image.depth = read_depth(camera);
     if (request.instances) {
       read_pixels(1, size, GL_RGBA, GL_UNSIGNED_BYTE, CV_8UC4, pixels_);
-      picture.instances = instance_numbers(pixels_);
+      image.instances = instance_numbers(pixels_);
     }
-    if (request.normals) read_pixels(2, size, GL_RGB, GL_FLOAT, CV_32FC3, picture.normals);
-    if (request.motion) read_pixels(3, size, GL_RGB, GL_FLOAT, CV_32FC3, picture.motion);
-    return picture;
+    if (request.normals) read_pixels(2, size, GL_RGB, GL_FLOAT, CV_32FC3, image.normals);
+    if (request.motion) read_pixels(3, size, GL_RGB, GL_FLOAT, CV_32FC3, image.motion);
+    return image;
   }
 
   static cv::Mat read_depth(const PinholeCamera& camera) {
@@ -152,8 +153,8 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
-Picture Renderer::render(const PinholeCamera& camera, const Pose& T_world_cam,
-                         const Request& request) {
+RenderedImage Renderer::render(const PinholeCamera& camera, const Pose& T_world_cam,
+                               const Request& request) {
   return impl_->render(camera, T_world_cam, request);
 }
 

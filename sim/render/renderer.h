@@ -16,7 +16,7 @@
 namespace vinebench {
 
 /// One rendered view. What was not asked for is empty.
-struct Picture {
+struct RenderedImage {
   cv::Mat rgb;     ///< CV_8UC3, RGB, top row first
   cv::Mat labels;  ///< CV_8UC1 of Label
   cv::Mat depth;   ///< CV_32FC1, z along the optical axis in m, 0 for sky
@@ -38,7 +38,7 @@ inline std::vector<std::string> yaml_names(GlBackend) {
 }
 
 struct RendererConfig {
-  /// OSMesa and EGL give the same picture; `auto` takes $VINEBENCH_GL, else OSMesa, else EGL.
+  /// OSMesa and EGL give the same image; `auto` takes $VINEBENCH_GL, else OSMesa, else EGL.
   GlBackend backend = GlBackend::kAuto;
   double lod_scale = 1.0;      ///< distances of the levels of detail are multiplied by this
   int shadow_map_size = 2048;  ///< pixels a side; 0 draws no shadows
@@ -75,7 +75,8 @@ class Renderer {
     /// The same at other_time, for motion; it stays where absent.
     std::optional<Pose> T_world_rover_other = std::nullopt;
   };
-  Picture render(const PinholeCamera& camera, const Pose& T_world_cam, const Request& request);
+  RenderedImage render(const PinholeCamera& camera, const Pose& T_world_cam,
+                       const Request& request);
 
  private:
   class Impl;

@@ -25,7 +25,7 @@ enum class Thing {
 /// "none", "ground", "vine" and so on.
 std::string name_of(Thing thing);
 
-/// What a number of Picture::instances stands for.
+/// What a number of RenderedImage::instances stands for.
 struct InstanceName {
   Thing thing = Thing::kNone;
   int index = -1;     ///< into Scene::instances; -1 for kNone and kRover

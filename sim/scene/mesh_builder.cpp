@@ -247,7 +247,7 @@ void MeshBuilder::berry(const Eigen::Vector3f& centre, float radius, const Eigen
     const float turn = (static_cast<float>(i % kSpokes) + (lower ? 0.5f : 0.0f)) / kSpokes * kTurn;
     const Eigen::Vector3f spoke = std::cos(turn) * axes.x + std::sin(turn) * axes.y;
     const Eigen::Vector3f out = kOut * spoke + (lower ? -kHigh : kHigh) * axes.z;
-    const float reach = lower ? 0.5f : 0.36f;  // in the picture of a berry
+    const float reach = lower ? 0.5f : 0.36f;  // in the image of a berry
     ring.at(i) = vertex(centre + kAround * radius * out, out,
                         cell.at(0.5f + reach * std::cos(turn), 0.5f + reach * std::sin(turn)));
   }

@@ -30,7 +30,7 @@ enum class Label : std::uint8_t {
   kPerson
 };
 
-/// An RGBA picture on a surface: CV_8UC4, sRGB, first row at v = 0 (glTF's convention).
+/// An RGBA image on a surface: CV_8UC4, sRGB, first row at v = 0 (glTF's convention).
 struct Texture {
   std::string name;
   cv::Mat rgba;
@@ -102,7 +102,7 @@ struct Light {
   Eigen::Vector3f bounce = Eigen::Vector3f(0.18f, 0.16f, 0.13f);  ///< ambient from below
   float overcast = 0;  ///< share of the sky that cloud covers, 0 to 1
   float haze = 0;      ///< extinction of the air, 1/m
-  float glare = 1;     ///< how much of a sun in the picture the lens scatters
+  float glare = 1;     ///< how much of a sun in the image the lens scatters
 };
 
 /// What moves leaves, canes and bunches.

@@ -32,7 +32,7 @@ bool sound(const Eigen::Vector3f& position) {
 void check(const Texture& texture) {
   const cv::Mat& rgba = texture.rgba;
   if (rgba.dims > 2 || rgba.empty() || rgba.type() != CV_8UC4) {
-    fail("scene: texture '{}': expected a picture of 4 channels of 8 bits", texture.name);
+    fail("scene: texture '{}': expected an image of 4 channels of 8 bits", texture.name);
   }
   if (std::max(rgba.cols, rgba.rows) > kLargestSide) {
     fail("scene: texture '{}': expected at most {} pixels a side, found {} x {}", texture.name,

@@ -6,7 +6,7 @@
 
 namespace vinebench {
 
-/// Throws Error that names the part of the scene that cannot be drawn: a picture that is empty, of
+/// Throws Error that names the part of the scene that cannot be drawn: an image that is empty, of
 /// another kind or too large, something that names what the scene has not, a number that is none.
 void check_scene(const Scene& scene);
 

@@ -9,7 +9,7 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3f>;
 
-/// Every so-manieth, so that at most kMostPoints are left.
+/// Every n-th, so that at most kMostPoints are left.
 Points thinned(const Points& all) {
   const std::size_t step = all.size() / SceneIndex::kMostPoints + 1;
   Points kept;

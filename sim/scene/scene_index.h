@@ -13,7 +13,8 @@
 
 namespace vinebench {
 
-/// What the numbers of Picture::instances mean, and where these things are, without their meshes.
+/// What the numbers of RenderedImage::instances mean, and where these things are, without their
+/// meshes.
 class SceneIndex {
  public:
   SceneIndex() = default;

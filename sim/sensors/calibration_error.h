@@ -13,7 +13,7 @@
 
 namespace vinebench {
 
-/// How the true rig, which takes the pictures, differs from the one that its users are told of.
+/// How the true rig, which takes the images, differs from the one that its users are told of.
 /// None by default.
 struct CalibrationErrorConfig {
   /// One camera's own difference, added to the drawn one.
@@ -50,7 +50,7 @@ struct CalibrationErrorConfig {
   }
 };
 
-/// The rig that takes the pictures where `told` is what its users believe. Throws Error for a name
+/// The rig that takes the images where `told` is what its users believe. Throws Error for a name
 /// that is not in the rig and a focal length that is not above 0.
 Rig true_rig(const Rig& told, const CalibrationErrorConfig& config, std::uint64_t seed);
 

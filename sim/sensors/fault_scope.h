@@ -12,7 +12,7 @@
 
 namespace vinebench {
 
-/// Which cameras a fault befalls, and when. All of them all the time by default.
+/// Which cameras a fault applies_to, and when. All of them all the time by default.
 struct FaultScope {
   std::vector<std::string> cameras;  ///< names of the rig; empty: every camera
   double from = 0;                   ///< s, from the scenario's start
@@ -25,10 +25,10 @@ struct FaultScope {
     archive.require(!until || *until > from, "until", "expected a time after from");
   }
 
-  bool befalls(const std::string& camera) const {
+  bool applies_to(const std::string& camera) const {
     return cameras.empty() || std::find(cameras.begin(), cameras.end(), camera) != cameras.end();
   }
-  bool holds_at(Stamp stamp) const {
+  bool is_active(Stamp stamp) const {
     return stamp >= from_seconds(from) && (!until || stamp < from_seconds(*until));
   }
 };

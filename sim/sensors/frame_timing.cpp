@@ -47,7 +47,7 @@ bool FrameTiming::is_dropped(std::int64_t frame, std::size_t camera) const {
   const RandomStream all(seed_, "drops.frame", counter);
   if (one.uniform(0) < drops_.camera_rate || all.uniform(0) < drops_.frame_rate) return true;
   return std::ranges::any_of(drops_.bursts, [&](const FaultScope& burst) {
-    return burst.befalls(cameras_[camera]) && burst.holds_at(instant(frame));
+    return burst.applies_to(cameras_[camera]) && burst.is_active(instant(frame));
   });
 }
 

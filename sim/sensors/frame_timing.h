@@ -14,7 +14,7 @@
 
 namespace vinebench {
 
-/// When pictures are taken and what their stamps say. All cameras at each frame's instant, exactly
+/// When images are taken and what their stamps say. All cameras at each frame's instant, exactly
 /// stamped, by default.
 struct FrameTimingConfig {
   struct Trigger {
@@ -37,10 +37,10 @@ struct FrameTimingConfig {
   }
 };
 
-/// Pictures that never arrive. None by default.
+/// Images that never arrive. None by default.
 struct FrameDropConfig {
-  double camera_rate = 0;  ///< share of a camera's pictures, each camera by itself
-  double frame_rate = 0;   ///< share of frames that lose the pictures of all cameras
+  double camera_rate = 0;  ///< share of a camera's images, each camera by itself
+  double frame_rate = 0;   ///< share of frames that lose the images of all cameras
   std::vector<FaultScope> bursts;
   template <class Archive>
   void serialize(Archive& archive) {

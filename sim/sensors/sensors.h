@@ -32,7 +32,7 @@ struct SensorsConfig {
   }
 };
 
-/// Perfect sensors: pictures as they are rendered, readings as the physics has them.
+/// Perfect sensors: images as they are rendered, readings as the physics has them.
 SensorsConfig perfect_sensors();
 
 /// Throws one Error that lists what does not go with the rig: names of cameras that it has not, and

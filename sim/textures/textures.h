@@ -13,7 +13,7 @@
 
 namespace vinebench {
 
-// Pictures painted in code from a seed; the same seed gives the same bytes.
+// Images painted in code from a seed; the same seed gives the same bytes.
 
 /// Smooth noise in [0, 1], CV_32F, that repeats without a seam: `cells` bumps a side.
 cv::Mat value_noise(cv::Size size, cv::Size cells, const RandomStream& random);
@@ -26,7 +26,7 @@ cv::Mat fractal_noise(cv::Size size, cv::Size cells, int octaves, double gain, s
 /// Pixel by pixel from `low` to `high` (RGB, 0 to 255) as `amount` goes from 0 to 1: CV_32FC3.
 cv::Mat blend(const cv::Mat& amount, const cv::Vec3f& low, const cv::Vec3f& high);
 
-/// Pixel by pixel from picture `a` to `b`, both CV_32FC3, as `amount` goes from 0 to 1.
+/// Pixel by pixel from image `a` to `b`, both CV_32FC3, as `amount` goes from 0 to 1.
 cv::Mat mix(const cv::Mat& amount, const cv::Mat& a, const cv::Mat& b);
 
 /// CV_32FC3 of 0 to 255 (and 8-bit alpha, opaque where empty) to the CV_8UC4 of a Texture.

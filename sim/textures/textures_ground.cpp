@@ -86,7 +86,7 @@ void scatter_leaves(cv::Mat& rgb, RandomSequence& random, int count, double size
   }
 }
 
-/// Fine noise of a piece of a picture, laid side by side until it fills it.
+/// Fine noise of a piece of an image, laid side by side until it fills it.
 cv::Mat repeated_noise(cv::Size size, cv::Size pieces, cv::Size cells, int octaves, double gain,
                        std::uint64_t seed, std::string_view name) {
   const cv::Size piece(size.width / pieces.width, size.height / pieces.height);
@@ -97,7 +97,7 @@ cv::Mat repeated_noise(cv::Size size, cv::Size pieces, cv::Size cells, int octav
 /// Coarse noise, made small and enlarged; `gain` as for fractal_noise.
 cv::Mat coarse_noise(cv::Size size, cv::Size cells, int octaves, double gain, std::uint64_t seed,
                      std::string_view name) {
-  constexpr int kRim = 4;  // px of the next tile, so that the enlarged picture has no seam
+  constexpr int kRim = 4;  // px of the next tile, so that the enlarged image has no seam
   const cv::Size small(size.width / 4, size.height / 4);
   cv::Mat wrapped, large;
   cv::copyMakeBorder(fractal_noise(small, cells, octaves, gain, seed, name), wrapped, kRim, kRim,

@@ -6,18 +6,17 @@
 
 #include "core/util/random.h"
 
-// What painters of pictures that repeat have in common.
+// What painters of images that repeat have in common.
 
 namespace vinebench {
 
-/// Draws a small thing on a picture that repeats: again wherever it crosses the seam.
+/// Draws a small thing on an image that repeats: again wherever it crosses the seam.
 template <class Draw>
-void draw_wrapped(const cv::Mat& picture, const cv::Point2d& at, double reach, const Draw& draw) {
+void draw_wrapped(const cv::Mat& image, const cv::Point2d& at, double reach, const Draw& draw) {
   for (const int ix : {-1, 0, 1}) {
     for (const int iy : {-1, 0, 1}) {
-      const cv::Point2d p(at.x + ix * picture.cols, at.y + iy * picture.rows);
-      if (p.x > -reach && p.y > -reach && p.x < picture.cols + reach &&
-          p.y < picture.rows + reach) {
+      const cv::Point2d p(at.x + ix * image.cols, at.y + iy * image.rows);
+      if (p.x > -reach && p.y > -reach && p.x < image.cols + reach && p.y < image.rows + reach) {
         draw(p);
       }
     }
@@ -30,9 +29,9 @@ inline cv::Scalar jitter(RandomSequence& random, const cv::Vec3d& colour, double
   return {colour[0] * light, colour[1] * light, colour[2] * light};
 }
 
-inline cv::Point2d somewhere(RandomSequence& random, const cv::Mat& picture) {
-  const double x = random.uniform(0, picture.cols);
-  return {x, random.uniform(0, picture.rows)};
+inline cv::Point2d somewhere(RandomSequence& random, const cv::Mat& image) {
+  const double x = random.uniform(0, image.cols);
+  return {x, random.uniform(0, image.rows)};
 }
 
 }  // namespace vinebench

@@ -15,7 +15,7 @@ constexpr int kLeafPixels = 256;
 constexpr int kPaintScale = 2;  // leaves are painted larger and averaged down
 constexpr int kBunchPixels = 128;
 
-/// Point of a blade (in sizes) to pixels of a square picture.
+/// Point of a blade (in sizes) to pixels of a square image.
 cv::Point2f leaf_pixel(const Eigen::Vector2f& p, int side) {
   return {(p.x() + kLeafHalf) / (2 * kLeafHalf) * side,
           (1 - (p.y() - kLeafBottom) / (2 * kLeafHalf)) * side};
@@ -172,7 +172,7 @@ std::array<cv::Vec3f, kBerryVariants> berry_colours(const Cultivar& cultivar,
   return colours;
 }
 
-/// One berry over a picture: darker towards its rim, where its neighbours shade it.
+/// One berry over an image: darker towards its rim, where its neighbours shade it.
 void paint_berry(cv::Mat& rgb, const cv::Point2d& at, const cv::Size2d& radius,
                  const cv::Vec3f& skin, double rim) {
   constexpr int kRings = 8;

@@ -11,7 +11,7 @@
 namespace vinebench {
 namespace {
 
-constexpr int kPanel = 512;  // px, height of one half of a carton's picture
+constexpr int kPanel = 512;  // px, height of one half of a carton's image
 
 /// A maker's mark: a ring, a triangle or a block, with a stroke through it.
 void print_mark(cv::Mat& panel, RandomSequence& random, const cv::Scalar& ink) {

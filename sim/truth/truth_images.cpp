@@ -13,12 +13,12 @@
 namespace vinebench {
 namespace {
 
-constexpr double kNearest = 1e-3;         // m before a camera; nearer points are not in its picture
+constexpr double kNearest = 1e-3;         // m before a camera; nearer points are not in its image
 constexpr double kShare = 1e-3;           // of depth: levels of detail, rounding
 constexpr double kResolution = 4e-6;      // 1/m: depth of 32 bits from 0.03 m on, twice
 constexpr double kSlopeShare = 0.25;      // px, of the depth's slope
 constexpr double kMostBySlope = 0.01;     // of depth
-constexpr double kSameAxes = 1e-6;        // rad, of the eyes and of the baseline off the x axis
+constexpr double kSameAxes = 1e-6;        // rad, of the cameras and of the baseline off the x axis
 constexpr double kSameIntrinsics = 1e-9;  // px
 
 void check(const TruthView& view, const char* which) {
@@ -26,15 +26,15 @@ void check(const TruthView& view, const char* which) {
   if (view.camera.has_distortion()) {
     fail("truth images: {} camera has lens distortion, expected an ideal pinhole", which);
   }
-  const Picture& picture = view.picture;
-  if (picture.depth.size() != size || picture.depth.type() != CV_32FC1 ||
-      picture.normals.size() != size || picture.normals.type() != CV_32FC3) {
-    fail("truth images: expected depth and normals of {} x {} pixels with {} picture", size.width,
+  const RenderedImage& image = view.image;
+  if (image.depth.size() != size || image.depth.type() != CV_32FC1 ||
+      image.normals.size() != size || image.normals.type() != CV_32FC3) {
+    fail("truth images: expected depth and normals of {} x {} pixels with {} image", size.width,
          size.height, which);
   }
 }
 
-/// Where rays of z = 1 through the centres of pixels go, along one axis of the picture.
+/// Where rays of z = 1 through the centres of pixels go, along one axis of the image.
 std::vector<double> rays(int size, double focal, double centre) {
   std::vector<double> at(static_cast<std::size_t>(size));
   for (int i = 0; i < size; ++i) at[static_cast<std::size_t>(i)] = (i - centre) / focal;
@@ -54,24 +54,24 @@ class Warp {
 
   /// Point in camera b's frame; of sky the direction.
   Eigen::Vector3d point(int x, int y) const {
-    const double depth = a_.picture.depth.at<float>(y, x);
+    const double depth = a_.image.depth.at<float>(y, x);
     const Eigen::Vector3d ray =
         R_b_a_.col(0) * a_columns_[static_cast<std::size_t>(x)] +
         (R_b_a_.col(1) * a_rows_[static_cast<std::size_t>(y)] + R_b_a_.col(2));
     if (depth == 0) return ray;
     const Eigen::Vector3d p = depth * ray + t_b_a_;
-    return a_.picture.motion.empty() ? p : Eigen::Vector3d(p + motion(x, y));
+    return a_.image.motion.empty() ? p : Eigen::Vector3d(p + motion(x, y));
   }
 
-  bool is_sky(int x, int y) const { return a_.picture.depth.at<float>(y, x) == 0; }
+  bool is_sky(int x, int y) const { return a_.image.depth.at<float>(y, x) == 0; }
 
-  /// Whether b shows the point, or the sky, at a place of its picture.
+  /// Whether b shows the point, or the sky, at a place of its image.
   bool shows(const Eigen::Vector2d& place, const Eigen::Vector3d& point, bool sky) const {
     if (!b_.camera.contains(place)) return false;
     // The nearest pixel; places begin at -0.5.
     const int x = std::min(static_cast<int>(place.x() + 0.5), b_.camera.width - 1);
     const int y = std::min(static_cast<int>(place.y() + 0.5), b_.camera.height - 1);
-    const double seen = b_.picture.depth.at<float>(y, x);
+    const double seen = b_.image.depth.at<float>(y, x);
     if (sky || seen == 0) return sky && seen == 0;
     return agrees(x, y, seen, point);
   }
@@ -79,14 +79,14 @@ class Warp {
  private:
   /// By the wind, in camera b's frame.
   Eigen::Vector3d motion(int x, int y) const {
-    const auto& m = a_.picture.motion.at<cv::Vec3f>(y, x);
+    const auto& m = a_.image.motion.at<cv::Vec3f>(y, x);
     return b_.T_world_cam.rotation.conjugate() * Eigen::Vector3d(m[0], m[1], m[2]);
   }
 
   /// The plane seen at pixel (x, y) is n . p = n . (seen * ray); a ray of z = 1 meets it at the
   /// depth n . (seen * ray) / n . ray'.
   bool agrees(int x, int y, double seen, const Eigen::Vector3d& point) const {
-    const auto& normal = b_.picture.normals.at<cv::Vec3f>(y, x);
+    const auto& normal = b_.image.normals.at<cv::Vec3f>(y, x);
     const Eigen::Vector3d n(normal[0], normal[1], normal[2]);
     const double facing = n.x() * b_columns_[static_cast<std::size_t>(x)] +
                           n.y() * b_rows_[static_cast<std::size_t>(y)] + n.z();
@@ -118,7 +118,7 @@ void check_rectified(const TruthView& left, const TruthView& right) {
       t.tail<2>().norm() > kSameAxes * t.x() || !same(l.fx, r.fx) || !same(l.fy, r.fy) ||
       !same(l.cy, r.cy)) {
     fail(
-        "disparity: the views are no rectified pair, expected the right eye beside the left one "
+        "disparity: the views are no rectified pair, expected the right camera beside the left one "
         "along its x axis, looking the same way, with the same focal lengths and cy");
   }
 }
@@ -157,7 +157,7 @@ FlowTruth optical_flow(const TruthView& a, const TruthView& b) {
 DisparityTruth disparity(const TruthView& left, const TruthView& right) {
   check_rectified(left, right);
   TruthView still = left;
-  still.picture.motion.release();
+  still.image.motion.release();
   const FlowTruth truth = optical_flow(still, right);
   DisparityTruth result;
   cv::extractChannel(cv::Mat(-truth.flow), result.disparity, 0);

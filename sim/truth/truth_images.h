@@ -8,15 +8,15 @@
 
 namespace vinebench {
 
-/// A picture with what it was drawn from: depth and normals are needed, motion where the wind
-/// blows. The camera is an ideal pinhole; through a lens, pictures are compared before it.
+/// An image with what it was drawn from: depth and normals are needed, motion where the wind
+/// blows. The camera is an ideal pinhole; through a lens, images are compared before it.
 struct TruthView {
   PinholeCamera camera;
   Pose T_world_cam;
-  Picture picture;
+  RenderedImage image;
 };
 
-/// What the truth pictures of two views need of the renderer, drawn at `time` and compared with a
+/// What the truth images of two views need of the renderer, drawn at `time` and compared with a
 /// view of `other_time` (s; of account only where the wind blows).
 Renderer::Request truth_request(double time = 0, double other_time = 0);
 
@@ -27,25 +27,25 @@ struct FlowTruth {
   cv::Mat visible;  ///< CV_8UC1, 255 where b shows the point, 0 where it is hidden or outside
 };
 
-/// Optical flow of each pixel's centre: its point by depth, moved as Picture::motion says (a's
-/// `other_time` is b's `time`), projected into b. Sky is infinitely far away. Exact to the depth
-/// buffer's resolution: far below 0.01 px.
+/// Optical flow of each pixel's centre: its point by depth, moved as RenderedImage::motion says
+/// (a's `other_time` is b's `time`), projected into b. Sky is infinitely far away. Exact to the
+/// depth buffer's resolution: far below 0.01 px.
 ///
 /// A point counts as visible where the plane of what b shows at the nearest pixel (its depth and
 /// normal) passes the point within 0.1 % of its depth, 0.004 mm for each square metre of it (the
 /// buffer's resolution), and a quarter of the depth's slope from pixel to pixel, this at most 1 %.
 ///
-/// Throws Error for a camera with distortion and pictures that lack depth or normals.
+/// Throws Error for a camera with distortion and images that lack depth or normals.
 FlowTruth optical_flow(const TruthView& a, const TruthView& b);
 
 struct DisparityTruth {
-  cv::Mat disparity;  ///< CV_32FC1, px: left x - right x of the left picture's pixel; 0 for sky
-  cv::Mat visible;    ///< CV_8UC1, 255 where the right eye sees the point too, else 0
+  cv::Mat disparity;  ///< CV_32FC1, px: left x - right x of the left image's pixel; 0 for sky
+  cv::Mat visible;    ///< CV_8UC1, 255 where the right camera sees the point too, else 0
 };
 
 /// Disparity of a rectified pair at one instant: focal length * baseline / depth; motion is of no
 /// account. Errors as of
-/// optical_flow(), and where the eyes do not look the same way along a common x axis, with equal
+/// optical_flow(), and where the cameras do not look the same way along a common x axis, with equal
 /// fx, fy and cy.
 DisparityTruth disparity(const TruthView& left, const TruthView& right);
 

@@ -23,7 +23,7 @@ Vector3f on_circle(double radius, int i, int n, double z) {
   return Eigen::Vector3d(radius * std::cos(turn), radius * std::sin(turn), z).cast<float>();
 }
 
-/// The picture of a wall repeats along it; from its very edges the other side would shine through.
+/// The image of a wall repeats along it; from its very edges the other side would shine through.
 constexpr float kInset = 0.06f;
 
 /// A wall that faces the middle; `foot(i)` and `height(i)` of its top above that.

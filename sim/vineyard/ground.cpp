@@ -73,7 +73,7 @@ class GroundMesher {
   LevelOfDetail level(double until, const Eigen::Array2i& step) {
     std::array<Primitive, 2> parts;
     parts[kAisle].material = kAisle;
-    // Pictures of aisles end at the rows and, outside these, in the middle of aisles.
+    // Images of aisles end at the rows and, outside these, in the middle of aisles.
     const int width = grass_ ? terrain_.cells_aisle() / 2 : terrain_.cells_y();
     for (int y = corner_y_; y < corner_y_ + terrain_.cells_y(); y += width) {
       const Strip strip{corner_x_, corner_x_ + terrain_.cells_x(), step.x(), y, y + width,
@@ -171,7 +171,7 @@ class GroundMesher {
 
   static Vector2d plain_uv(const Vector2d& p) { return {p.x() / kSoilTile, -p.y() / kSoilTile}; }
 
-  /// The picture spans one aisle from row to row; every aisle has its own piece of it, and every
+  /// The image spans one aisle from row to row; every aisle has its own piece of it, and every
   /// second one is turned round.
   Vector2d aisle_uv(const Vector2d& p, int strip_row) const {
     const double width = terrain_.frame().spacing;

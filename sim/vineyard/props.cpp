@@ -112,7 +112,7 @@ double tag_board_scale(const std::string& name) {
 
 Texture tag_texture(const std::string& family, int id) {
   cv::Mat modules, large, rgba;
-  cv::copyMakeBorder(TagFamily(family).picture(id), modules, kBoardRim, kBoardRim, kBoardRim,
+  cv::copyMakeBorder(TagFamily(family).image(id), modules, kBoardRim, kBoardRim, kBoardRim,
                      kBoardRim, cv::BORDER_CONSTANT, 255);
   // Printer's ink and paper are neither black nor white.
   modules = 14 + modules * (222.0 / 255.0);

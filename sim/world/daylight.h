@@ -45,7 +45,7 @@ struct SunConfig {
 struct SkyConfig {
   double overcast = 0;               ///< share of the sky under cloud, 0 to 1
   std::optional<double> visibility;  ///< m at which 2 % of a contrast is left; clear where absent
-  double glare = 1;  ///< light that a sun in the picture scatters in the lens, 0: none
+  double glare = 1;  ///< light that a sun in the image scatters in the lens, 0: none
   template <class Archive>
   void serialize(Archive& archive) {
     archive("overcast", overcast, Range::between(0, 1));

@@ -75,7 +75,7 @@ bool TagFamily::reversed_border() const {
   return family_->reversed_border;
 }
 
-cv::Mat TagFamily::picture(int id) const {
+cv::Mat TagFamily::image(int id) const {
   if (id < 0 || id >= size()) fail("{} has no tag {}", family_->name, id);
   const std::unique_ptr<image_u8_t, void (*)(image_u8_t*)> image(
       apriltag_to_image(family_.get(), id), image_u8_destroy);

@@ -21,12 +21,12 @@ class TagFamily {
   static bool known(const std::string& name);
 
   int size() const;              ///< how many tags it has
-  int modules() const;           ///< cells a side of the whole picture
+  int modules() const;           ///< cells a side of the whole image
   int border_modules() const;    ///< cells a side of the square whose corners the detector reports
   bool reversed_border() const;  ///< white on black
 
-  /// The printed picture, CV_8UC1, one pixel a cell, 0 or 255. Throws Error for an unknown id.
-  cv::Mat picture(int id) const;
+  /// The printed image, CV_8UC1, one pixel a cell, 0 or 255. Throws Error for an unknown id.
+  cv::Mat image(int id) const;
 
   const apriltag_family* get() const { return family_.get(); }
 

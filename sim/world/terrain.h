@@ -14,7 +14,7 @@ namespace vinebench {
 /// Aisles begin and end this far beyond the rows' end posts; m.
 inline constexpr double kRowEnd = 0.6;
 
-/// The ground's surface, one for physics and picture: heights at the nodes of a grid that lies
+/// The ground's surface, one for physics and image: heights at the nodes of a grid that lies
 /// along the rows, and two triangles a cell that share the edge from its (x, y) corner to its
 /// (x + 1, y + 1) corner, which is how MuJoCo's collider and rays cut a height field. Beyond the
 /// grid the slope goes on without bumps. Heights are computed, not stored: cheap to construct.

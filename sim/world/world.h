@@ -302,7 +302,7 @@ std::vector<Eigen::Vector2d> vine_positions(const WorldConfig& world);
 /// What stands at a vine's place.
 enum class VineKind { kNone, kYoung, kGrown };
 
-/// The one decision about the place of that index in vine_places(), for picture and physics.
+/// The one decision about the place of that index in vine_places(), for image and physics.
 VineKind vine_at(const WorldConfig& world, std::uint64_t seed, std::size_t place);
 
 /// Tag frame: x right and y down on the printed face, z into the tag.

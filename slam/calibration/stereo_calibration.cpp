@@ -45,15 +45,15 @@ std::optional<std::vector<double>> find_disparity_offsets(const Map& map, const 
   with_offsets.iterations = kIterations;
   with_offsets.offsets_unknown = true;
   AdjustmentJob job(map, latest(map), rig, with_offsets);
-  const double as_told = job.solve();
+  const double as_nominal = job.solve();
   job.free_offsets();
   const double as_found = job.solve();
   double farthest = 0;
-  for (std::size_t v = 0; v < rig.eyes.size(); ++v) {
-    const double change = job.disparity_offsets()[v] - rig.eyes[v].disparity_offset;
+  for (std::size_t v = 0; v < rig.left_cameras.size(); ++v) {
+    const double change = job.disparity_offsets()[v] - rig.left_cameras[v].disparity_offset;
     farthest = std::max(farthest, std::abs(change));
   }
-  if (farthest < kLeast || as_told - as_found < kLeastGain * as_told) return std::nullopt;
+  if (farthest < kLeast || as_nominal - as_found < kLeastGain * as_nominal) return std::nullopt;
   return job.disparity_offsets();
 }
 

@@ -13,14 +13,14 @@ namespace vinebench {
 /// their number has doubled, a few times.
 bool calibration_due(const Map& map);
 
-/// What the pairs' calibration is off by, as the map itself shows it. An eye that looks a little to
-/// the side of where the calibration has it measures all disparities wrong by the same number of
+/// What the pairs' calibration is off by, as the map itself shows it. A camera that looks a little
+/// to the side of where the calibration has it measures all disparities wrong by the same number of
 /// pixels; then what is near and what is far tell of different scales, which one more unknown a
 /// pair in the adjustment of the latest keyframes resolves.
 ///
-/// Disparity offsets of the eyes (px), where one of them differs from the rig's by more than what
-/// the pictures' own errors bring about, and the residuals bear it out; otherwise none. The map is
-/// not touched.
+/// Disparity offsets of the cameras (px), where one of them differs from the rig's by more than
+/// what the images' own errors bring about, and the residuals bear it out; otherwise none. The map
+/// is not touched.
 std::optional<std::vector<double>> find_disparity_offsets(const Map& map, const EstimatorRig& rig,
                                                           const AdjustmentOptions& options);
 

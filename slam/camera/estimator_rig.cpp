@@ -9,14 +9,14 @@ namespace vinebench {
 EstimatorRig::EstimatorRig(const StereoRig& stereo_rig, const OrbConfig& features,
                            const RefinementConfig& refine, const StereoConfig& stereo_config)
     : rig(stereo_rig), refinement(refine), stereo(stereo_config) {
-  for (const StereoEye& pair : rig.pairs) {
-    eyes.push_back({pair.lens, pair.T_cam_body, pair.baseline});
+  for (const RectifiedPair& pair : rig.pairs) {
+    left_cameras.push_back({pair.lens, pair.T_cam_body, pair.baseline});
     T_body_cams.push_back(pair.T_body_cam);
   }
   for (const RigCamera& camera : rig.cameras) {
-    EyeModel eye{camera.model, camera.T_body_cam.inverse(), 0};
-    eye.lens.distortion = {};
-    tag_eyes.push_back(eye);
+    StereoCameraModel camera{camera.model, camera.T_body_cam.inverse(), 0};
+    camera.lens.distortion = {};
+    undistorted_cameras.push_back(camera);
   }
   for (int level = 0; level < features.levels; ++level) {
     level_scales.push_back(std::pow(features.scale, level));
@@ -24,18 +24,18 @@ EstimatorRig::EstimatorRig(const StereoRig& stereo_rig, const OrbConfig& feature
 }
 
 void EstimatorRig::set_disparity_offsets(const std::vector<double>& offsets) {
-  for (std::size_t v = 0; v < eyes.size(); ++v) eyes[v].disparity_offset = offsets[v];
+  for (std::size_t v = 0; v < cameras.size(); ++v) cameras[v].disparity_offset = offsets[v];
 }
 
 void EstimatorRig::correct_depths(std::size_t v, StereoView& view) const {
-  const EyeModel& eye = eyes[v];
-  if (eye.disparity_offset == 0) return;
+  const StereoCameraModel& camera = cameras[v];
+  if (camera.disparity_offset == 0) return;
   for (std::size_t f = 0; f < view.stereo.size(); ++f) {
     StereoMatch& match = view.stereo[f];
     if (match.x_right < 0) continue;
     const double depth =
-        eye.depth_of(static_cast<double>(view.features.keypoints[f].x - match.x_right));
-    const bool near = depth > 0 && depth < stereo.max_depth_baselines * eye.baseline;
+        camera.depth_of(static_cast<double>(view.features.keypoints[f].x - match.x_right));
+    const bool near = depth > 0 && depth < stereo.max_depth_baselines * camera.baseline;
     match.depth = near ? static_cast<float>(depth) : -1.0F;
   }
 }
@@ -60,7 +60,7 @@ Eigen::Vector3d EstimatorRig::stereo_point(const StereoView& view, int v, int fe
   const auto f = static_cast<std::size_t>(feature);
   const Keypoint& keypoint = view.features.keypoints[f];
   const Eigen::Vector3d ray =
-      eyes[static_cast<std::size_t>(v)].lens.unproject({keypoint.x, keypoint.y});
+      cameras[static_cast<std::size_t>(v)].lens.unproject({keypoint.x, keypoint.y});
   const Eigen::Vector3d p_cam = ray * static_cast<double>(view.stereo[f].depth);
   return T_map_body * (T_body_cams[static_cast<std::size_t>(v)] * p_cam);
 }

@@ -17,18 +17,18 @@ struct EstimatorRig {
                const RefinementConfig& refinement = {}, const StereoConfig& stereo = {});
 
   StereoRig rig;
-  std::vector<EyeModel> eyes;      ///< left eye of each pair
-  std::vector<Pose> T_body_cams;   ///< of these
-  std::vector<EyeModel> tag_eyes;  ///< by index into Rig::cameras; no baseline
+  std::vector<StereoCameraModel> left_cameras;         ///< left camera of each pair
+  std::vector<Pose> T_body_cams;                       ///< of these
+  std::vector<StereoCameraModel> undistorted_cameras;  ///< by index into Rig::cameras; no baseline
   /// Pixels of level 0 to a pixel of each pyramid level: the standard deviation of a corner there.
   std::vector<double> level_scales;
   RefinementConfig refinement;
   StereoConfig stereo;
 
-  /// One of each eye, px.
+  /// One of each camera, px.
   void set_disparity_offsets(const std::vector<double>& offsets);
 
-  /// Depths of a view as the eye's disparity offset makes them; unchanged where it has none.
+  /// Depths of a view as the camera's disparity offset makes them; unchanged where it has none.
   void correct_depths(std::size_t v, StereoView& view) const;
 
   /// The measurement that a feature is: its pixel, its stereo match where it has one, its noise.

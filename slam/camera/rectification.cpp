@@ -18,11 +18,11 @@ constexpr double kMinBaseline = 1e-3;      // m
 constexpr double kMinAlignment = 0.5;      // cosine of an axis's turn into the common view
 constexpr int kBorderSamples = 33;         // on a side
 constexpr double kLensTolerance = 0.01;    // px of a pixel through the lens and back
-constexpr double kRadiusTolerance = 1.02;  // of the squared radius of the picture's corners
+constexpr double kRadiusTolerance = 1.02;  // of the squared radius of the image's corners
 constexpr float kNowhere = -1000;          // px
 constexpr double kPatchRadius = 17;        // px of a feature's level, what ORB looks at
 
-/// The part of the plane z = 1 of the common view that an eye surely sees.
+/// The part of the plane z = 1 of the common view that a camera surely sees.
 struct View {
   double left = -std::numeric_limits<double>::infinity();
   double right = std::numeric_limits<double>::infinity();
@@ -34,16 +34,16 @@ Eigen::Vector2d through(const PinholeCamera& model, const Eigen::Matrix3d& R_com
                         const Eigen::Vector2d& pixel, const std::string& what) {
   const Eigen::Vector3d ray = model.unproject(pixel);
   if (!((model.project(ray) - pixel).norm() < kLensTolerance)) {
-    fail("{}: expected a distortion that is monotonic in the picture", what);
+    fail("{}: expected a distortion that is monotonic in the image", what);
   }
   const Eigen::Vector3d turned = R_common_cam * ray;
   if (turned.z() < 0.1 * turned.norm()) {
-    fail("{}: expected eyes that look roughly the same way", what);
+    fail("{}: expected cameras that look roughly the same way", what);
   }
   return turned.head<2>() / turned.z();
 }
 
-/// Narrows a view to what lies within the eye's picture.
+/// Narrows a view to what lies within the camera's image.
 void narrow(View& view, const PinholeCamera& model, const Eigen::Matrix3d& R_common_cam,
             const std::string& what) {
   const double width = model.width - 1;
@@ -75,8 +75,8 @@ Rectification::Rectification(const RigCamera& left, const RigCamera& right,
                              const std::string& what) {
   choose_view(left, right, what);
   choose_lens(what);
-  const cv::Mat seen = fill_maps(eyes_[0]);
-  fill_maps(eyes_[1]);
+  const cv::Mat seen = fill_maps(cameras_[0]);
+  fill_maps(cameras_[1]);
   if (cv::countNonZero(seen) < seen.rows * seen.cols) {
     cv::distanceTransform(seen, clearance_, cv::DIST_L2, cv::DIST_MASK_PRECISE);
   }
@@ -87,7 +87,7 @@ void Rectification::choose_view(const RigCamera& left, const RigCamera& right,
   const Pose T_left_right = left.T_body_cam.inverse() * right.T_body_cam;
   const Eigen::Matrix3d R_left_right = T_left_right.rotation.toRotationMatrix();
   baseline_ = T_left_right.translation.norm();
-  if (baseline_ < kMinBaseline) fail("{}: expected two eyes at different places", what);
+  if (baseline_ < kMinBaseline) fail("{}: expected two cameras at different places", what);
   const Eigen::Vector3d x = T_left_right.translation / baseline_;
   const Eigen::Vector3d ahead = Eigen::Vector3d::UnitZ() + R_left_right.col(2);
   const Eigen::Vector3d z = (ahead - ahead.dot(x) * x).normalized();
@@ -96,12 +96,14 @@ void Rectification::choose_view(const RigCamera& left, const RigCamera& right,
   const Eigen::Matrix3d R_right_common = R_left_right.transpose() * R_left_common;
   for (const Eigen::Matrix3d& R : {R_left_common, R_right_common}) {
     if (R.diagonal().minCoeff() < kMinAlignment) {
-      fail("{}: expected the right eye to the right of the left eye, looking roughly the same way",
-           what);
+      fail(
+          "{}: expected the right camera to the right of the left camera, looking roughly the same "
+          "way",
+          what);
     }
   }
-  eyes_[0] = {left.model, R_left_common, {}, {}};
-  eyes_[1] = {right.model, R_right_common, {}, {}};
+  cameras_[0] = {left.model, R_left_common, {}, {}};
+  cameras_[1] = {right.model, R_right_common, {}, {}};
   T_body_left_ = {(left.T_body_cam.rotation * Eigen::Quaterniond(R_left_common)).normalized(),
                   left.T_body_cam.translation};
 }
@@ -109,15 +111,15 @@ void Rectification::choose_view(const RigCamera& left, const RigCamera& right,
 void Rectification::choose_lens(const std::string& what) {
   View view;
   double focal = 0;
-  for (const Eye& eye : eyes_) {
-    narrow(view, eye.model, eye.R_cam_common.transpose(), what);
-    focal += (eye.model.fx + eye.model.fy) / 4;
+  for (const Camera& camera : cameras_) {
+    narrow(view, camera.model, camera.R_cam_common.transpose(), what);
+    focal += (camera.model.fx + camera.model.fy) / 4;
   }
-  lens_.width = eyes_[0].model.width;
-  lens_.height = eyes_[0].model.height;
+  lens_.width = cameras_[0].model.width;
+  lens_.height = cameras_[0].model.height;
   const double across = view.right - view.left;
   const double down = view.bottom - view.top;
-  if (across <= 0 || down <= 0) fail("{}: expected eyes that see the same scene", what);
+  if (across <= 0 || down <= 0) fail("{}: expected cameras that see the same scene", what);
   const double filling = std::max((lens_.width - 1) / across, (lens_.height - 1) / down);
   lens_.fx = lens_.fy = std::min(focal, filling);
   lens_.cx = (lens_.width - 1) / 2.0 - lens_.fx * (view.left + view.right) / 2;
@@ -125,27 +127,28 @@ void Rectification::choose_lens(const std::string& what) {
 }
 
 /// Returns which pixels have a source (255, else 0).
-cv::Mat Rectification::fill_maps(Eye& eye) const {
+cv::Mat Rectification::fill_maps(Camera& camera) const {
   cv::Mat x(lens_.height, lens_.width, CV_32FC1, cv::Scalar(kNowhere));
   cv::Mat y(lens_.height, lens_.width, CV_32FC1, cv::Scalar(kNowhere));
   cv::Mat seen(lens_.height, lens_.width, CV_8UC1, cv::Scalar(0));
-  // Beyond the picture's corners a lens model may fold back into it.
-  const double most = kRadiusTolerance * corner_radius(eye.model);
+  // Beyond the image's corners a lens model may fold back into it.
+  const double most = kRadiusTolerance * corner_radius(camera.model);
   for (int row = 0; row < lens_.height; ++row) {
     for (int column = 0; column < lens_.width; ++column) {
-      const Eigen::Vector3d ray = eye.R_cam_common * lens_.unproject(Eigen::Vector2d(column, row));
+      const Eigen::Vector3d ray =
+          camera.R_cam_common * lens_.unproject(Eigen::Vector2d(column, row));
       if (ray.z() <= 0 || ray.head<2>().squaredNorm() > most * ray.z() * ray.z()) continue;
-      const Eigen::Vector2d source = eye.model.project(ray);
+      const Eigen::Vector2d source = camera.model.project(ray);
       x.at<float>(row, column) = static_cast<float>(source.x());
       y.at<float>(row, column) = static_cast<float>(source.y());
-      if (eye.model.contains(source)) seen.at<std::uint8_t>(row, column) = 255;
+      if (camera.model.contains(source)) seen.at<std::uint8_t>(row, column) = 255;
     }
   }
-  cv::convertMaps(x, y, eye.whole, eye.fraction, CV_16SC2);
+  cv::convertMaps(x, y, camera.whole, camera.fraction, CV_16SC2);
   return seen;
 }
 
-cv::Mat Rectification::Eye::remapped(const cv::Mat& grey) const {
+cv::Mat Rectification::Camera::remapped(const cv::Mat& grey) const {
   cv::Mat result;
   // The border's greys go on outside, so that no edge appears there.
   cv::remap(grey, result, whole, fraction, cv::INTER_LINEAR, cv::BORDER_REPLICATE);

@@ -12,8 +12,8 @@
 
 namespace vinebench {
 
-/// Turns the pictures of two eyes that look roughly the same way into those of a rectified pair:
-/// one lens without distortion, eyes on one row, at the same places as the real ones.
+/// Turns the images of two cameras that look roughly the same way into those of a rectified pair:
+/// one lens without distortion, cameras on one row, at the same places as the real ones.
 ///
 /// The common view after Fusiello, Trucco and Verri, "A compact algorithm for rectification of
 /// stereo pairs" (2000): x along the baseline, z the mean of the two view axes, made orthogonal to
@@ -21,9 +21,9 @@ namespace vinebench {
 /// one; what is then without a source gives no features.
 class Rectification {
  public:
-  /// Throws Error that begins with `what` where the right eye is not to the right of the left one,
-  /// where they look in different directions, and for a lens whose distortion turns back within the
-  /// picture.
+  /// Throws Error that begins with `what` where the right camera is not to the right of the left
+  /// one, where they look in different directions, and for a lens whose distortion turns back
+  /// within the image.
   Rectification(const RigCamera& left, const RigCamera& right, const std::string& what);
 
   const PinholeCamera& lens() const { return lens_; }
@@ -31,15 +31,15 @@ class Rectification {
   double baseline() const { return baseline_; }  ///< m
 
   /// `grey` is CV_8UC1 of the real camera's size.
-  cv::Mat left(const cv::Mat& grey) const { return eyes_[0].remapped(grey); }
-  cv::Mat right(const cv::Mat& grey) const { return eyes_[1].remapped(grey); }
+  cv::Mat left(const cv::Mat& grey) const { return cameras_[0].remapped(grey); }
+  cv::Mat right(const cv::Mat& grey) const { return cameras_[1].remapped(grey); }
 
-  /// Takes away the left picture's features whose neighbourhood has pixels without a source.
+  /// Takes away the left image's features whose neighbourhood has pixels without a source.
   void drop_unseen(Features& features, const OrbExtractor& extractor) const;
 
  private:
-  /// Where in the real picture each pixel of the rectified one is.
-  struct Eye {
+  /// Where in the real image each pixel of the rectified one is.
+  struct Camera {
     PinholeCamera model;
     Eigen::Matrix3d R_cam_common;
     cv::Mat whole, fraction;  ///< cv::remap's fixed-point maps
@@ -47,9 +47,9 @@ class Rectification {
   };
   void choose_view(const RigCamera& left, const RigCamera& right, const std::string& what);
   void choose_lens(const std::string& what);
-  cv::Mat fill_maps(Eye& eye) const;
+  cv::Mat fill_maps(Camera& camera) const;
 
-  std::array<Eye, 2> eyes_;
+  std::array<Camera, 2> cameras_;
   PinholeCamera lens_;
   Pose T_body_left_;
   double baseline_ = 0;

@@ -15,7 +15,7 @@ bool same_lens(const PinholeCamera& a, const PinholeCamera& b) {
          a.cx == b.cx && a.cy == b.cy;
 }
 
-/// Whether the right eye is on the left eye's x axis and parallel to it, with the same lens.
+/// Whether the right camera is on the left camera's x axis and parallel to it, with the same lens.
 bool is_rectified(const RigCamera& left, const RigCamera& right) {
   if (left.model.has_distortion() || right.model.has_distortion() ||
       !same_lens(left.model, right.model)) {
@@ -29,26 +29,26 @@ bool is_rectified(const RigCamera& left, const RigCamera& right) {
          offset.tail<2>().norm() < tolerance * offset.x();
 }
 
-StereoEye make_pair(const Rig& rig, const StereoPair& pair) {
+RectifiedPair make_pair(const Rig& rig, const StereoPair& pair) {
   const RigCamera& left = rig.cameras[static_cast<std::size_t>(pair.left)];
   const RigCamera& right = rig.cameras[static_cast<std::size_t>(pair.right)];
-  StereoEye eye;
-  eye.name = pair.name;
-  eye.left_camera = pair.left;
-  eye.right_camera = pair.right;
+  RectifiedPair camera;
+  camera.name = pair.name;
+  camera.left_camera = pair.left;
+  camera.right_camera = pair.right;
   if (is_rectified(left, right)) {
-    eye.lens = left.model;
-    eye.baseline = rig.baseline(pair);
-    eye.T_body_cam = left.T_body_cam;
+    camera.lens = left.model;
+    camera.baseline = rig.baseline(pair);
+    camera.T_body_cam = left.T_body_cam;
   } else {
     const std::string what = fmt::format("rig '{}': stereo pair '{}'", rig.name, pair.name);
-    eye.rectification = std::make_shared<Rectification>(left, right, what);
-    eye.lens = eye.rectification->lens();
-    eye.baseline = eye.rectification->baseline();
-    eye.T_body_cam = eye.rectification->T_body_left();
+    camera.rectification = std::make_shared<Rectification>(left, right, what);
+    camera.lens = camera.rectification->lens();
+    camera.baseline = camera.rectification->baseline();
+    camera.T_body_cam = camera.rectification->T_body_left();
   }
-  eye.T_cam_body = eye.T_body_cam.inverse();
-  return eye;
+  camera.T_cam_body = camera.T_body_cam.inverse();
+  return camera;
 }
 
 }  // namespace

@@ -12,30 +12,30 @@ namespace vinebench {
 
 class Rectification;
 
-/// A rectified pair as the estimator uses it: one lens, two eyes on one row. Of a pair whose
-/// pictures must be rectified first, these are the virtual eyes'.
-struct StereoEye {
+/// A rectified pair as the estimator uses it: one lens, two cameras on one row. Of a pair whose
+/// images must be rectified first, these are the virtual cameras'.
+struct RectifiedPair {
   std::string name;
   int left_camera = 0;  ///< index into Rig::cameras
   int right_camera = 0;
-  PinholeCamera lens;   ///< of both eyes
+  PinholeCamera lens;   ///< of both cameras
   double baseline = 0;  ///< m
-  Pose T_body_cam;      ///< left eye
+  Pose T_body_cam;      ///< left camera
   Pose T_cam_body;
-  std::shared_ptr<const Rectification> rectification;  ///< none where the pictures are rectified
+  std::shared_ptr<const Rectification> rectification;  ///< none where the images are rectified
 };
 
 /// The part of a rig that is in use: pairs for tracking, cameras for tags.
 struct StereoRig {
-  std::vector<StereoEye> pairs;
+  std::vector<RectifiedPair> pairs;
   std::vector<int> tag_cameras;    ///< indices into Rig::cameras
   std::vector<RigCamera> cameras;  ///< all of the rig's
 };
 
 /// Selects the pairs and tag cameras that `names` lists (all where it is empty). Throws Error for
 /// an unknown name, when no pair is left, and for a pair that cannot be rectified. A pair of equal
-/// lenses without distortion whose eyes are parallel and side by side, to a hundredth of a pixel,
-/// is used as it is.
+/// lenses without distortion whose cameras are parallel and side by side, to a hundredth of a
+/// pixel, is used as it is.
 StereoRig make_stereo_rig(const Rig& rig, const std::vector<std::string>& names);
 
 }  // namespace vinebench

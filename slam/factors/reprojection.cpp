@@ -23,14 +23,14 @@ Matrix3d cross_matrix(const Eigen::Vector3d& v) {
 }
 
 /// Rows: d(u, v, u_right) / d(p_cam), px per m.
-Matrix3d projection_jacobian(const EyeModel& eye, const Eigen::Vector3d& p) {
+Matrix3d projection_jacobian(const StereoCameraModel& camera, const Eigen::Vector3d& p) {
   const double inv_z = 1.0 / p.z();
-  const double fx_z = eye.lens.fx * inv_z;
-  const double fy_z = eye.lens.fy * inv_z;
+  const double fx_z = camera.lens.fx * inv_z;
+  const double fy_z = camera.lens.fy * inv_z;
   Matrix3d J;
   J << fx_z, 0, -fx_z * p.x() * inv_z,  //
       0, fy_z, -fy_z * p.y() * inv_z,   //
-      fx_z, 0, -fx_z * (p.x() - eye.baseline) * inv_z;
+      fx_z, 0, -fx_z * (p.x() - camera.baseline) * inv_z;
   return J;
 }
 
@@ -88,9 +88,9 @@ bool PoseManifold::MinusJacobian(const double*, double* jacobian) const {
   return true;
 }
 
-ReprojectionError::ReprojectionError(const EyeModel& eye, const PixelMeasurement& measurement,
-                                     bool offset_unknown)
-    : reprojection_(eye, measurement) {
+ReprojectionError::ReprojectionError(const StereoCameraModel& camera,
+                                     const PixelMeasurement& measurement, bool offset_unknown)
+    : reprojection_(camera, measurement) {
   set_num_residuals(measurement.size());
   *mutable_parameter_block_sizes() = {7, 3};
   if (offset_unknown) mutable_parameter_block_sizes()->push_back(1);
@@ -98,18 +98,19 @@ ReprojectionError::ReprojectionError(const EyeModel& eye, const PixelMeasurement
 
 Eigen::Vector3d Reprojection::residual_at(const Eigen::Vector3d& p_cam,
                                           double disparity_offset) const {
-  const Eigen::Vector2d pixel = eye_->lens.project(p_cam);
-  const double right_x = pixel.x() - eye_->lens.fx * eye_->baseline / p_cam.z() + disparity_offset;
+  const Eigen::Vector2d pixel = camera_->lens.project(p_cam);
+  const double right_x =
+      pixel.x() - camera_->lens.fx * camera_->baseline / p_cam.z() + disparity_offset;
   return {
       (pixel.x() - measurement_.pixel.x()) / measurement_.sigma,
       (pixel.y() - measurement_.pixel.y()) / measurement_.sigma,
       measurement_.right_x ? (right_x - *measurement_.right_x) / measurement_.right_sigma : 0.0};
 }
 
-Eigen::Vector3d Reprojection::in_eye(const Eigen::Vector3d& p_body) const {
-  const Matrix3d R_cam_body = eye_->T_cam_body.rotation.toRotationMatrix();
-  Eigen::Vector3d p_cam = R_cam_body * p_body + eye_->T_cam_body.translation;
-  // A point that a step threw behind the eye keeps a large, finite error that pulls it back.
+Eigen::Vector3d Reprojection::in_camera(const Eigen::Vector3d& p_body) const {
+  const Matrix3d R_cam_body = camera_->T_cam_body.rotation.toRotationMatrix();
+  Eigen::Vector3d p_cam = R_cam_body * p_body + camera_->T_cam_body.translation;
+  // A point that a step threw behind the camera keeps a large, finite error that pulls it back.
   p_cam.z() = std::max(p_cam.z(), kMinDepth);
   return p_cam;
 }
@@ -118,13 +119,14 @@ Reprojection::Linearised Reprojection::linearise(const Pose& T_map_body,
                                                  const Eigen::Vector3d& p_map,
                                                  double disparity_offset) const {
   const Eigen::Vector3d p_body = in_body(T_map_body, p_map);
-  const Eigen::Vector3d p_cam = in_eye(p_body);
-  const Matrix3d R_cam_body = eye_->T_cam_body.rotation.toRotationMatrix();
+  const Eigen::Vector3d p_cam = in_camera(p_body);
+  const Matrix3d R_cam_body = camera_->T_cam_body.rotation.toRotationMatrix();
   const Eigen::Vector3d weights(1 / measurement_.sigma, 1 / measurement_.sigma,
                                 measurement_.right_x ? 1 / measurement_.right_sigma : 0);
   Linearised result;
   result.residual = residual_at(p_cam, disparity_offset);
-  result.by_point_in_body = weights.asDiagonal() * projection_jacobian(*eye_, p_cam) * R_cam_body;
+  result.by_point_in_body =
+      weights.asDiagonal() * projection_jacobian(*camera_, p_cam) * R_cam_body;
   result.by_pose = result.by_point_in_body * body_point_jacobian(p_body);
   return result;
 }
@@ -134,7 +136,7 @@ bool ReprojectionError::Evaluate(double const* const* parameters, double* residu
   const Pose T_map_body = from_block(parameters[0]);
   const Eigen::Map<const Eigen::Vector3d> p_map(parameters[1]);
   const bool offset_unknown = parameter_block_sizes().size() > 2;
-  const double offset = offset_unknown ? parameters[2][0] : reprojection_.eye().disparity_offset;
+  const double offset = offset_unknown ? parameters[2][0] : reprojection_.camera().disparity_offset;
   if (jacobians == nullptr) {
     const Eigen::Vector3d residual = reprojection_.residual(T_map_body, p_map, offset);
     std::copy_n(residual.data(), num_residuals(), residuals);
@@ -159,14 +161,14 @@ bool ReprojectionError::Evaluate(double const* const* parameters, double* residu
 }
 
 double Reprojection::chi_squared(const Pose& T_map_body, const Eigen::Vector3d& p_map) const {
-  const Eigen::Vector3d p_cam = eye_->T_cam_body * (T_map_body.inverse() * p_map);
+  const Eigen::Vector3d p_cam = camera_->T_cam_body * (T_map_body.inverse() * p_map);
   if (p_cam.z() < kMinDepth) return std::numeric_limits<double>::infinity();
-  return residual_at(p_cam, eye_->disparity_offset).squaredNorm();
+  return residual_at(p_cam, camera_->disparity_offset).squaredNorm();
 }
 
-TagCornerError::TagCornerError(const EyeModel& eye, const Eigen::Vector2d& pixel, double sigma,
-                               const Eigen::Vector3d& p_tag)
-    : eye_(&eye), pixel_(pixel), sigma_(sigma), p_tag_(p_tag) {
+TagCornerError::TagCornerError(const StereoCameraModel& camera, const Eigen::Vector2d& pixel,
+                               double sigma, const Eigen::Vector3d& p_tag)
+    : camera_(&camera), pixel_(pixel), sigma_(sigma), p_tag_(p_tag) {
   set_num_residuals(2);
   *mutable_parameter_block_sizes() = {7, 7};
 }
@@ -176,16 +178,16 @@ bool TagCornerError::Evaluate(double const* const* parameters, double* residuals
   const Pose T_map_body = from_block(parameters[0]);
   const Pose T_map_tag = from_block(parameters[1]);
   const Eigen::Vector3d p_body = T_map_body.inverse() * (T_map_tag * p_tag_);
-  Eigen::Vector3d p_cam = eye_->T_cam_body * p_body;
+  Eigen::Vector3d p_cam = camera_->T_cam_body * p_body;
   p_cam.z() = std::max(p_cam.z(), kMinDepth);
-  const Eigen::Vector2d r = (eye_->lens.project(p_cam) - pixel_) / sigma_;
+  const Eigen::Vector2d r = (camera_->lens.project(p_cam) - pixel_) / sigma_;
   std::copy_n(r.data(), 2, residuals);
   if (jacobians == nullptr) return true;
 
-  // The corners of distorted pictures are undistorted before they come here, so that the pinhole's
+  // The corners of distorted images are undistorted before they come here, so that the pinhole's
   // own Jacobian is exact.
-  const Matrix3d J_body =
-      projection_jacobian(*eye_, p_cam) * eye_->T_cam_body.rotation.toRotationMatrix() / sigma_;
+  const Matrix3d J_body = projection_jacobian(*camera_, p_cam) *
+                          camera_->T_cam_body.rotation.toRotationMatrix() / sigma_;
   if (jacobians[0] != nullptr) {
     RowMajor37 J = RowMajor37::Zero();
     J.leftCols<6>() = J_body * body_point_jacobian(p_body);

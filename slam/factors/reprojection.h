@@ -31,9 +31,9 @@ class PoseManifold : public ceres::Manifold {
   bool MinusJacobian(const double* x, double* jacobian) const override;
 };
 
-/// An eye on the body: its lens and where it sits; `baseline` is the right eye's distance along the
-/// eye's x axis, m.
-struct EyeModel {
+/// A camera on the body: its lens and where it sits; `baseline` is the right camera's distance
+/// along the camera's x axis, m.
+struct StereoCameraModel {
   PinholeCamera lens;
   Pose T_cam_body;
   double baseline = 0;
@@ -48,25 +48,25 @@ struct EyeModel {
   double disparity_of(double depth) const { return lens.fx * baseline / depth - disparity_offset; }
 };
 
-/// What is seen of a point: a pixel, and where the right eye saw it too, its column there.
+/// What is seen of a point: a pixel, and where the right camera saw it too, its column there.
 struct PixelMeasurement {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   std::optional<double> right_x;
   double sigma = 1;        ///< px
-  double right_sigma = 1;  ///< px, of the column in the right eye
+  double right_sigma = 1;  ///< px, of the column in the right camera
   /// Errors beyond the 95 % of this many times the standard deviation are outliers.
   double tolerance = 1;
   int size() const { return right_x ? 3 : 2; }
 };
 
-/// Reprojection error of one map point in one eye, Eq. (2), (3) and (5): residuals in standard
-/// deviations, two for the pixel, a third for the column in the right eye. The same error serves
+/// Reprojection error of one map point in one camera, Eq. (2), (3) and (5): residuals in standard
+/// deviations, two for the pixel, a third for the column in the right camera. The same error serves
 /// tracking, motion-only, local and global bundle adjustment.
 class Reprojection {
  public:
-  /// Keeps a pointer to the eye.
-  Reprojection(const EyeModel& eye, const PixelMeasurement& measurement)
-      : eye_(&eye), measurement_(measurement) {}
+  /// Keeps a pointer to the camera.
+  Reprojection(const StereoCameraModel& camera, const PixelMeasurement& measurement)
+      : camera_(&camera), measurement_(measurement) {}
 
   /// Residuals (zero where there is no third) and their derivatives by the step of PoseManifold,
   /// for a point in the map.
@@ -76,47 +76,48 @@ class Reprojection {
     Eigen::Matrix3d by_point_in_body;  ///< by the point in the body frame
   };
   Linearised linearise(const Pose& T_map_body, const Eigen::Vector3d& p_map) const {
-    return linearise(T_map_body, p_map, eye_->disparity_offset);
+    return linearise(T_map_body, p_map, camera_->disparity_offset);
   }
 
-  /// The same for another disparity offset than the eye's (px).
+  /// The same for another disparity offset than the camera's (px).
   Linearised linearise(const Pose& T_map_body, const Eigen::Vector3d& p_map,
                        double disparity_offset) const;
 
   /// The residuals alone.
   Eigen::Vector3d residual(const Pose& T_map_body, const Eigen::Vector3d& p_map) const {
-    return residual(T_map_body, p_map, eye_->disparity_offset);
+    return residual(T_map_body, p_map, camera_->disparity_offset);
   }
   Eigen::Vector3d residual(const Pose& T_map_body, const Eigen::Vector3d& p_map,
                            double disparity_offset) const {
-    return residual_at(in_eye(in_body(T_map_body, p_map)), disparity_offset);
+    return residual_at(in_camera(in_body(T_map_body, p_map)), disparity_offset);
   }
 
   /// Derivative of the third residual by the disparity offset, 1/px.
   double by_disparity_offset() const { return 1 / measurement_.right_sigma; }
 
-  /// Squared norm of the residuals for that pose and point; infinite behind the eye.
+  /// Squared norm of the residuals for that pose and point; infinite behind the camera.
   double chi_squared(const Pose& T_map_body, const Eigen::Vector3d& p_map) const;
 
   int size() const { return measurement_.size(); }
-  const EyeModel& eye() const { return *eye_; }
+  const StereoCameraModel& camera() const { return *camera_; }
 
  private:
   static Eigen::Vector3d in_body(const Pose& T_map_body, const Eigen::Vector3d& p_map) {
     return T_map_body.rotation.conjugate() * (p_map - T_map_body.translation);
   }
-  Eigen::Vector3d in_eye(const Eigen::Vector3d& p_body) const;
+  Eigen::Vector3d in_camera(const Eigen::Vector3d& p_body) const;
   Eigen::Vector3d residual_at(const Eigen::Vector3d& p_cam, double disparity_offset) const;
 
-  const EyeModel* eye_;
+  const StereoCameraModel* camera_;
   PixelMeasurement measurement_;
 };
 
 /// The same as a cost function of Ceres: parameters are the body's pose (7), the point (3) and,
-/// where it is an unknown, the eye's disparity offset (1), which the right eye alone measures.
+/// where it is an unknown, the camera's disparity offset (1), which the right camera alone
+/// measures.
 class ReprojectionError : public ceres::CostFunction {
  public:
-  ReprojectionError(const EyeModel& eye, const PixelMeasurement& measurement,
+  ReprojectionError(const StereoCameraModel& camera, const PixelMeasurement& measurement,
                     bool offset_unknown = false);
 
   bool Evaluate(double const* const* parameters, double* residuals,
@@ -133,13 +134,13 @@ class ReprojectionError : public ceres::CostFunction {
 /// Reprojection error of a tag's corner: parameters are the body's pose (7) and the tag's (7).
 class TagCornerError : public ceres::CostFunction {
  public:
-  TagCornerError(const EyeModel& eye, const Eigen::Vector2d& pixel, double sigma,
+  TagCornerError(const StereoCameraModel& camera, const Eigen::Vector2d& pixel, double sigma,
                  const Eigen::Vector3d& p_tag);
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  const EyeModel* eye_;
+  const StereoCameraModel* camera_;
   Eigen::Vector2d pixel_;
   double sigma_;
   Eigen::Vector3d p_tag_;

@@ -12,13 +12,13 @@ namespace {
 constexpr int kBorder = 4;
 
 /// Appends the corners that lie in `area`.
-void detect(const cv::Mat& picture, const cv::Rect& area, int threshold,
+void detect(const cv::Mat& image, const cv::Rect& area, int threshold,
             std::vector<Corner>& corners) {
   const cv::Rect wide = cv::Rect(area.x - kBorder, area.y - kBorder, area.width + 2 * kBorder,
                                  area.height + 2 * kBorder) &
-                        cv::Rect(0, 0, picture.cols, picture.rows);
+                        cv::Rect(0, 0, image.cols, image.rows);
   std::vector<cv::KeyPoint> found;
-  cv::FAST(picture(wide), found, threshold, true, cv::FastFeatureDetector::TYPE_9_16);
+  cv::FAST(image(wide), found, threshold, true, cv::FastFeatureDetector::TYPE_9_16);
   for (const cv::KeyPoint& point : found) {
     const cv::Point at(static_cast<int>(point.pt.x) + wide.x,
                        static_cast<int>(point.pt.y) + wide.y);
@@ -48,7 +48,7 @@ struct Cells {
 };
 
 /// Searches again, less strictly, every run of neighbouring cells that have no corner yet.
-void fill_empty_cells(const cv::Mat& picture, const Cells& cells, int threshold,
+void fill_empty_cells(const cv::Mat& image, const Cells& cells, int threshold,
                       std::vector<Corner>& corners) {
   std::vector<char> taken(static_cast<std::size_t>(cells.columns * cells.rows), 0);
   for (const Corner& corner : corners) taken[cells.index(corner.x, corner.y)] = 1;
@@ -59,7 +59,7 @@ void fill_empty_cells(const cv::Mat& picture, const Cells& cells, int threshold,
     for (int first = 0; first < cells.columns; ++first) {
       int last = first;
       while (last < cells.columns && empty(row, last)) ++last;
-      if (last > first) detect(picture, cells.run(row, first, last), threshold, corners);
+      if (last > first) detect(image, cells.run(row, first, last), threshold, corners);
       first = last;
     }
   }
@@ -67,14 +67,14 @@ void fill_empty_cells(const cv::Mat& picture, const Cells& cells, int threshold,
 
 }  // namespace
 
-std::vector<Corner> detect_fast_cells(const cv::Mat& picture, const FastCellsConfig& config) {
-  const cv::Rect area(config.edge, config.edge, picture.cols - 2 * config.edge,
-                      picture.rows - 2 * config.edge);
+std::vector<Corner> detect_fast_cells(const cv::Mat& image, const FastCellsConfig& config) {
+  const cv::Rect area(config.edge, config.edge, image.cols - 2 * config.edge,
+                      image.rows - 2 * config.edge);
   std::vector<Corner> corners;
   if (area.width <= 0 || area.height <= 0) return corners;
-  detect(picture, area, config.threshold, corners);
+  detect(image, area, config.threshold, corners);
   if (config.threshold_min < config.threshold) {
-    fill_empty_cells(picture, Cells(area, config.cell), config.threshold_min, corners);
+    fill_empty_cells(image, Cells(area, config.cell), config.threshold_min, corners);
   }
   return corners;
 }

@@ -18,12 +18,12 @@ struct FastCellsConfig {
   int threshold = 20;     ///< grey levels
   int threshold_min = 7;  ///< grey levels; in cells without a corner at `threshold`
   int cell = 32;          ///< px, side of a cell
-  int edge = 19;          ///< px, border of the picture that is left out
+  int edge = 19;          ///< px, border of the image that is left out
 };
 
-/// FAST-9 corners (Rosten and Drummond 2006) of a CV_8UC1 picture, one pixel apart at least, with
+/// FAST-9 corners (Rosten and Drummond 2006) of a CV_8UC1 image, one pixel apart at least, with
 /// the threshold adapted to each cell. Row by row within the cells of one threshold; none where
-/// the picture is smaller than its borders.
-std::vector<Corner> detect_fast_cells(const cv::Mat& picture, const FastCellsConfig& config);
+/// the image is smaller than its borders.
+std::vector<Corner> detect_fast_cells(const cv::Mat& image, const FastCellsConfig& config);
 
 }  // namespace vinebench

@@ -8,7 +8,7 @@
 namespace vinebench {
 namespace {
 
-/// Cell of a coordinate, those off the picture in the outermost ones.
+/// Cell of a coordinate, those off the image in the outermost ones.
 int cell_of(float coordinate, int cell, int count) {
   const double index = std::floor((static_cast<double>(coordinate) + 0.5) / cell);
   return static_cast<int>(std::clamp(index, 0.0, count - 1.0));

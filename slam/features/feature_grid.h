@@ -9,7 +9,7 @@
 
 namespace vinebench {
 
-/// Files the keypoints of a picture by cells, so that those near a point are found at once.
+/// Files the keypoints of an image by cells, so that those near a point are found at once.
 class FeatureGrid {
  public:
   FeatureGrid() = default;

@@ -11,11 +11,11 @@ namespace vinebench {
 
 /// An image corner with its scale and direction.
 struct Keypoint {
-  float x = 0;  ///< px of the full-size picture
+  float x = 0;  ///< px of the full-size image
   float y = 0;
   float angle = 0;     ///< rad, direction of the intensity centroid, image axes (y down)
   float response = 0;  ///< corner strength
-  int level = 0;       ///< of the scale pyramid; 0 is the full-size picture
+  int level = 0;       ///< of the scale pyramid; 0 is the full-size image
 };
 
 /// 256 bits of rotated BRIEF.
@@ -29,7 +29,7 @@ inline int hamming_distance(const Descriptor& a, const Descriptor& b) {
 }
 
 /// Pixels of level 0 to those of a level whose pixel is `pixel` of them large, and back: the
-/// corners of the pictures coincide, not the centres of their first pixels.
+/// corners of the images coincide, not the centres of their first pixels.
 inline double to_level(double v, double pixel) {
   return (v + 0.5) / pixel - 0.5;
 }
@@ -37,7 +37,7 @@ inline double from_level(double v, double pixel) {
   return (v + 0.5) * pixel - 0.5;
 }
 
-/// What was extracted from one picture; keypoint i has descriptor i.
+/// What was extracted from one image; keypoint i has descriptor i.
 struct Features {
   std::vector<Keypoint> keypoints;
   std::vector<Descriptor> descriptors;

@@ -105,12 +105,12 @@ class TurnedPatterns {
 
 }  // namespace
 
-float centroid_angle(const cv::Mat& picture, int x, int y) {
+float centroid_angle(const cv::Mat& image, int x, int y) {
   static const auto rows = disc_rows();
   int moment_x = 0;
   int moment_y = 0;
   for (int dy = -kDiscRadius; dy <= kDiscRadius; ++dy) {
-    const std::uint8_t* grey = picture.ptr<std::uint8_t>(y + dy) + x - kDiscRadius;
+    const std::uint8_t* grey = image.ptr<std::uint8_t>(y + dy) + x - kDiscRadius;
     const DiscRow& row = rows[static_cast<std::size_t>(dy + kDiscRadius)];
     int sum = 0;
     for (std::size_t i = 0; i < kDiscColumns; ++i) {
@@ -124,7 +124,7 @@ float centroid_angle(const cv::Mat& picture, int x, int y) {
 
 Descriptor rotated_brief(const cv::Mat& smoothed, int x, int y, float angle) {
   static const TurnedPatterns patterns;
-  // Copied together, every place has one offset whatever the picture's width.
+  // Copied together, every place has one offset whatever the image's width.
   std::array<std::uint8_t, kPatchSide * kPatchPitch> patch;
   for (int row = 0; row < kPatchSide; ++row) {
     std::memcpy(&patch[static_cast<std::size_t>(row * kPatchPitch)],

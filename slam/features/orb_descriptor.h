@@ -9,14 +9,14 @@
 namespace vinebench {
 
 /// How far from a keypoint its direction and its descriptor look, px of its level: so much of the
-/// picture must lie around it.
+/// image must lie around it.
 constexpr int kOrbReach = 17;
 
 /// Direction of the intensity centroid of a disc 31 px across (Rosin 1999; Rublee et al. 2011),
 /// rad from the x axis towards the y axis (down).
-float centroid_angle(const cv::Mat& picture, int x, int y);
+float centroid_angle(const cv::Mat& image, int x, int y);
 
-/// 256 comparisons of two pixels each in a smoothed picture, their places turned by `angle`
+/// 256 comparisons of two pixels each in a smoothed image, their places turned by `angle`
 /// (rotated BRIEF, Rublee et al. 2011). Places are drawn once from a fixed seed, normally
 /// distributed about the keypoint as in BRIEF (Calonder et al. 2010).
 Descriptor rotated_brief(const cv::Mat& smoothed, int x, int y, float angle);

@@ -43,15 +43,15 @@ std::vector<cv::Mat> build_pyramid(const cv::Mat& grey, int levels, double scale
 }
 
 /// Directions and descriptors of the corners of one level, appended to `features`.
-void describe(const cv::Mat& picture, int level, double scale, const std::vector<Corner>& corners,
+void describe(const cv::Mat& image, int level, double scale, const std::vector<Corner>& corners,
               Features& features) {
   if (corners.empty()) return;
-  const cv::Mat smoothed = smooth(picture);
+  const cv::Mat smoothed = smooth(image);
   for (const Corner& corner : corners) {
     Keypoint keypoint;
     keypoint.x = static_cast<float>((corner.x + 0.5) * scale - 0.5);
     keypoint.y = static_cast<float>((corner.y + 0.5) * scale - 0.5);
-    keypoint.angle = centroid_angle(picture, corner.x, corner.y);
+    keypoint.angle = centroid_angle(image, corner.x, corner.y);
     keypoint.response = static_cast<float>(corner.score);
     keypoint.level = level;
     features.keypoints.push_back(keypoint);
@@ -71,7 +71,7 @@ OrbExtractor::OrbExtractor(const OrbConfig& config)
 
 std::vector<cv::Mat> OrbExtractor::pyramid(const cv::Mat& grey) const {
   if (grey.type() != CV_8UC1 || grey.empty()) {
-    fail("ORB extraction: expected a grey picture of 8 bits (CV_8UC1), found {} x {} of type {}",
+    fail("ORB extraction: expected a grey image of 8 bits (CV_8UC1), found {} x {} of type {}",
          grey.cols, grey.rows, cv::typeToString(grey.type()));
   }
   return build_pyramid(grey, config_.levels, config_.scale);
@@ -83,10 +83,10 @@ Extraction OrbExtractor::extract(const cv::Mat& grey) const {
   const FastCellsConfig fast{config_.fast_threshold, config_.fast_threshold_min, config_.cell,
                              config_.edge};
   for (std::size_t level = 0; level < result.pyramid.size(); ++level) {
-    const cv::Mat& picture = result.pyramid[level];
+    const cv::Mat& image = result.pyramid[level];
     const std::vector<Corner> corners = suppress_square_covering(
-        detect_fast_cells(picture, fast), features_per_level_[level], picture.cols, picture.rows);
-    describe(picture, static_cast<int>(level), scales_[level], corners, result.features);
+        detect_fast_cells(image, fast), features_per_level_[level], image.cols, image.rows);
+    describe(image, static_cast<int>(level), scales_[level], corners, result.features);
   }
   return result;
 }

@@ -12,13 +12,13 @@ namespace vinebench {
 
 /// ORB features as in Sect. III-A of the paper.
 struct OrbConfig {
-  int features = 1000;         ///< a picture, at most
+  int features = 1000;         ///< an image, at most
   int levels = 8;              ///< of the scale pyramid
   double scale = 1.2;          ///< between levels
   int fast_threshold = 20;     ///< grey levels
   int fast_threshold_min = 7;  ///< grey levels; where a cell has no corner at fast_threshold
   int cell = 32;               ///< px; side of the cells that the adaptive threshold looks at
-  int edge = 19;               ///< px; no keypoint is nearer to the picture's edge, at any level
+  int edge = 19;               ///< px; no keypoint is nearer to the image's edge, at any level
   template <class Archive>
   void serialize(Archive& archive) {
     archive("features", features, Range::between(10, 20000));
@@ -33,10 +33,10 @@ struct OrbConfig {
   }
 };
 
-/// Features of a picture, and the pyramid that they came from (stereo refinement reads it).
+/// Features of an image, and the pyramid that they came from (stereo refinement reads it).
 struct Extraction {
   Features features;
-  std::vector<cv::Mat> pyramid;  ///< CV_8UC1, level 0 the full-size picture
+  std::vector<cv::Mat> pyramid;  ///< CV_8UC1, level 0 the full-size image
 };
 
 /// Stateless but for its tables: may be called from several threads at once.
@@ -44,10 +44,10 @@ class OrbExtractor {
  public:
   explicit OrbExtractor(const OrbConfig& config);
 
-  /// `grey` is CV_8UC1. Same picture, same result, to the bit.
+  /// `grey` is CV_8UC1. Same image, same result, to the bit.
   Extraction extract(const cv::Mat& grey) const;
 
-  /// The scale pyramid alone, level 0 the picture itself.
+  /// The scale pyramid alone, level 0 the image itself.
   std::vector<cv::Mat> pyramid(const cv::Mat& grey) const;
 
   /// Size of a pixel of that level in pixels of level 0.

@@ -52,16 +52,16 @@ int mirror(int i, int count) {
 
 }  // namespace
 
-cv::Mat smooth(const cv::Mat& picture) {
-  cv::Mat smoothed(picture.size(), CV_8UC1);
-  const int columns = picture.cols;
+cv::Mat smooth(const cv::Mat& image) {
+  cv::Mat smoothed(image.size(), CV_8UC1);
+  const int columns = image.cols;
   std::vector<std::uint16_t> padded(static_cast<std::size_t>(columns + 2 * kRadius));
   std::uint16_t* sums = padded.data() + kRadius;
-  for (int y = 0; y < picture.rows; ++y) {
+  for (int y = 0; y < image.rows; ++y) {
     Rows rows;
     for (int i = -kRadius; i <= kRadius; ++i) {
       rows[static_cast<std::size_t>(i + kRadius)] =
-          picture.ptr<std::uint8_t>(mirror(y + i, picture.rows));
+          image.ptr<std::uint8_t>(mirror(y + i, image.rows));
     }
     sum_rows(rows, columns, sums);
     for (int i = 1; i <= kRadius; ++i) {

@@ -6,9 +6,9 @@
 
 namespace vinebench {
 
-/// A CV_8UC1 picture under a Gaussian of sigma 2 px cut to 7 x 7 px, its edges mirrored about the
+/// A CV_8UC1 image under a Gaussian of sigma 2 px cut to 7 x 7 px, its edges mirrored about the
 /// outermost pixels. Computed in integers, so the same on every machine; weights are rounded to
 /// 1/128.
-cv::Mat smooth(const cv::Mat& picture);
+cv::Mat smooth(const cv::Mat& image);
 
 }  // namespace vinebench

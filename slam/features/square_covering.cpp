@@ -14,7 +14,7 @@ namespace {
 constexpr double kTolerance = 0.03;
 constexpr int kMaxSteps = 16;
 
-/// Covers the picture greedily with squares around the strongest corners.
+/// Covers the image greedily with squares around the strongest corners.
 class Covering {
  public:
   Covering(const std::vector<Corner>& corners, int width, int height)

@@ -137,9 +137,8 @@ std::optional<Pose> LoopCloser::map_pose(const std::vector<TagSighting>& sightin
                                          const Map& map) const {
   std::vector<PlacedSighting> seen;
   for (const TagSighting& sighting : sightings) {
-    const bool distrusted =
-        std::ranges::count(distrusted_, std::pair(sighting.family, sighting.id));
-    if (sighting.ambiguous || distrusted) continue;
+    const bool rejected = std::ranges::count(rejected_, std::pair(sighting.family, sighting.id));
+    if (sighting.ambiguous || rejected) continue;
     if (const auto tag = placed(sighting, map)) seen.push_back(*tag);
   }
   return locate_by_tags(seen, rig_, config_.loop.corner_sigma);
@@ -164,7 +163,7 @@ Matrix6d LoopCloser::covariance(const TagSighting& sighting) const {
                         config_.loop.corner_sigma);
 }
 
-Matrix6d LoopCloser::fix_covariance(const std::vector<TagSighting>& sightings) const {
+Matrix6d LoopCloser::localisation_covariance(const std::vector<TagSighting>& sightings) const {
   std::optional<Matrix6d> surest;
   for (const TagSighting& sighting : sightings) {
     if (sighting.ambiguous) continue;
@@ -176,7 +175,7 @@ Matrix6d LoopCloser::fix_covariance(const std::vector<TagSighting>& sightings) c
 }
 
 /// Of the way from `since` to `path_length`: the greatest drift along one axis is made the edge of
-/// what the chi-square test lets pass when the sighting is exact. A turn in a stretch without sight
+/// what the chi-square test lets pass when the sighting is exact. A turn in a odometry gap
 /// moves the body sideways on all of the way after it.
 Matrix6d LoopCloser::drift(double since, double path_length) const {
   const LoopConfig& limits = config_.loop;
@@ -232,13 +231,13 @@ bool LoopCloser::is_confirmed(const Return& now) const {
   });
 }
 
-void LoopCloser::distrust(const TagSighting& sighting) {
+void LoopCloser::reject(const TagSighting& sighting) {
   const std::pair name(sighting.family, sighting.id);
-  if (!std::ranges::count(distrusted_, name)) distrusted_.push_back(name);
+  if (!std::ranges::count(rejected_, name)) rejected_.push_back(name);
 }
 
-std::vector<RejectedTag> LoopCloser::judge(FrameFeatures& frame, const Pose& T_map_body,
-                                           double path_length, const Map& map) {
+std::vector<RejectedTag> LoopCloser::gate(FrameFeatures& frame, const Pose& T_map_body,
+                                          double path_length, const Map& map) {
   std::vector<TagSighting> believed;
   std::vector<RejectedTag> rejected;
   std::vector<Return> returns;
@@ -249,10 +248,10 @@ std::vector<RejectedTag> LoopCloser::judge(FrameFeatures& frame, const Pose& T_m
     if (sighting.ambiguous) {
       reject(TagRejection::kAmbiguous);
     } else if (!is_in_place(sighting, T_map_body, path_length, map)) {
-      distrust(sighting);
+      reject(sighting);
       reject(TagRejection::kMisplaced);
     } else if (is_doubled(sighting, frame, T_map_body, path_length, map)) {
-      distrust(sighting);
+      reject(sighting);
       reject(TagRejection::kDuplicate);
     } else if (was_left(sighting, frame.stamp, path_length)) {
       returns.push_back({sighting, frame.stamp, T_map_body * T_body_tag(sighting, rig_)});
@@ -277,8 +276,8 @@ void LoopCloser::add_tag(const TagSighting& sighting, const Pose& T_map_body, Ma
   map.tags().push_back(tag);
 }
 
-void LoopCloser::note(const FrameFeatures& frame, const Pose& T_map_body, double path_length,
-                      Map& map) {
+void LoopCloser::record(const FrameFeatures& frame, const Pose& T_map_body, double path_length,
+                        Map& map) {
   // A loop that waits to be closed stays one.
   if (sees_loop(frame, path_length)) return;
   const bool is_keyframe =

@@ -35,18 +35,18 @@ class LoopCloser {
 
   /// Covariance of the body's pose by the surest of the sightings, in the step of step_of: that
   /// of the tag's corners. Zero where there is no sighting to go by.
-  Matrix6d fix_covariance(const std::vector<TagSighting>& sightings) const;
+  Matrix6d localisation_covariance(const std::vector<TagSighting>& sightings) const;
 
   /// Leaves the frame those sightings that are to be believed; call it with every tracked frame
   /// before what follows. A sighting is rejected that is ambiguous, one of two of the same name, or
   /// farther from the tag's place in the map than the way driven since a tag was seen allows. One
   /// that would close a loop is held back until the next frame sees the tag in the same place.
-  std::vector<RejectedTag> judge(FrameFeatures& frame, const Pose& T_map_body, double path_length,
-                                 const Map& map);
+  std::vector<RejectedTag> gate(FrameFeatures& frame, const Pose& T_map_body, double path_length,
+                                const Map& map);
 
   /// Tells of a stretch of the way that no camera saw, and how uncertain the motion in it is: tags
   /// may be that much farther from their place in the map from here on.
-  void bridge(double path_length, const Matrix6d& covariance) {
+  void cross_gap(double path_length, const Matrix6d& covariance) {
     gaps_.push_back({path_length, covariance});
   }
 
@@ -54,7 +54,7 @@ class LoopCloser {
   bool sees_loop(const FrameFeatures& frame, double path_length) const;
 
   /// Enters the sightings of a frame: tags that are new to the map get a pose there.
-  void note(const FrameFeatures& frame, const Pose& T_map_body, double path_length, Map& map);
+  void record(const FrameFeatures& frame, const Pose& T_map_body, double path_length, Map& map);
 
   /// Closes the loop that `keyframe`, made of a frame that sees_loop, sees: moves the way since the
   /// earlier visit onto the tag's constraint, then adjusts the whole map.
@@ -101,7 +101,7 @@ class LoopCloser {
   bool is_doubled(const TagSighting& sighting, const FrameFeatures& frame, const Pose& T_map_body,
                   double path_length, const Map& map) const;
   bool is_confirmed(const Return& now) const;
-  void distrust(const TagSighting& sighting);
+  void reject(const TagSighting& sighting);
   void add_tag(const TagSighting& sighting, const Pose& T_map_body, Map& map);
 
   SlamConfig config_;
@@ -109,9 +109,9 @@ class LoopCloser {
   std::vector<RegisteredTag> registered_;
   std::optional<Pose> T_map_world_;  ///< known from the first registered tag on
   std::vector<Visit> visits_;
-  std::vector<Gap> gaps_;                                ///< in the order of the way
-  std::vector<Return> returns_;                          ///< of the last frame judged
-  std::vector<std::pair<std::string, int>> distrusted_;  ///< found elsewhere than the map has them
+  std::vector<Gap> gaps_;                              ///< in the order of the way
+  std::vector<Return> returns_;                        ///< of the last frame judged
+  std::vector<std::pair<std::string, int>> rejected_;  ///< found elsewhere than the map has them
 };
 
 }  // namespace vinebench

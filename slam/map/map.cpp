@@ -169,18 +169,18 @@ void Map::refresh(int id, const std::vector<Pose>& T_body_cams) {
   for (const Observation& o : landmark.observations) {
     const Keyframe& seen_by = keyframe(o.keyframe);
     descriptors.push_back(descriptor_of(seen_by, o));
-    const Eigen::Vector3d eye =
+    const Eigen::Vector3d camera =
         seen_by.T_map_body * T_body_cams[static_cast<std::size_t>(o.view)].translation;
-    sum += (landmark.position - eye).normalized();
+    sum += (landmark.position - camera).normalized();
   }
   landmark.normal = sum.norm() > 1e-9 ? Eigen::Vector3d(sum.normalized()) : landmark.normal;
   landmark.descriptor = descriptors[median_descriptor(descriptors)];
   const Observation& last = landmark.observations.back();
   const Keyframe& reference = keyframe(last.keyframe);
-  const Eigen::Vector3d eye =
+  const Eigen::Vector3d camera =
       reference.T_map_body * T_body_cams[static_cast<std::size_t>(last.view)].translation;
-  landmark.max_distance =
-      (landmark.position - eye).norm() * std::pow(level_scale_, keypoint_of(reference, last).level);
+  landmark.max_distance = (landmark.position - camera).norm() *
+                          std::pow(level_scale_, keypoint_of(reference, last).level);
 }
 
 std::vector<int> Map::covisible(int id, int at_most) const {

@@ -19,7 +19,7 @@
 
 namespace vinebench {
 
-/// What one stereo pair saw in one frame: the left eye's features with their stereo matches.
+/// What one stereo pair saw in one frame: the left camera's features with their stereo matches.
 struct StereoView {
   Features features;
   std::vector<StereoMatch> stereo;  ///< of each feature
@@ -43,7 +43,7 @@ struct StereoView {
   }
 };
 
-/// What a frame's pictures were boiled down to. Tracking places its matches more finely; after that
+/// What a frame's images were boiled down to. Tracking places its matches more finely; after that
 /// it is immutable, and shared by those who need it.
 struct FrameFeatures {
   std::int64_t index = 0;
@@ -74,8 +74,8 @@ struct Keyframe {
   std::shared_ptr<const FrameFeatures> frame;
   Pose T_map_body;
   Associations landmarks;
-  std::vector<PatchList> patches;    ///< of each view; none where it has no pictures
-  std::optional<OdometryLink> link;  ///< to an earlier keyframe, after a stretch without sight
+  std::vector<PatchList> patches;    ///< of each view; none where it has no images
+  std::optional<OdometryLink> link;  ///< to an earlier keyframe, after a odometry gap
   std::map<int, int> covisible;      ///< keyframe id to the number of landmarks both see
 
   /// Whether it came with a map that was loaded: frames of earlier runs have negative indices.
@@ -93,7 +93,7 @@ struct Landmark {
   int id = 0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< map frame, m
   Descriptor descriptor{};  ///< the one nearest to all others that were seen of it
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< mean direction from the eyes to it
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< mean direction from the cameras to it
   double max_distance = 0;  ///< m, where its feature would be found on level 0 of the pyramid
   std::vector<Observation> observations;  ///< ascending by keyframe, then view
   int first_keyframe = 0;
@@ -125,7 +125,8 @@ class Map {
   std::vector<MapTag>& tags() { return tags_; }
   const std::vector<MapTag>& tags() const { return tags_; }
 
-  /// EyeModel::disparity_offset of each view, as they were when the map was made; empty for none.
+  /// StereoCameraModel::disparity_offset of each view, as they were when the map was made; empty
+  /// for none.
   std::vector<double>& disparity_offsets() { return disparity_offsets_; }
   const std::vector<double>& disparity_offsets() const { return disparity_offsets_; }
   const MapTag* find_tag(const std::string& family, int id) const;

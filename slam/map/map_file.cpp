@@ -18,8 +18,8 @@ constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kHeaderSize = 20;  // magic, version, size of the content
 constexpr std::size_t kChecksumSize = 8;
 
-/// A pixel may lie this far off its picture, where refinement moved it.
-constexpr double kPictureMargin = 16;  // px
+/// A pixel may lie this far off its image, where refinement moved it.
+constexpr double kImageMargin = 16;  // px
 
 /// A map lies in the past of whoever loads it: the last keyframe's frame has this index and stamp.
 constexpr std::int64_t kLastIndex = -1000;
@@ -151,7 +151,7 @@ bool is_sound(const StereoView& view, const PinholeCamera& lens, std::size_t lev
   for (const Keypoint& k : view.features.keypoints) {
     const Eigen::Vector2d pixel(k.x, k.y);
     const bool level_known = k.level >= 0 && static_cast<std::size_t>(k.level) < levels;
-    if (!level_known || !pixel.allFinite() || !lens.contains(pixel, -kPictureMargin)) return false;
+    if (!level_known || !pixel.allFinite() || !lens.contains(pixel, -kImageMargin)) return false;
     if (!std::isfinite(k.angle) || !std::isfinite(k.response)) return false;
   }
   return std::all_of(view.stereo.begin(), view.stereo.end(), [](const StereoMatch& m) {
@@ -180,8 +180,9 @@ void check(const StoredKeyframe& keyframe, const EstimatorRig& rig, std::size_t 
     }
   }
   for (const TagSighting& tag : keyframe.frame.tags) {
-    reader.expect(tag.camera >= 0 && static_cast<std::size_t>(tag.camera) < rig.tag_eyes.size(),
-                  "a tag seen by no camera");
+    reader.expect(
+        tag.camera >= 0 && static_cast<std::size_t>(tag.camera) < rig.undistorted_cameras.size(),
+        "a tag seen by no camera");
     for (const Eigen::Vector2d& corner : tag.corners) {
       reader.expect(corner.allFinite(), "a tag's corners");
     }
@@ -213,9 +214,9 @@ void add(StoredKeyframe keyframe, const EstimatorRig& rig, Map& map, const Binar
 }
 
 Map read_content(BinaryReader& reader, const EstimatorRig& rig, const std::string& where) {
-  RigPrint print;
+  RigFingerprint print;
   reader(print);
-  const std::string differs = difference(print, rig_print(rig));
+  const std::string differs = difference(print, rig_fingerprint(rig));
   if (!differs.empty()) fail("{}: this map was made with another rig: {}", where, differs);
   double level_scale = 0;
   std::vector<double> disparity_offsets;
@@ -225,7 +226,7 @@ Map read_content(BinaryReader& reader, const EstimatorRig& rig, const std::strin
   reader(level_scale, disparity_offsets, tags, landmarks, keyframes);
   reader.expect(reader.at_end(), "it goes on after its end");
   reader.expect(std::isfinite(level_scale) && level_scale > 1, "the pyramid's scale");
-  reader.expect(disparity_offsets.empty() || disparity_offsets.size() == rig.eyes.size(),
+  reader.expect(disparity_offsets.empty() || disparity_offsets.size() == rig.left_cameras.size(),
                 "disparity offsets of no pair");
   for (const double offset : disparity_offsets) {
     reader.expect(std::isfinite(offset), "a disparity offset");
@@ -259,7 +260,7 @@ std::string format_map(const Map& map, const EstimatorRig& rig) {
   std::vector<int> moved_to;
   const std::vector<Landmark> landmarks = living_landmarks(map, moved_to);
   BinaryWriter content;
-  content(rig_print(rig), map.level_scale(), map.disparity_offsets(), map.tags(), landmarks,
+  content(rig_fingerprint(rig), map.level_scale(), map.disparity_offsets(), map.tags(), landmarks,
           static_cast<std::uint32_t>(map.keyframes().size()));
   for (const Keyframe& keyframe : map.keyframes()) {
     content(stored(keyframe, *map.keyframes().back().frame, moved_to));

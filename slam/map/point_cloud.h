@@ -10,7 +10,7 @@
 namespace vinebench {
 
 /// The landmarks that at least `min_observations` keyframes saw, as a PLY file (binary, little
-/// endian): x y z in the map frame (m), the normal towards the eyes that saw it, and red green
+/// endian): x y z in the map frame (m), the normal towards the cameras that saw it, and red green
 /// blue, which are the grey level in its oldest patch, 128 where there is none.
 std::string format_ply(const Map& map, int min_observations);
 

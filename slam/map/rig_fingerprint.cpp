@@ -25,11 +25,11 @@ bool alike(const Pose& a, const Pose& b) {
 
 }  // namespace
 
-RigPrint rig_print(const EstimatorRig& rig) {
-  RigPrint print;
+RigFingerprint rig_fingerprint(const EstimatorRig& rig) {
+  RigFingerprint print;
   for (const RigCamera& c : rig.rig.cameras)
     print.cameras.push_back({c.name, c.model, c.T_body_cam});
-  for (const StereoEye& p : rig.rig.pairs) {
+  for (const RectifiedPair& p : rig.rig.pairs) {
     print.pairs.push_back(
         {p.name, p.left_camera, p.right_camera, p.lens, p.baseline, p.T_body_cam});
   }
@@ -37,13 +37,13 @@ RigPrint rig_print(const EstimatorRig& rig) {
   return print;
 }
 
-std::string difference(const RigPrint& map, const RigPrint& rig) {
+std::string difference(const RigFingerprint& map, const RigFingerprint& rig) {
   if (map.cameras.size() != rig.cameras.size()) {
     return fmt::format("it has {} cameras, this one {}", map.cameras.size(), rig.cameras.size());
   }
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
-    const RigPrint::Camera& a = map.cameras[i];
-    const RigPrint::Camera& b = rig.cameras[i];
+    const RigFingerprint::Camera& a = map.cameras[i];
+    const RigFingerprint::Camera& b = rig.cameras[i];
     if (a.name != b.name) return fmt::format("its camera {} is '{}', here '{}'", i, a.name, b.name);
     if (!alike(a.model, b.model)) return fmt::format("camera '{}' has another lens", a.name);
     if (!alike(a.T_body_cam, b.T_body_cam)) {
@@ -54,8 +54,8 @@ std::string difference(const RigPrint& map, const RigPrint& rig) {
     return fmt::format("it uses {} stereo pairs, this one {}", map.pairs.size(), rig.pairs.size());
   }
   for (std::size_t i = 0; i < rig.pairs.size(); ++i) {
-    const RigPrint::Pair& a = map.pairs[i];
-    const RigPrint::Pair& b = rig.pairs[i];
+    const RigFingerprint::Pair& a = map.pairs[i];
+    const RigFingerprint::Pair& b = rig.pairs[i];
     if (a.name != b.name) return fmt::format("its pair {} is '{}', here '{}'", i, a.name, b.name);
     const bool same = a.left_camera == b.left_camera && a.right_camera == b.right_camera &&
                       alike(a.lens, b.lens) && alike(a.baseline, b.baseline) &&

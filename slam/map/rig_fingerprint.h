@@ -10,7 +10,7 @@
 namespace vinebench {
 
 /// What a map depends on of the rig that made it.
-struct RigPrint {
+struct RigFingerprint {
   struct Camera {
     std::string name;
     PinholeCamera model;
@@ -29,26 +29,26 @@ struct RigPrint {
   std::vector<double> level_scales;
 };
 
-RigPrint rig_print(const EstimatorRig& rig);
+RigFingerprint rig_fingerprint(const EstimatorRig& rig);
 
 /// How the rig of a map differs from the one in use, the first difference only; empty where they
 /// are the same but for the roundings of a calibration that was computed again.
-std::string difference(const RigPrint& map, const RigPrint& rig);
+std::string difference(const RigFingerprint& map, const RigFingerprint& rig);
 
 template <class Archive>
 void fields(Archive& archive, PinholeCamera& c) {
   archive(c.width, c.height, c.fx, c.fy, c.cx, c.cy, c.distortion);
 }
 template <class Archive>
-void fields(Archive& archive, RigPrint::Camera& c) {
+void fields(Archive& archive, RigFingerprint::Camera& c) {
   archive(c.name, c.model, c.T_body_cam);
 }
 template <class Archive>
-void fields(Archive& archive, RigPrint::Pair& p) {
+void fields(Archive& archive, RigFingerprint::Pair& p) {
   archive(p.name, p.left_camera, p.right_camera, p.lens, p.baseline, p.T_body_cam);
 }
 template <class Archive>
-void fields(Archive& archive, RigPrint& rig) {
+void fields(Archive& archive, RigFingerprint& rig) {
   archive(rig.cameras, rig.pairs, rig.level_scales);
 }
 }  // namespace vinebench

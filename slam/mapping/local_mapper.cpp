@@ -98,7 +98,7 @@ void LocalMapper::fuse_into(const std::vector<int>& landmarks, int keyframe_id, 
   // The same search as tracking's second one: poses of neighbours agree to a few pixels.
   const ProjectionSearch search{3.0, config_.tracking.max_hamming, 1.0};
   const Pose T_body_map = map.keyframe(keyframe_id).T_map_body.inverse();
-  for (std::size_t v = 0; v < rig_.eyes.size(); ++v) {
+  for (std::size_t v = 0; v < rig_.left_cameras.size(); ++v) {
     for (const int id : landmarks) {
       const Landmark& landmark = map.landmark(id);
       if (landmark.removed) continue;
@@ -125,7 +125,7 @@ void LocalMapper::fuse_into(const std::vector<int>& landmarks, int keyframe_id, 
 
 void LocalMapper::triangulate(int keyframe, Map& map) const {
   for (const int neighbour : map.covisible(keyframe, config_.mapping.neighbours)) {
-    for (std::size_t v = 0; v < rig_.eyes.size(); ++v) {
+    for (std::size_t v = 0; v < rig_.left_cameras.size(); ++v) {
       triangulate_between(keyframe, neighbour, static_cast<int>(v), map);
     }
   }

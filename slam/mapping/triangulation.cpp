@@ -25,8 +25,8 @@ std::vector<Candidate> candidates(const Keyframe& keyframe, std::size_t v,
   for (std::size_t f = 0; f < view.detected(); ++f) {
     if (keyframe.landmarks[v][f] >= 0 || view.stereo[f].depth > 0) continue;
     const PixelMeasurement m = rig.measurement(view, static_cast<int>(f));
-    result.push_back(
-        {static_cast<int>(f), (R_map_cam * rig.eyes[v].lens.unproject(m.pixel)).normalized(), m});
+    result.push_back({static_cast<int>(f),
+                      (R_map_cam * rig.left_cameras[v].lens.unproject(m.pixel)).normalized(), m});
   }
   return result;
 }
@@ -63,16 +63,16 @@ std::vector<EpipolarMatch> match_epipolar(const Keyframe& a, const Keyframe& b, 
     int best = max_hamming + 1;
     EpipolarMatch match;
     for (const Candidate& other : of_b) {
-      // Distance from the epipolar plane, in the picture's standard deviations.
-      const double off = std::abs(plane.dot(other.direction)) * rig.eyes[v].lens.fx;
+      // Distance from the epipolar plane, in the image's standard deviations.
+      const double off = std::abs(plane.dot(other.direction)) * rig.left_cameras[v].lens.fx;
       if (off > 2.0 * other.measurement.sigma) continue;
       const int distance = hamming_distance(
           wanted, b.frame->views[v].features.descriptors[static_cast<std::size_t>(other.feature)]);
       if (distance >= best) continue;
       const auto p_map = intersect_rays(p_a, candidate.direction, p_b, other.direction);
       if (!p_map) continue;
-      const Reprojection in_a(rig.eyes[v], candidate.measurement);
-      const Reprojection in_b(rig.eyes[v], other.measurement);
+      const Reprojection in_a(rig.left_cameras[v], candidate.measurement);
+      const Reprojection in_b(rig.left_cameras[v], other.measurement);
       if (in_a.chi_squared(a.T_map_body, *p_map) > kChiSquared2 ||
           in_b.chi_squared(b.T_map_body, *p_map) > kChiSquared2) {
         continue;

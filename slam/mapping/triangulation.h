@@ -11,7 +11,7 @@
 namespace vinebench {
 
 /// The point nearest to two rays p + s d (d of unit length, map frame), by least squares. Nothing
-/// where the rays are nearly parallel or meet behind either eye.
+/// where the rays are nearly parallel or meet behind either camera.
 std::optional<Eigen::Vector3d> intersect_rays(const Eigen::Vector3d& p_a,
                                               const Eigen::Vector3d& d_a,
                                               const Eigen::Vector3d& p_b,

@@ -17,9 +17,9 @@ std::vector<int> keyframes_alike(const Map& map, const FrameFeatures& frame, int
 /// Landmarks of a keyframe and of those that share most with it, ascending.
 std::vector<int> landmarks_around(const Map& map, int keyframe);
 
-/// Ties features to landmarks by looks alone, whichever camera saw either: each to the landmark
-/// most like it, where no other is nearly as like, nor a feature of that view more like that
-/// landmark.
+/// Ties features to landmarks by appearance alone, whichever camera saw either: each to the
+/// landmark most like it, where no other is nearly as like, nor a feature of that view more like
+/// that landmark.
 Associations match_by_appearance(const Map& map, const std::vector<int>& landmarks,
                                  const FrameFeatures& frame, int max_hamming, double second_best);
 

@@ -11,7 +11,7 @@
 namespace vinebench {
 namespace {
 
-constexpr int kCell = 48;           // px; of the picture's cells that share the landmarks
+constexpr int kCell = 48;           // px; of the image's cells that share the landmarks
 constexpr double kMargin = 6;       // px
 constexpr double kMinCosine = 0.5;  // a leaf looks different from farther around than this
 
@@ -22,7 +22,7 @@ struct Candidate {
   double depth;  ///< m
 };
 
-/// How many landmarks each cell of the picture holds.
+/// How many landmarks each cell of the image holds.
 class Cells {
  public:
   Cells(const PinholeCamera& lens, int capacity)
@@ -72,16 +72,16 @@ class Follower {
 
  private:
   StereoView& view() { return frame_.views[static_cast<std::size_t>(v_)]; }
-  const PinholeCamera& lens() const { return rig_.eyes[static_cast<std::size_t>(v_)].lens; }
+  const PinholeCamera& lens() const { return rig_.left_cameras[static_cast<std::size_t>(v_)].lens; }
 
-  /// Landmarks in the picture that have no feature yet, those that most keyframes saw first.
+  /// Landmarks in the image that have no feature yet, those that most keyframes saw first.
   std::vector<Candidate> candidates(const std::vector<int>& landmarks,
                                     const std::vector<int>& associations) const {
     std::vector<char> tied(map_.landmarks().size(), 0);
     for (const int id : associations) {
       if (id >= 0) tied[static_cast<std::size_t>(id)] = 1;
     }
-    const Pose T_cam_map = rig_.eyes[static_cast<std::size_t>(v_)].T_cam_body * T_body_map_;
+    const Pose T_cam_map = rig_.left_cameras[static_cast<std::size_t>(v_)].T_cam_body * T_body_map_;
     std::vector<Candidate> result;
     for (const int id : landmarks) {
       const Landmark& landmark = map_.landmark(id);
@@ -139,20 +139,21 @@ class Follower {
     keypoint.level = level;
     view().features.keypoints.push_back(keypoint);
     view().features.descriptors.push_back(map_.landmark(candidate.id).descriptor);
-    view().stereo.push_back(find_in_right_eye(keypoint, fit, candidate.depth));
+    view().stereo.push_back(find_in_right_image(keypoint, fit, candidate.depth));
     view().placed.push_back(1);
     ++view().followed;
   }
 
-  StereoMatch find_in_right_eye(const Keypoint& keypoint, const PatchFit& fit, double depth) const {
+  StereoMatch find_in_right_image(const Keypoint& keypoint, const PatchFit& fit,
+                                  double depth) const {
     StereoMatch match;
     const auto v = static_cast<std::size_t>(v_);
     const auto level = static_cast<std::size_t>(keypoint.level);
     if (frame_.right_pyramids[v].size() <= level) return match;
     const double pixel = rig_.level_scales[level];
-    const EyeModel& eye = rig_.eyes[v];
+    const StereoCameraModel& camera = rig_.left_cameras[v];
     const double level_disparity =
-        lens().fx * eye.baseline / (depth * pixel) - eye.disparity_offset / pixel;
+        lens().fx * camera.baseline / (depth * pixel) - camera.disparity_offset / pixel;
     const auto aligned = align_patch(frame_.pyramids[v][level], frame_.right_pyramids[v][level],
                                      static_cast<int>(std::lround(fit.x)),
                                      static_cast<int>(std::lround(fit.y)), level_disparity);
@@ -161,8 +162,8 @@ class Follower {
     match.x_right = keypoint.x - static_cast<float>(disparity);
     match.slant_x = static_cast<float>(aligned->slope_x / disparity);
     match.slant_y = static_cast<float>(aligned->slope_y / disparity);
-    const double seen_depth = eye.depth_of(disparity);
-    if (seen_depth > 0 && seen_depth < rig_.stereo.max_depth_baselines * eye.baseline) {
+    const double seen_depth = camera.depth_of(disparity);
+    if (seen_depth > 0 && seen_depth < rig_.stereo.max_depth_baselines * camera.baseline) {
       match.depth = static_cast<float>(seen_depth);
     }
     return match;

@@ -9,7 +9,7 @@
 namespace vinebench {
 namespace {
 
-/// A patch that appears larger or smaller than this is another picture.
+/// A patch that appears larger or smaller than this is another image.
 constexpr double kMaxScale = 1.4;
 
 constexpr double kMinDepth = 0.05;  // m
@@ -20,12 +20,12 @@ Eigen::Matrix3d calibration(const PinholeCamera& lens) {
   return K;
 }
 
-/// Whether the plane does not come near the eye within the patch.
+/// Whether the plane does not come near the camera within the patch.
 bool wholly_in_front(const Eigen::Matrix3d& H) {
   return H(2, 2) - Patch::kRadius * (std::abs(H(2, 0)) + std::abs(H(2, 1))) > 0.2 * H(2, 2);
 }
 
-/// Pixels of the picture to a pixel of the patch, about its centre.
+/// Pixels of the image to a pixel of the patch, about its centre.
 double magnification(const Eigen::Matrix3d& H) {
   const Eigen::Vector2d at = (H.col(2)).hnormalized();
   Eigen::Matrix2d J;
@@ -38,7 +38,7 @@ double magnification(const Eigen::Matrix3d& H) {
 
 PatchProjector::PatchProjector(const Map& map, const Pose& T_map_body, const EstimatorRig& rig)
     : map_(map), T_map_body_(T_map_body), rig_(rig) {
-  steps_.assign(rig.eyes.size(), std::vector<std::optional<Step>>(map.keyframes().size()));
+  steps_.assign(rig.left_cameras.size(), std::vector<std::optional<Step>>(map.keyframes().size()));
 }
 
 const Patch* PatchProjector::find_patch(const Observation& seen) const {
@@ -55,7 +55,7 @@ const PatchProjector::Step& PatchProjector::step(int keyframe, int v) {
   const Pose& T_body_cam = rig_.T_body_cams[static_cast<std::size_t>(v)];
   const Pose T_then_map = (map_.keyframe(keyframe).T_map_body * T_body_cam).inverse();
   const Pose T_now_then = (T_map_body_ * T_body_cam).inverse() * T_then_map.inverse();
-  const Eigen::Matrix3d K = calibration(rig_.eyes[static_cast<std::size_t>(v)].lens);
+  const Eigen::Matrix3d K = calibration(rig_.left_cameras[static_cast<std::size_t>(v)].lens);
   step = Step{K * T_now_then.rotation.toRotationMatrix() * K.inverse(), K * T_now_then.translation,
               T_then_map};
   return *step;
@@ -71,7 +71,7 @@ std::optional<Eigen::Matrix3d> PatchProjector::homography(const Observation& see
   const auto f = static_cast<std::size_t>(seen.feature);
   const Keypoint& corner = then.features.keypoints[f];
   const StereoMatch& stereo = then.stereo[f];
-  // Inverse depth is linear in the picture of a plane: rho = inverse . (x, y, 1).
+  // Inverse depth is linear in the image of a plane: rho = inverse . (x, y, 1).
   const Eigen::RowVector3d inverse =
       Eigen::RowVector3d(stereo.slant_x, stereo.slant_y,
                          1 - static_cast<double>(stereo.slant_x * corner.x) -

@@ -10,10 +10,10 @@
 
 namespace vinebench {
 
-/// How a landmark's patch, cut out of a keyframe's picture, appears from another pose of the body.
+/// How a landmark's patch, cut out of a keyframe's image, appears from another pose of the body.
 struct PatchView {
   int level = 0;       ///< of the pyramid
-  PatchWindow window;  ///< of that level's picture
+  PatchWindow window;  ///< of that level's image
 };
 
 /// Predicts patches as one pose sees them: the homography of the landmark's plane, whose slant
@@ -23,7 +23,7 @@ class PatchProjector {
   PatchProjector(const Map& map, const Pose& T_map_body, const EstimatorRig& rig);
 
   /// On that level of view `v`. None where the observation has no patch, is of another view, or is
-  /// so much nearer, farther or turned that it would be another picture.
+  /// so much nearer, farther or turned that it would be another image.
   std::optional<PatchView> on_level(const Observation& seen, int v, const Landmark& landmark,
                                     int level);
 
@@ -31,7 +31,7 @@ class PatchProjector {
   std::optional<PatchView> on_best_level(const Observation& seen, int v, const Landmark& landmark);
 
  private:
-  /// From a keyframe's left eye to the same eye now: pixels of a plane at inverse depth rho,
+  /// From a keyframe's left camera to the same camera now: pixels of a plane at inverse depth rho,
   /// x_now ~ (turn + shift rho^T) x_then.
   struct Step {
     Eigen::Matrix3d turn;

@@ -22,20 +22,20 @@ struct Prediction {
 Prediction predict(const Landmark& landmark, int v, const Pose& T_body_map, const EstimatorRig& rig,
                    double level_scale) {
   Prediction p;
-  const EyeModel& eye = rig.eyes[static_cast<std::size_t>(v)];
-  const Eigen::Vector3d p_cam = eye.T_cam_body * (T_body_map * landmark.position);
+  const StereoCameraModel& camera = rig.left_cameras[static_cast<std::size_t>(v)];
+  const Eigen::Vector3d p_cam = camera.T_cam_body * (T_body_map * landmark.position);
   if (p_cam.z() < 0.05) return p;
-  p.pixel = eye.lens.project(p_cam);
-  if (!eye.lens.contains(p.pixel)) return p;
+  p.pixel = camera.lens.project(p_cam);
+  if (!camera.lens.contains(p.pixel)) return p;
   const double distance = p_cam.norm();
   const Eigen::Vector3d normal_cam =
-      eye.T_cam_body.rotation * (T_body_map.rotation * landmark.normal);
+      camera.T_cam_body.rotation * (T_body_map.rotation * landmark.normal);
   if (p_cam.dot(normal_cam) < kMinViewCosine * distance) return p;
   const double level = std::log(landmark.max_distance / distance) / std::log(level_scale);
   const int top = static_cast<int>(rig.level_scales.size()) - 1;
   if (level < -1.5 || level > top + 1.5) return p;
   p.level = std::clamp(static_cast<int>(std::lround(level)), 0, top);
-  p.right_x = p.pixel.x() - eye.disparity_of(p_cam.z());
+  p.right_x = p.pixel.x() - camera.disparity_of(p_cam.z());
   p.visible = true;
   return p;
 }

@@ -30,7 +30,7 @@ struct DeadReckoningConfig {
   }
 };
 
-/// A stretch without sight: what was done in it, and how uncertain that is.
+/// A odometry gap: what was done in it, and how uncertain that is.
 class DeadReckoning {
  public:
   explicit DeadReckoning(const DeadReckoningConfig& config) : config_(config) {}

@@ -36,7 +36,8 @@ class AdjustmentJob::Impl {
  public:
   Impl(AdjustmentWindow window, const EstimatorRig& rig, const AdjustmentOptions& options)
       : window_(std::move(window)), rig_(rig), options_(options), problem_(ownership()) {
-    for (const EyeModel& eye : rig.eyes) offsets_.push_back(eye.disparity_offset);
+    for (const StereoCameraModel& camera : rig.left_cameras)
+      offsets_.push_back(camera.disparity_offset);
     offset_used_.assign(offsets_.size(), 0);
   }
 
@@ -163,7 +164,7 @@ class AdjustmentJob::Impl {
           map.keyframe(o.keyframe).frame->views[static_cast<std::size_t>(o.view)];
       const PixelMeasurement m = rig_.measurement(view, o.feature);
       const bool with_offset = options_.offsets_unknown && m.right_x;
-      errors_.emplace_back(rig_.eyes[static_cast<std::size_t>(o.view)], m, with_offset);
+      errors_.emplace_back(rig_.left_cameras[static_cast<std::size_t>(o.view)], m, with_offset);
       std::vector<double*> blocks{pose_of(o.keyframe), point};
       if (with_offset) blocks.push_back(offset_of(static_cast<std::size_t>(o.view)));
       problem_.AddResidualBlock(&errors_.back(), &cauchy_, blocks);
@@ -171,18 +172,18 @@ class AdjustmentJob::Impl {
     }
   }
 
-  double* offset_of(std::size_t eye) {
-    double* offset = &offsets_[eye];
-    if (!offset_used_[eye]) {
+  double* offset_of(std::size_t camera) {
+    double* offset = &offsets_[camera];
+    if (!offset_used_[camera]) {
       problem_.AddParameterBlock(offset, 1);
       ordering_.AddElementToGroup(offset, 1);
       problem_.SetParameterBlockConstant(offset);
-      offset_used_[eye] = 1;
+      offset_used_[camera] = 1;
     }
     return offset;
   }
 
-  /// Ties a keyframe to the one before a stretch without sight, where both take part.
+  /// Ties a keyframe to the one before a odometry gap, where both take part.
   void add_link(const Keyframe& keyframe) {
     if (!keyframe.link || !takes_part(keyframe.link->from)) return;
     odometry_errors_.emplace_back(keyframe.link->T_from_to, keyframe.link->covariance);
@@ -208,9 +209,10 @@ class AdjustmentJob::Impl {
       }
       const std::array<Eigen::Vector3d, 4> corners = tag_corners(tag->size);
       const double sigma = corner_sigma(sighting, options_.tag_corner_sigma);
-      const EyeModel& eye = rig_.tag_eyes[static_cast<std::size_t>(sighting.camera)];
+      const StereoCameraModel& camera =
+          rig_.undistorted_cameras[static_cast<std::size_t>(sighting.camera)];
       for (std::size_t c = 0; c < corners.size(); ++c) {
-        tag_errors_.emplace_back(eye, ideal_corner(sighting, c, rig_), sigma, corners[c]);
+        tag_errors_.emplace_back(camera, ideal_corner(sighting, c, rig_), sigma, corners[c]);
         problem_.AddResidualBlock(&tag_errors_.back(), &huber_, pose_of(keyframe), block);
       }
     }
@@ -232,7 +234,7 @@ class AdjustmentJob::Impl {
   std::deque<TagCornerError> tag_errors_;
   std::deque<OdometryError> odometry_errors_;
   std::vector<Term> terms_;
-  std::vector<double> offsets_;  ///< px, of each eye
+  std::vector<double> offsets_;  ///< px, of each camera
   std::vector<char> offset_used_;
   ceres::ParameterBlockOrdering ordering_;
   ceres::Problem problem_;  // last: it must go before the blocks it points to
@@ -275,7 +277,7 @@ AdjustmentWindow local_window(const Map& map, int keyframe, int size) {
   at(keyframe) = 1;
   for (const int id : map.covisible(keyframe, size - 1)) at(id) = 1;
   at(0) = 2;
-  // Behind a stretch without sight the map hangs on the keyframe that began it anew.
+  // Behind a odometry gap the map hangs on the keyframe that began it anew.
   for (const Keyframe& other : map.keyframes()) {
     if (other.link) at(other.id) = 2;
   }

@@ -22,7 +22,7 @@ struct AdjustmentOptions {
   int iterations = 6;
   double tag_corner_sigma = 0.3;  ///< px, besides the noise that a sighting knows of
   bool global = false;            ///< all of the map: to the end; mapped tags move too
-  bool offsets_unknown = false;   ///< the eyes' disparity offsets can be freed
+  bool offsets_unknown = false;   ///< the cameras' disparity offsets can be freed
 };
 
 /// The keyframe, those that share most landmarks with it, and as fixed ones all others that see
@@ -52,7 +52,7 @@ class AdjustmentJob {
   /// Lets the next solve() estimate the disparity offsets too (AdjustmentOptions::offsets_unknown).
   void free_offsets();
 
-  /// Of each eye, px: the rig's, or what was estimated.
+  /// Of each camera, px: the rig's, or what was estimated.
   const std::vector<double>& disparity_offsets() const;
 
  private:

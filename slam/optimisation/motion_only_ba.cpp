@@ -15,9 +15,9 @@ const RobustLoss kFar = RobustLoss::huber(std::sqrt(kChiSquared2));
 const RobustLoss kNear = RobustLoss::cauchy(kCauchyScale);
 
 struct Match {
-  Match(std::size_t v, std::size_t f, const EyeModel& eye, const PixelMeasurement& m,
+  Match(std::size_t v, std::size_t f, const StereoCameraModel& camera, const PixelMeasurement& m,
         const Eigen::Vector3d& p)
-      : view(v), feature(f), p_map(p), limit(chi_squared_limit(m)), error(eye, m) {}
+      : view(v), feature(f), p_map(p), limit(chi_squared_limit(m)), error(camera, m) {}
 
   std::size_t view;
   std::size_t feature;
@@ -36,7 +36,7 @@ Matches gather(const Map& map, const FrameFeatures& frame, const EstimatorRig& r
     for (std::size_t f = 0; f < associations[v].size(); ++f) {
       if (associations[v][f] < 0) continue;
       const PixelMeasurement m = rig.measurement(frame.views[v], static_cast<int>(f));
-      matches.emplace_back(v, f, rig.eyes[v], m, map.landmark(associations[v][f]).position);
+      matches.emplace_back(v, f, rig.left_cameras[v], m, map.landmark(associations[v][f]).position);
     }
   }
   return matches;

@@ -43,7 +43,7 @@ void PoseUncertainty::keyframe(const Pose& T_last_now, const Matrix6d& informati
   keyframe_ = at(T_last_now, information);
 }
 
-void PoseUncertainty::bridge(const Pose& T_last_now, const Matrix6d& covariance) {
+void PoseUncertainty::cross_gap(const Pose& T_last_now, const Matrix6d& covariance) {
   keyframe_ = carry_covariance(keyframe_, T_last_now) + covariance;
 }
 

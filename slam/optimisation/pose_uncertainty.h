@@ -24,8 +24,8 @@ class PoseUncertainty {
   /// A keyframe at T_last_now from the one before, held by that information.
   void keyframe(const Pose& T_last_now, const Matrix6d& information);
 
-  /// A stretch without sight ends in a keyframe.
-  void bridge(const Pose& T_last_now, const Matrix6d& covariance);
+  /// A odometry gap ends in a keyframe.
+  void cross_gap(const Pose& T_last_now, const Matrix6d& covariance);
 
   /// Of a frame at T_last_now from the last keyframe; without information (a zero matrix) that of a
   /// stretch of dead reckoning is to be added by the caller.

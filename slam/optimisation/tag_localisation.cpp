@@ -32,7 +32,8 @@ struct CornerErrors {
 
 CornerErrors corner_errors(const PlacedSighting& seen, const Pose& T_ref_body,
                            const EstimatorRig& rig, double systematic) {
-  const EyeModel& eye = rig.tag_eyes[static_cast<std::size_t>(seen.sighting->camera)];
+  const StereoCameraModel& camera =
+      rig.undistorted_cameras[static_cast<std::size_t>(seen.sighting->camera)];
   const double sigma = corner_sigma(*seen.sighting, systematic);
   const std::array<Eigen::Vector3d, 4> corners = tag_corners(seen.size);
   const PoseBlock body = to_block(T_ref_body);
@@ -40,7 +41,7 @@ CornerErrors corner_errors(const PlacedSighting& seen, const Pose& T_ref_body,
   const double* parameters[] = {body.data(), tag.data()};
   CornerErrors errors;
   for (std::size_t c = 0; c < 4; ++c) {
-    const TagCornerError error(eye, ideal_corner(*seen.sighting, c, rig), sigma, corners[c]);
+    const TagCornerError error(camera, ideal_corner(*seen.sighting, c, rig), sigma, corners[c]);
     Eigen::Vector2d residual;
     Eigen::Matrix<double, 2, 7, Eigen::RowMajor> by_body;
     Eigen::Matrix<double, 2, 7, Eigen::RowMajor> by_tag;
@@ -101,7 +102,7 @@ Eigen::Vector2d ideal_corner(const TagSighting& sighting, std::size_t corner,
                              const EstimatorRig& rig) {
   const auto camera = static_cast<std::size_t>(sighting.camera);
   const PinholeCamera& lens = rig.rig.cameras[camera].model;
-  return rig.tag_eyes[camera].lens.project(lens.unproject(sighting.corners[corner]));
+  return rig.undistorted_cameras[camera].lens.project(lens.unproject(sighting.corners[corner]));
 }
 
 Pose T_body_tag(const TagSighting& sighting, const EstimatorRig& rig) {

@@ -35,8 +35,8 @@ float sample(const std::uint8_t* grey, std::size_t step, float x, float y) {
   return above + fy * (below - above);
 }
 
-bool inside(const cv::Mat& picture, double x, double y, double reach) {
-  return x >= reach && y >= reach && x + reach < picture.cols - 1 && y + reach < picture.rows - 1;
+bool inside(const cv::Mat& image, double x, double y, double reach) {
+  return x >= reach && y >= reach && x + reach < image.cols - 1 && y + reach < image.rows - 1;
 }
 
 float remove_mean(Window& window) {
@@ -47,13 +47,13 @@ float remove_mean(Window& window) {
   return mean;
 }
 
-/// The patch as the picture shows it, with a border of one pixel. False where it does not reach.
-bool resample(const Patch& patch, const Eigen::Matrix3d& H_picture_patch,
+/// The patch as the image shows it, with a border of one pixel. False where it does not reach.
+bool resample(const Patch& patch, const Eigen::Matrix3d& H_image_patch,
               std::array<float, kBordered * kBordered>& bordered) {
-  const Eigen::Vector2d centre = H_picture_patch.col(2).hnormalized();
+  const Eigen::Vector2d centre = H_image_patch.col(2).hnormalized();
   Eigen::Matrix3d shift = Eigen::Matrix3d::Identity();
   shift.topRightCorner<2, 1>() = centre;
-  const Eigen::Matrix3f back = (H_picture_patch.inverse() * shift).cast<float>();
+  const Eigen::Matrix3f back = (H_image_patch.inverse() * shift).cast<float>();
   constexpr auto kReach = static_cast<float>(Patch::kRadius);
   std::size_t i = 0;
   for (int dy = -kBordered / 2; dy <= kBordered / 2; ++dy) {
@@ -77,8 +77,8 @@ bool can_be_placed(const Eigen::Matrix2f& normal) {
   return half_trace - root > kMinTexture * kArea;
 }
 
-/// The picture's pixels about a point, mean removed. All of them lie at one fraction of a pixel.
-void read_window(const cv::Mat& picture, const Eigen::Vector2f& centre, Window& window) {
+/// The image's pixels about a point, mean removed. All of them lie at one fraction of a pixel.
+void read_window(const cv::Mat& image, const Eigen::Vector2f& centre, Window& window) {
   const float left = centre.x() - PatchWindow::kRadius;
   const float top = centre.y() - PatchWindow::kRadius;
   const int column = static_cast<int>(left);
@@ -88,7 +88,7 @@ void read_window(const cv::Mat& picture, const Eigen::Vector2f& centre, Window& 
   std::array<float, kSide> above;
   std::array<float, kSide> below;
   const auto blend = [&](int r, std::array<float, kSide>& line) {
-    const std::uint8_t* grey = picture.ptr<std::uint8_t>(r) + column;
+    const std::uint8_t* grey = image.ptr<std::uint8_t>(r) + column;
     for (std::size_t i = 0; i < kSide; ++i) {
       const auto a = static_cast<float>(grey[i]);
       line[i] = a + fx * (static_cast<float>(grey[i + 1]) - a);
@@ -106,23 +106,23 @@ void read_window(const cv::Mat& picture, const Eigen::Vector2f& centre, Window& 
 
 }  // namespace
 
-std::optional<Patch> cut_patch(const cv::Mat& picture, double x, double y) {
-  if (!inside(picture, x, y, Patch::kRadius)) return std::nullopt;
+std::optional<Patch> cut_patch(const cv::Mat& image, double x, double y) {
+  if (!inside(image, x, y, Patch::kRadius)) return std::nullopt;
   Patch patch;
   std::size_t i = 0;
   for (int dy = -Patch::kRadius; dy <= Patch::kRadius; ++dy) {
     for (int dx = -Patch::kRadius; dx <= Patch::kRadius; ++dx, ++i) {
       patch.grey[i] = static_cast<std::uint8_t>(
-          std::lround(sample(picture.ptr<std::uint8_t>(), picture.step[0],
-                             static_cast<float>(x + dx), static_cast<float>(y + dy))));
+          std::lround(sample(image.ptr<std::uint8_t>(), image.step[0], static_cast<float>(x + dx),
+                             static_cast<float>(y + dy))));
     }
   }
   return patch;
 }
 
-std::optional<PatchWindow> warp_patch(const Patch& patch, const Eigen::Matrix3d& H_picture_patch) {
+std::optional<PatchWindow> warp_patch(const Patch& patch, const Eigen::Matrix3d& H_image_patch) {
   std::array<float, kBordered * kBordered> bordered;
-  if (!resample(patch, H_picture_patch, bordered)) return std::nullopt;
+  if (!resample(patch, H_image_patch, bordered)) return std::nullopt;
   PatchWindow window;
   std::size_t i = 0;
   for (std::size_t y = 1; y <= kSide; ++y) {
@@ -150,7 +150,7 @@ std::optional<PatchWindow> warp_patch(const Patch& patch, const Eigen::Matrix3d&
   return window;
 }
 
-std::optional<PatchFit> fit_patch(const PatchWindow& wanted, const cv::Mat& picture, double x,
+std::optional<PatchFit> fit_patch(const PatchWindow& wanted, const cv::Mat& image, double x,
                                   double y) {
   if (!can_be_placed(wanted.normal)) return std::nullopt;
   constexpr double kReach = PatchWindow::kRadius + 1;
@@ -159,8 +159,8 @@ std::optional<PatchFit> fit_patch(const PatchWindow& wanted, const cv::Mat& pict
   Eigen::Vector2f centre = start;
   Window window;
   for (int step = 0; step < kMaxSteps; ++step) {
-    if (!inside(picture, centre.x(), centre.y(), kReach)) return std::nullopt;
-    read_window(picture, centre, window);
+    if (!inside(image, centre.x(), centre.y(), kReach)) return std::nullopt;
+    read_window(image, centre, window);
     float along_x = 0;
     float along_y = 0;
     for (std::size_t i = 0; i < kArea; ++i) {
@@ -173,8 +173,8 @@ std::optional<PatchFit> fit_patch(const PatchWindow& wanted, const cv::Mat& pict
     if (!((centre - start).norm() < kMaxRun)) return std::nullopt;
     if (delta.norm() < kConverged) break;
   }
-  if (!inside(picture, centre.x(), centre.y(), kReach)) return std::nullopt;
-  read_window(picture, centre, window);
+  if (!inside(image, centre.x(), centre.y(), kReach)) return std::nullopt;
+  read_window(image, centre, window);
   float difference = 0;
   for (std::size_t i = 0; i < kArea; ++i) difference += std::abs(window[i] - wanted.grey[i]);
   return PatchFit{static_cast<double>(centre.x()), static_cast<double>(centre.y()),

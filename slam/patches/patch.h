@@ -18,10 +18,10 @@ struct Patch {
   std::array<std::uint8_t, kSide * kSide> grey{};
 };
 
-/// Cuts the patch about (x, y) px out of a CV_8UC1 picture; none where it leaves the picture.
-std::optional<Patch> cut_patch(const cv::Mat& picture, double x, double y);
+/// Cuts the patch about (x, y) px out of a CV_8UC1 image; none where it leaves the image.
+std::optional<Patch> cut_patch(const cv::Mat& image, double x, double y);
 
-/// What another picture is compared with: a 9 x 9 px window of it as the patch says that it looks.
+/// What another image is compared with: a 9 x 9 px window of it as the patch says that it looks.
 struct PatchWindow {
   static constexpr int kRadius = 4;
   static constexpr int kSide = 2 * kRadius + 1;
@@ -33,10 +33,10 @@ struct PatchWindow {
   float contrast = 0;      ///< grey levels, mean absolute deviation
 };
 
-/// The window that a homography (patch pixels, the patch's centre at (0, 0), to picture pixels)
+/// The window that a homography (patch pixels, the patch's centre at (0, 0), to image pixels)
 /// makes of the patch, about where its centre comes to lie. None where the window shows more than
 /// the patch.
-std::optional<PatchWindow> warp_patch(const Patch& patch, const Eigen::Matrix3d& H_picture_patch);
+std::optional<PatchWindow> warp_patch(const Patch& patch, const Eigen::Matrix3d& H_image_patch);
 
 /// Where a patch was found.
 struct PatchFit {
@@ -46,11 +46,11 @@ struct PatchFit {
   double contrast = 0;    ///< grey levels, mean absolute deviation of the window
 };
 
-/// Finds the window near (x, y) of a CV_8UC1 picture: shift and brightness by Gauss-Newton steps
+/// Finds the window near (x, y) of a CV_8UC1 image: shift and brightness by Gauss-Newton steps
 /// with the window's own gradients (inverse compositional: Baker and Matthews, "Lucas-Kanade 20
-/// years on", 2004). None where it has too little texture to be placed, leaves the picture or runs
+/// years on", 2004). None where it has too little texture to be placed, leaves the image or runs
 /// away by more than two pixels.
-std::optional<PatchFit> fit_patch(const PatchWindow& window, const cv::Mat& picture, double x,
+std::optional<PatchFit> fit_patch(const PatchWindow& window, const cv::Mat& image, double x,
                                   double y);
 
 }  // namespace vinebench

@@ -107,7 +107,7 @@ Eight load_eight(const std::uint8_t* at) {
 
 constexpr int kTriedLanes = 16;  ///< tried columns are 11 at most; two times eight are computed
 static_assert(2 * kSearch + 1 <= kTriedLanes);
-/// The right picture's rows as far as windows at all tried columns reach.
+/// The right image's rows as far as windows at all tried columns reach.
 using Strip = std::array<std::array<std::uint8_t, kSide + kTriedLanes - 1>, kSide>;
 
 Strip cut_strip(const cv::Mat& right, int first, int last, int y) {
@@ -167,7 +167,7 @@ std::array<std::uint16_t, kTriedLanes> zero_mean_sads(const cv::Mat& left, int x
 }
 
 /// Column of `right` with the best window about `guess`; -1 where it is at the end of the search
-/// or of the picture.
+/// or of the image.
 int search_whole(const cv::Mat& left, const cv::Mat& right, int x, int y, int guess) {
   const int first = std::max(kRadius, guess - kSearch);
   const int last = std::min(right.cols - 1 - kRadius, guess + kSearch);

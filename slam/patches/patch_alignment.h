@@ -7,7 +7,7 @@
 
 namespace vinebench {
 
-/// Where a window of the left picture lies in the right one.
+/// Where a window of the left image lies in the right one.
 struct PatchAlignment {
   double shift = 0;       ///< px of this level, x_left - x_right at the window's centre
   double slope_x = 0;     ///< change of the shift along x, px a px: a surface slanted that way
@@ -20,7 +20,7 @@ struct PatchAlignment {
 /// of CV_8UC1. Searches whole shifts about `guess` by the sum of absolute differences, then solves
 /// for shift, slope of the shift along x and y (a slanted surface) and brightness by Gauss-Newton
 /// steps with the gradients of the left window (after Baker and Matthews, "Lucas-Kanade 20 years
-/// on", 2004). None where the window leaves a picture or no minimum is found.
+/// on", 2004). None where the window leaves an image or no minimum is found.
 std::optional<PatchAlignment> align_patch(const cv::Mat& left, const cv::Mat& right, int x, int y,
                                           double guess);
 

@@ -25,7 +25,7 @@ LiveSlam::~LiveSlam() {
 }
 
 void LiveSlam::push(Frame frame) {
-  std::optional<Frame> replaced;  // its pictures are let go outside the lock
+  std::optional<Frame> replaced;  // its images are let go outside the lock
   {
     const std::lock_guard lock(mutex_);
     throw_if_unusable();

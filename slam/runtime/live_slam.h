@@ -32,7 +32,7 @@ class LiveSlam {
   /// Ends after the frame in work; the one that waits is not taken up.
   ~LiveSlam();
 
-  /// Hands over the next frame and returns at once. Its pictures are shared, not copied: whoever
+  /// Hands over the next frame and returns at once. Its images are shared, not copied: whoever
   /// gave them must not write to them again. Inertial and wheel samples of a dropped frame go to
   /// the frame that takes its place. Throws what the system or the listener threw since; Error
   /// after finish().

@@ -25,7 +25,7 @@ constexpr int kNeighbourhood = 2;  ///< px about the best that are still the sam
 constexpr std::array kFirstRows{-4, -2, 0, 2, 4};
 constexpr std::array kOtherRows{-5, -3, -1, 1, 3, 5};
 
-/// A window's rows, and those of the picture that it is looked for in, at their first pixels.
+/// A window's rows, and those of the image that it is looked for in, at their first pixels.
 struct Strip {
   const std::uint8_t* window;  ///< of the middle row
   std::size_t window_step;
@@ -112,9 +112,9 @@ RowSearch search_row(const cv::Mat& from, int x, int y, const cv::Mat& in, int f
                      double rivalry) {
   first = std::max(first, kHalfWidth);
   last = std::min(last, in.cols - kHalfWidth);
-  const bool on_picture = x >= kHalfWidth && x <= from.cols - kHalfWidth && y >= kHalfHeight &&
-                          y < from.rows - kHalfHeight;
-  if (!on_picture || first > last) return {};
+  const bool on_image = x >= kHalfWidth && x <= from.cols - kHalfWidth && y >= kHalfHeight &&
+                        y < from.rows - kHalfHeight;
+  if (!on_image || first > last) return {};
   const Strip strip{from.ptr<std::uint8_t>(y) + x - kHalfWidth, from.step[0],
                     in.ptr<std::uint8_t>(y) - kHalfWidth, in.step[0]};
   const std::vector<Candidate>& candidates = find_candidates(strip, first, last, rivalry);

@@ -8,7 +8,7 @@ namespace vinebench {
 
 /// How surely a window was found along a row.
 struct RowSearch {
-  int column = -1;  ///< px; -1 where the window or the whole range lies off the picture
+  int column = -1;  ///< px; -1 where the window or the whole range lies off the image
   int best = 0;     ///< sum of absolute differences there, grey levels
   int second = 0;   ///< the least one more than two columns away; INT_MAX where there is none
 };

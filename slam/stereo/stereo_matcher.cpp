@@ -42,7 +42,7 @@ std::vector<StereoMatch> match_stereo(const Extraction& left,
   if (!(baseline > 0)) fail("stereo matching: expected a baseline above 0 m, found {}", baseline);
   if (left.pyramid.empty() || right_pyramid.empty() ||
       left.pyramid.front().size() != right_pyramid.front().size()) {
-    fail("stereo matching: expected two pictures of the same size");
+    fail("stereo matching: expected two images of the same size");
   }
   const double focal_baseline = camera.fx * baseline;
   std::vector<StereoMatch> matches(left.features.size());

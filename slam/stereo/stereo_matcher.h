@@ -44,22 +44,22 @@ struct StereoConfig {
   }
 };
 
-/// For each keypoint of the left picture.
+/// For each keypoint of the left image.
 struct StereoMatch {
-  float x_right = -1;  ///< px in the right picture, sub-pixel; -1 without a match
+  float x_right = -1;  ///< px in the right image, sub-pixel; -1 without a match
   float depth = -1;    ///< m along the optical axis; -1 without a match or beyond the limit
   /// How the surface is slanted: change of the inverse depth along x and y, as a share of it a px.
   float slant_x = 0;
   float slant_y = 0;
 };
 
-/// Finds the left picture's keypoints in the right one of a rectified pair (same lens, same rows):
+/// Finds the left image's keypoints in the right one of a rectified pair (same lens, same rows):
 /// search of the window about each along the epipolar line on its pyramid level, accepted where the
 /// place is unique and the search back from there finds the keypoint again; then sub-pixel
 /// alignment.
 ///
-/// The search reads the right picture itself, not features extracted there: a plant's corners are
-/// often found in one eye only, and two thirds of the left ones would stay without a partner.
+/// The search reads the right image itself, not features extracted there: a plant's corners are
+/// often found in one camera only, and two thirds of the left ones would stay without a partner.
 std::vector<StereoMatch> match_stereo(const Extraction& left,
                                       const std::vector<cv::Mat>& right_pyramid,
                                       const PinholeCamera& camera, double baseline,

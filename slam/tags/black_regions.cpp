@@ -18,9 +18,9 @@ struct Tiles {
   Bytes darkest;
   Bytes brightest;
 
-  explicit Tiles(const cv::Mat& picture)
-      : columns(picture.cols / kTile),
-        rows(picture.rows / kTile),
+  explicit Tiles(const cv::Mat& image)
+      : columns(image.cols / kTile),
+        rows(image.rows / kTile),
         darkest(static_cast<std::size_t>(columns * rows)),
         brightest(darkest.size()) {
     const auto width = static_cast<std::size_t>(columns * kTile);
@@ -29,7 +29,7 @@ struct Tiles {
     std::size_t tile = 0;
     for (int row = 0; row < rows; ++row) {
       const std::uint8_t* line[kTile];
-      for (int i = 0; i < kTile; ++i) line[i] = picture.ptr<std::uint8_t>(row * kTile + i);
+      for (int i = 0; i < kTile; ++i) line[i] = image.ptr<std::uint8_t>(row * kTile + i);
       for (std::size_t x = 0; x < width; ++x) {
         low[x] = std::min(std::min(line[0][x], line[1][x]), std::min(line[2][x], line[3][x]));
         high[x] = std::max(std::max(line[0][x], line[1][x]), std::max(line[2][x], line[3][x]));
@@ -122,14 +122,14 @@ std::vector<BlackRegion> number_regions(std::vector<BlackRun>& runs) {
 
 }  // namespace
 
-BlackRegions find_black_regions(const cv::Mat& picture, int contrast) {
+BlackRegions find_black_regions(const cv::Mat& image, int contrast) {
   BlackRegions found;
-  const Tiles tiles(picture);
+  const Tiles tiles(image);
   if (tiles.columns == 0 || tiles.rows == 0) return found;
-  Bytes limits(static_cast<std::size_t>(picture.cols));
+  Bytes limits(static_cast<std::size_t>(image.cols));
   Bytes black(limits.size() + 1);
   std::size_t above = 0;
-  for (int row = 0; row < picture.rows; ++row) {
+  for (int row = 0; row < image.rows; ++row) {
     // What is left over at the right and the bottom belongs to the last tiles.
     if (row % kTile == 0 && row / kTile < tiles.rows) {
       for (int column = 0; column < tiles.columns; ++column) {
@@ -140,7 +140,7 @@ BlackRegions find_black_regions(const cv::Mat& picture, int contrast) {
       }
     }
     const std::size_t begin = found.runs.size();
-    append_runs(picture.ptr<std::uint8_t>(row), limits, row, black, found.runs);
+    append_runs(image.ptr<std::uint8_t>(row), limits, row, black, found.runs);
     join_rows(found.runs, above, begin);
     above = begin;
   }

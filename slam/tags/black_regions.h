@@ -26,9 +26,9 @@ struct BlackRegions {
   std::vector<BlackRegion> regions;
 };
 
-/// Parts a CV_8UC1 picture into black and white as AprilTag does: against the middle between the
+/// Parts a CV_8UC1 image into black and white as AprilTag does: against the middle between the
 /// darkest and the brightest pixel of the 4 x 4 px tiles around; where these differ by less than
 /// `contrast` it is neither. Joins the black ones.
-BlackRegions find_black_regions(const cv::Mat& picture, int contrast);
+BlackRegions find_black_regions(const cv::Mat& image, int contrast);
 
 }  // namespace vinebench

@@ -12,7 +12,7 @@ namespace vinebench {
 
 /// Places the corners of a tag's black square anew, to a few hundredths of a pixel: the edge is
 /// found along each side where the grey level rises from black to white, lines are fitted to the
-/// four sides (in the undistorted picture) and intersected. AprilTag itself looks for edges in
+/// four sides (in the undistorted image) and intersected. AprilTag itself looks for edges in
 /// steps of a quarter of a pixel. `grey` is CV_8UC1, corners are px in AprilTag's order; `module`
 /// is the least width of the tag's modules, px. Corners stay as they are where a side is not found.
 /// Returns the standard deviation of a corner in x or y, px, the four taken together.

@@ -61,7 +61,7 @@ using DetectionsPtr = std::unique_ptr<zarray_t, void (*)(zarray_t*)>;
 /// AprilTag takes the centre of the top left pixel for (0.5, 0.5), we for (0, 0).
 constexpr double kPixelCentre = 0.5;
 
-/// A corner nearer than this to the picture's edge is guessed, not seen.
+/// A corner nearer than this to the image's edge is guessed, not seen.
 constexpr double kBorder = 5;  // px
 
 /// Least width of a module of the tag's border, px.
@@ -73,7 +73,7 @@ double module_width(const std::array<Eigen::Vector2d, 4>& corners, int modules) 
   return shortest / modules;
 }
 
-/// One tag, found in two parts of the picture that overlap.
+/// One tag, found in two parts of the image that overlap.
 bool are_the_same(const TagSighting& a, const TagSighting& b) {
   constexpr double kApart = 2;  // px
   return a.family == b.family && a.id == b.id && (a.corners[0] - b.corners[0]).norm() < kApart &&
@@ -141,13 +141,13 @@ struct TagDetector::Impl {
     return result;
   }
 
-  /// Appends the sightings in a part of the picture.
+  /// Appends the sightings in a part of the image.
   void detect_in(const cv::Mat& grey, const cv::Rect& part, const PinholeCamera& model, int camera,
                  std::vector<TagSighting>& sightings) {
-    // The library only reads the picture; its interface is not const.
-    image_u8_t picture{part.width, part.height, static_cast<int32_t>(grey.step[0]),
-                       const_cast<std::uint8_t*>(grey.ptr<std::uint8_t>(part.y)) + part.x};
-    const DetectionsPtr found(apriltag_detector_detect(detector.get(), &picture),
+    // The library only reads the image; its interface is not const.
+    image_u8_t image{part.width, part.height, static_cast<int32_t>(grey.step[0]),
+                     const_cast<std::uint8_t*>(grey.ptr<std::uint8_t>(part.y)) + part.x};
+    const DetectionsPtr found(apriltag_detector_detect(detector.get(), &image),
                               apriltag_detections_destroy);
     for (int i = 0; i < zarray_size(found.get()); ++i) {
       const apriltag_detection_t* detection = nullptr;
@@ -172,7 +172,7 @@ TagDetector::~TagDetector() = default;
 std::vector<TagSighting> TagDetector::detect(const cv::Mat& grey, const PinholeCamera& model,
                                              int camera) {
   if (grey.type() != CV_8UC1 || grey.empty()) {
-    fail("tag detector: expected a grey picture of 8 bits (CV_8UC1), found {} x {} of type {}",
+    fail("tag detector: expected a grey image of 8 bits (CV_8UC1), found {} x {} of type {}",
          grey.cols, grey.rows, cv::typeToString(grey.type()));
   }
   std::vector<TagSighting> sightings;

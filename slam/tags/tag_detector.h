@@ -16,7 +16,7 @@ namespace vinebench {
 struct TagDetectorConfig {
   std::vector<std::string> families{"tag36h11"};
   double size = 0.161;    ///< m, side of the black square, for tags that are not registered
-  double decimate = 2.0;  ///< the search runs on a picture smaller by this; corners are refined on
+  double decimate = 2.0;  ///< the search runs on an image smaller by this; corners are refined on
                           ///< the full one
   double min_margin =
       30;               ///< decision margin (grey levels) below which a detection is not believed
@@ -31,7 +31,7 @@ struct TagDetectorConfig {
   }
 };
 
-/// Finds AprilTags in a picture (AprilTag 3) and where they stand against the camera.
+/// Finds AprilTags in an image (AprilTag 3) and where they stand against the camera.
 class TagDetector {
  public:
   TagDetector(const TagDetectorConfig& config, std::vector<RegisteredTag> registered);
@@ -39,7 +39,7 @@ class TagDetector {
   TagDetector& operator=(TagDetector&&) noexcept;
   ~TagDetector();
 
-  /// `grey` is CV_8UC1. Tags cut by the picture's edge are left out. Sightings in ascending order
+  /// `grey` is CV_8UC1. Tags cut by the image's edge are left out. Sightings in ascending order
   /// of (family, id); camera is copied into each.
   std::vector<TagSighting> detect(const cv::Mat& grey, const PinholeCamera& model, int camera);
 

@@ -20,7 +20,7 @@ struct TagPose {
 /// T_cam_tag of a square tag of side `size` m from its corners (px; the tag's own lower left, then
 /// counter-clockwise as printed). Tag frame: x right, y down on the printed face, z into the tag.
 ///
-/// A small or distant square has two poses that explain it nearly as well (Collins and Bartoli,
+/// A small or distant square has two poses that diagnose it nearly as well (Collins and Bartoli,
 /// "Infinitesimal plane-based pose estimation", 2014): both are refined by the reprojection error
 /// of the corners and the better one is returned. `corner_sigma` is the standard deviation of a
 /// corner, px.

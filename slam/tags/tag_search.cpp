@@ -11,16 +11,16 @@
 namespace vinebench {
 namespace {
 
-// From 206 pictures with 95 tags at 0.5 to 4.8 m, up to 65 degrees aslant, dim, noisy and blurred:
+// From 206 images with 95 tags at 0.5 to 4.8 m, up to 65 degrees aslant, dim, noisy and blurred:
 // those that AprilTag finds have 10 px at least, miss a quadrilateral by up to 0.78 of what is
 // allowed here, and 0.21 or more of their outline are white.
 constexpr int kContrast = 15;         // grey levels; a tag that is believed has more, AprilTag's 5
-constexpr int kLeastSide = 6;         // px of the smaller picture, for 8 modules and more
+constexpr int kLeastSide = 6;         // px of the smaller image, for 8 modules and more
 constexpr int kLeastLength = 8;       // px, of the longer side
 constexpr double kRagged = 0.10;      // share of the outline's area missing to a quadrilateral's
 constexpr double kEdge = 0.35;        // px of the outline, beside that: edges of pixels are steps
 constexpr double kLeastWhite = 0.10;  // share of the outline's area
-constexpr int kTile = 4;              // px of the smaller picture that AprilTag looks at together
+constexpr int kTile = 4;              // px of the smaller image that AprilTag looks at together
 constexpr double kWaste = 1.2;        // of area, that two rectangles may have when made one
 
 cv::Mat every(const cv::Mat& grey, int step) {
@@ -83,12 +83,12 @@ double largest_quadrilateral(const std::vector<cv::Point>& polygon) {
   return 0.5 * largest;
 }
 
-bool may_have_a_tags_size(const BlackRegion& region, const cv::Size& picture) {
+bool may_have_a_tags_size(const BlackRegion& region, const cv::Size& image) {
   const int width = region.right - region.left + 1;
   const int height = region.bottom - region.top + 1;
-  // A tag at the picture's edge is not whole.
-  const bool inside = region.left > 0 && region.top > 0 && region.right + 1 < picture.width &&
-                      region.bottom + 1 < picture.height;
+  // A tag at the image's edge is not whole.
+  const bool inside = region.left > 0 && region.top > 0 && region.right + 1 < image.width &&
+                      region.bottom + 1 < image.height;
   return inside && std::min(width, height) >= kLeastSide && std::max(width, height) >= kLeastLength;
 }
 
@@ -129,8 +129,8 @@ std::vector<BlackRegion> find_borders(const cv::Mat& smaller) {
 }
 
 /// The border with what is read around it, on the grid of AprilTag's tiles so that it sees black
-/// and white there as in the whole picture.
-cv::Rect surroundings(const BlackRegion& border, int step, const cv::Size& picture) {
+/// and white there as in the whole image.
+cv::Rect surroundings(const BlackRegion& border, int step, const cv::Size& image) {
   const int longer = std::max(border.right - border.left, border.bottom - border.top) + 1;
   const int around = 2 * kTile + longer / 7;
   const int tile = kTile * step;
@@ -138,7 +138,7 @@ cv::Rect surroundings(const BlackRegion& border, int step, const cv::Size& pictu
   const auto up = [&](int v) { return ((v + around) * step / tile + 1) * tile; };
   return cv::Rect(cv::Point(down(border.left), down(border.top)),
                   cv::Point(up(border.right), up(border.bottom))) &
-         cv::Rect({0, 0}, picture);
+         cv::Rect({0, 0}, image);
 }
 
 /// Makes one of rectangles that overlap, where that spares work.

@@ -7,10 +7,10 @@
 
 namespace vinebench {
 
-/// Where in a CV_8UC1 picture a tag with a black border may be: rectangles in a fixed order, each
+/// Where in a CV_8UC1 image a tag with a black border may be: rectangles in a fixed order, each
 /// with as much around the border as it takes to read the tag. They may overlap.
 ///
-/// Sees the picture as AprilTag's own search does (Wang and Olson, "AprilTag 2", 2016): every
+/// Sees the image as AprilTag's own search does (Wang and Olson, "AprilTag 2", 2016): every
 /// `step`-th pixel, black or white against its surroundings, joined to regions. A region stays a
 /// candidate if its outline is a quadrilateral's and there is white within. Such a region is what
 /// AprilTag makes its quadrilaterals of, so a tag that it would find lies in a candidate.

@@ -40,17 +40,17 @@ std::vector<Match> gather(const Map& map, const FrameFeatures& frame, const Esti
 
 /// The body's poses by which the matches of one view appear where they do.
 std::vector<Pose> poses_of(const std::array<const Match*, 3>& three, const EstimatorRig& rig) {
-  const EyeModel& eye = rig.eyes[three[0]->view];
+  const StereoCameraModel& camera = rig.left_cameras[three[0]->view];
   std::vector<cv::Point3d> points;
   std::vector<cv::Point2d> rays;
   for (const Match* match : three) {
-    const Eigen::Vector3d ray = eye.lens.unproject(match->pixel);
+    const Eigen::Vector3d ray = camera.lens.unproject(match->pixel);
     points.emplace_back(match->p_map.x(), match->p_map.y(), match->p_map.z());
     rays.emplace_back(ray.x(), ray.y());
   }
   std::vector<cv::Mat> turns;
   std::vector<cv::Mat> shifts;
-  cv::solveP3P(points, rays, cv::Mat::eye(3, 3, CV_64F), cv::noArray(), turns, shifts,
+  cv::solveP3P(points, rays, cv::Mat::camera(3, 3, CV_64F), cv::noArray(), turns, shifts,
                cv::SOLVEPNP_AP3P);
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < turns.size(); ++i) {
@@ -58,15 +58,15 @@ std::vector<Pose> poses_of(const std::array<const Match*, 3>& three, const Estim
     const auto* t = shifts[i].ptr<double>();
     const Pose T_cam_map{exp_so3({r[0], r[1], r[2]}), {t[0], t[1], t[2]}};
     if (!T_cam_map.rotation.coeffs().allFinite() || !T_cam_map.translation.allFinite()) continue;
-    poses.push_back((eye.T_cam_body.inverse() * T_cam_map).inverse());
+    poses.push_back((camera.T_cam_body.inverse() * T_cam_map).inverse());
   }
   return poses;
 }
 
 bool fits(const Match& match, const Pose& T_body_map, const EstimatorRig& rig) {
-  const EyeModel& eye = rig.eyes[match.view];
-  const Eigen::Vector3d p_cam = eye.T_cam_body * (T_body_map * match.p_map);
-  return p_cam.z() > kNearest && (eye.lens.project(p_cam) - match.pixel).norm() < match.limit;
+  const StereoCameraModel& camera = rig.left_cameras[match.view];
+  const Eigen::Vector3d p_cam = camera.T_cam_body * (T_body_map * match.p_map);
+  return p_cam.z() > kNearest && (camera.lens.project(p_cam) - match.pixel).norm() < match.limit;
 }
 
 int count_fitting(const std::vector<Match>& matches, const Pose& T_map_body,

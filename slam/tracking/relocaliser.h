@@ -32,7 +32,7 @@ struct Relocation {
   int inliers = 0;
 };
 
-/// Where in the map a frame was taken, by its looks alone: its features vote for keyframes by the
+/// Where in the map a frame was taken, by appearance alone: its features vote for keyframes by the
 /// landmarks that resemble them; at each of the best places they are matched with the landmarks
 /// there, and a pose is sought that many of them agree on (three points in one camera: Gao et al.
 /// 2003; RANSAC: Fischler and Bolles 1981), then adjusted over all cameras. None unless the

@@ -18,7 +18,7 @@ namespace {
 constexpr double kNearby = 1.0;                                 // m
 constexpr double kSameHeading = 40.0 * std::numbers::pi / 180;  // rad
 
-/// What a pose found after a stretch without sight may differ from the dead-reckoned one: this many
+/// What a pose found after a odometry gap may differ from the dead-reckoned one: this many
 /// standard deviations, and what the found one's own error may be.
 constexpr double kMaxSigmas = 4;
 constexpr double kPoseNoise = 0.05;     // m
@@ -83,7 +83,7 @@ void Tracker::start(const Pose& T_map_body, Stamp stamp) {
   T_map_body_ = T_map_body;
   stamp_ = stamp;
   velocity_.setZero();
-  dark_.reset();
+  dead_reckoning_.reset();
 }
 
 void Tracker::correct(const Pose& T_map_body) {
@@ -91,7 +91,7 @@ void Tracker::correct(const Pose& T_map_body) {
 }
 
 Pose Tracker::predict(const FrameFeatures& frame) const {
-  if (dark_.active() && frame.wheels) return T_map_body_ * *frame.wheels;
+  if (dead_reckoning_.active() && frame.wheels) return T_map_body_ * *frame.wheels;
   return T_map_body_ * step_of(velocity_ * to_seconds(frame.stamp - stamp_));
 }
 
@@ -122,7 +122,7 @@ void Tracker::match_anywhere(const Map& map, const Pose& predicted, TrackedFrame
   const auto sampled = sample_pose(map, *tracked.frame, rig_, PoseSampling{}, 0, associations);
   if (!sampled) return;
   const double reach = std::max(config_.max_speed * to_seconds(tracked.frame->stamp - stamp_),
-                                kMaxSigmas * dark_.sigma_position());
+                                kMaxSigmas * dead_reckoning_.sigma_position());
   if ((sampled->translation - predicted.translation).norm() > reach) return;
   const MotionEstimate motion =
       estimate_motion(map, *tracked.frame, *sampled, rig_, config_.min_inlier_share, associations);
@@ -144,7 +144,7 @@ TrackedFrame Tracker::track(std::shared_ptr<FrameFeatures> frame, const Map& map
   tracked.frame = std::move(frame);
   const Pose predicted = predict(*tracked.frame);
   tracked.motion.T_map_body = predicted;
-  const bool from_map = dark_.active() || last_landmarks_.empty();
+  const bool from_map = dead_reckoning_.active() || last_landmarks_.empty();
   const std::vector<int> landmarks =
       from_map ? local_landmarks(map, last_landmarks_, tracked.motion.T_map_body,
                                  config_.local_keyframes)
@@ -178,34 +178,34 @@ bool Tracker::is_credible(const TrackedFrame& tracked, const Pose& predicted) co
       tracked.motion.inliers < config_.min_inlier_share * matches) {
     return false;
   }
-  if (!dark_.active()) return true;
+  if (!dead_reckoning_.active()) return true;
   const Pose off = predicted.inverse() * tracked.motion.T_map_body;
-  return off.translation.norm() <= kMaxSigmas * dark_.sigma_position() + kPoseNoise &&
-         angle_of(off.rotation) <= kMaxSigmas * dark_.sigma_rotation() + kHeadingNoise;
+  return off.translation.norm() <= kMaxSigmas * dead_reckoning_.sigma_position() + kPoseNoise &&
+         angle_of(off.rotation) <= kMaxSigmas * dead_reckoning_.sigma_rotation() + kHeadingNoise;
 }
 
 void Tracker::accept(const TrackedFrame& tracked) {
   const double dt = to_seconds(tracked.frame->stamp - stamp_);
-  // After a stretch without sight the step holds the stretch's error too: the old velocity is
+  // After a odometry gap the step holds the stretch's error too: the old velocity is
   // truer.
-  if (dt > 0 && !dark_.active()) {
+  if (dt > 0 && !dead_reckoning_.active()) {
     const Pose step = T_map_body_.inverse() * tracked.motion.T_map_body;
     velocity_ << step.translation / dt, log_so3(step.rotation) / dt;
   }
   T_map_body_ = tracked.motion.T_map_body;
   stamp_ = tracked.frame->stamp;
   last_landmarks_ = landmark_ids(tracked.associations);
-  dark_.reset();
+  dead_reckoning_.reset();
 }
 
 void Tracker::reckon(const FrameFeatures& frame) {
   const double dt = to_seconds(frame.stamp - stamp_);
-  T_map_body_ = T_map_body_ * dark_.advance(frame.wheels, velocity_, dt);
+  T_map_body_ = T_map_body_ * dead_reckoning_.advance(frame.wheels, velocity_, dt);
   stamp_ = frame.stamp;
   if (frame.wheels && dt > 0) {
     velocity_ << frame.wheels->translation / dt, log_so3(frame.wheels->rotation) / dt;
   }
-  if (dark_.is_lost()) velocity_.setZero();
+  if (dead_reckoning_.is_lost()) velocity_.setZero();
 }
 
 }  // namespace vinebench

@@ -29,7 +29,7 @@ class Tracker {
  public:
   Tracker(const TrackingConfig& config, const DeadReckoningConfig& dead_reckoning,
           const EstimatorRig& rig)
-      : config_(config), rig_(rig), dark_(dead_reckoning) {}
+      : config_(config), rig_(rig), dead_reckoning_(dead_reckoning) {}
 
   /// Starts at a pose, standing still.
   void start(const Pose& T_map_body, Stamp stamp);
@@ -47,13 +47,13 @@ class Tracker {
 
   /// The last frame's pose, tracked or dead-reckoned.
   const Pose& T_map_body() const { return T_map_body_; }
-  const DeadReckoning& dark() const { return dark_; }
+  const DeadReckoning& dead_reckoning() const { return dead_reckoning_; }
 
  private:
   Pose predict(const FrameFeatures& frame) const;
   void match_near(const Map& map, const std::vector<int>& landmarks, const Pose& predicted,
                   TrackedFrame& tracked) const;
-  /// Matches by looks alone where the prediction led nowhere: after a start, a jolt or a gap.
+  /// Matches by appearance alone where the prediction led nowhere: after a start, a jolt or a gap.
   void match_anywhere(const Map& map, const Pose& predicted, TrackedFrame& tracked) const;
   void match_local_map(const Map& map, const std::vector<int>& local, TrackedFrame& tracked) const;
   bool is_credible(const TrackedFrame& tracked, const Pose& predicted) const;
@@ -66,7 +66,7 @@ class Tracker {
   Stamp stamp_ = 0;
   Vector6d velocity_ = Vector6d::Zero();  ///< of the body in its own frame, m/s and rad/s
   std::vector<int> last_landmarks_;       ///< seen in the frame before, ascending
-  DeadReckoning dark_;                    ///< the stretch without sight, while there is one
+  DeadReckoning dead_reckoning_;          ///< the odometry gap, while there is one
 };
 
 /// Ids of landmarks that a frame may see: those of the keyframes that share most of `seen`, and of

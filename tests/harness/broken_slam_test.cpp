@@ -64,7 +64,7 @@ class Drive {
   std::set<std::string> broken_expectations(const Rig& told, const SlamConfig& config) {
     frames_.rewind();
     const auto slam = make_slam(config, told, registered_tags(scenario_.simulation.world), pool_);
-    Recorder recorder(frames_.rig(), scenario_.simulation.world.tags);
+    RunRecorder recorder(frames_.rig(), scenario_.simulation.world.tags);
     run_lockstep(frames_, *slam, {&recorder});
     std::set<std::string> broken;
     const RunResults results = measure(recorder.record(), scenario_);

@@ -57,7 +57,7 @@ TEST_F(FrameStreamTest, SomeFramesAndCamerasAreThoseOfTheWholeRun) {
   EXPECT_EQ(frame->frame.stamp, expected->frame.stamp);
   EXPECT_TRUE(same(frame->frame.images[side], expected->frame.images[side]));
   EXPECT_TRUE(frame->frame.images[0].empty());
-  EXPECT_FALSE(frame->truth.views[side].picture.depth.empty());
+  EXPECT_FALSE(frame->truth.views[side].image.depth.empty());
   EXPECT_EQ(some.next()->frame.index, 3);
 }
 

@@ -70,7 +70,7 @@ TEST_F(RecordTest, AnInterruptedRecordingIsReadableAndGoesOn) {
 
 TEST_F(RecordTest, WhatAnAbruptEndLeavesIsReadable) {
   record({"euroc", "depth"}, 3);
-  // As the power goes: the card of the beginning, half a line, half a picture.
+  // As the power goes: the card of the beginning, half a line, half an image.
   DatasetCard card = read_card(request_.out);
   card.frames = 0;
   card.files_xxh128 = "";
@@ -84,7 +84,7 @@ TEST_F(RecordTest, WhatAnAbruptEndLeavesIsReadable) {
 TEST_F(RecordTest, DamageIsFound) {
   record({"euroc", "tum", "depth", "semantic", "disparity"});
   EXPECT_THAT(faults(), testing::IsEmpty());
-  EXPECT_EQ(check_dataset(request_.out).label_pictures, kFrames * (3 + 3 + 1));
+  EXPECT_EQ(check_dataset(request_.out).label_images, kFrames * (3 + 3 + 1));
   const std::string good = read_file(request_.out / "depth/left/000002.png");
   folder_.write("data/depth/left/000002.png", read_file(request_.out / "depth/left/000004.png"));
   EXPECT_THAT(faults(), testing::Contains(HasSubstr("depth/left/000002.png: is damaged")));
@@ -98,7 +98,7 @@ TEST_F(RecordTest, DamageIsFound) {
   std::filesystem::remove(request_.out / "euroc/mav0/cam1/data/0.png");
   EXPECT_THAT(faults(), testing::UnorderedElementsAre(
                             HasSubstr("cam1/data/0.png: is missing"),
-                            HasSubstr("cam1/data.csv: 0.png: there is no such picture")));
+                            HasSubstr("cam1/data.csv: 0.png: there is no such image")));
   EXPECT_THAT(error_of([&] { check_dataset(folder_.path()); }),
               HasSubstr("is no data set of ours"));
 }

@@ -38,9 +38,9 @@ class WallRecording {
   const std::filesystem::path& root() const { return root_; }
 
  private:
-  /// Whole pixels of one wide picture, so that each view is exact.
+  /// Whole pixels of one wide image, so that each view is exact.
   static cv::Mat view(int shift) {
-    static const cv::Mat wall = render_picture(320 + 2 * kFrames + 10, 200, SyntheticTexture(3));
+    static const cv::Mat wall = render_image(320 + 2 * kFrames + 10, 200, SyntheticTexture(3));
     return wall.colRange(shift, shift + 320);
   }
   std::filesystem::path root_;
@@ -95,13 +95,12 @@ TEST_F(ReplayTest, WithoutTruthThereAreNoErrorsButAnEstimate) {
 }
 
 TEST_F(ReplayTest, FaultsAreCountedAndLogged) {
-  test::write_text(wall_.root() / "image_1/000005.png", "not a picture");
+  test::write_text(wall_.root() / "image_1/000005.png", "not an image");
   const RunOutcome outcome = replay(folder_ / "out");
   EXPECT_EQ(outcome.metrics["input_faults"], Json({{"picture_unreadable", 1}}));
   const std::string events = read_file(folder_ / "out/events.jsonl");
-  EXPECT_THAT(events,
-              HasSubstr("\"frame\":5,\"event\":\"picture_unreadable\",\"sensor\":\"right\""));
-  EXPECT_THAT(format_replay(outcome.metrics), HasSubstr("picture_unreadable (1 times)"));
+  EXPECT_THAT(events, HasSubstr("\"frame\":5,\"event\":\"image_unreadable\",\"sensor\":\"right\""));
+  EXPECT_THAT(format_replay(outcome.metrics), HasSubstr("image_unreadable (1 times)"));
 }
 
 TEST_F(ReplayTest, SettingsComeFromFileAndOverrides) {

@@ -94,7 +94,7 @@ TEST_F(RunTest, MetricsHaveEveryKey) {
   EXPECT_EQ(outcome.metrics["loop_closures"], Json({{"correct", 1}, {"wrong", 0}, {"missed", 0}}));
 }
 
-TEST_F(RunTest, PicturesAreThoseOfTheSource) {
+TEST_F(RunTest, ImagesAreThoseOfTheSource) {
   prepare_run_folder(folder_, fakes::scenario());
   run();
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "frames"), {}), 12 * 3);
@@ -103,7 +103,7 @@ TEST_F(RunTest, PicturesAreThoseOfTheSource) {
   EXPECT_EQ(bgr.at<cv::Vec3b>(0, 0), cv::Vec3b(200, 2, 1));  // blue frame, green camera, red seed
 }
 
-TEST_F(RunTest, PicturesAreLeftAsTheyAreForOtherSinks) {
+TEST_F(RunTest, ImagesAreLeftAsTheyAreForOtherSinks) {
   struct FirstPixels : Sink {
     void on_tick(const Sample& sample, const Estimate&) override {
       seen.push_back(sample.frame.images[0].at<cv::Vec3b>(0, 0));
@@ -184,7 +184,7 @@ TEST_F(RunTest, TheHashSeesEveryPixelAndEstimate) {
   const std::string hash = run().hash;
   EXPECT_EQ(hash.size(), 32u);
   EXPECT_EQ(run().hash, hash);
-  EXPECT_NE(run({}, 2).hash, hash);  // other pictures
+  EXPECT_NE(run({}, 2).hash, hash);  // other images
   EXPECT_NE(run(close_loop).hash, hash);
   EXPECT_NE(run([](Estimate& estimate) {
               if (estimate.stamp == fakes::seconds(5)) {

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Whether pictures of the shipped worlds give SLAM corners that stay: near and far, and without the
-// flicker that aliasing makes. The corners that the SLAM's extractor selects in one picture are
+// Whether images of the shipped worlds give SLAM corners that stay: near and far, and without the
+// flicker that aliasing makes. The corners that the SLAM's extractor selects in one image are
 // looked for among all that it finds in the next, before it selects: which of many good corners is
-// taken is its matter, whether one is there is the picture's.
+// taken is its matter, whether one is there is the image's.
 
 #include <gtest/gtest.h>
 
@@ -45,11 +45,11 @@ class SteadyCornersTest : public testing::TestWithParam<const char*> {
                          const Pose& T_world_cam) {
     Renderer::Request request;
     request.depth = true;
-    const Picture picture = renderer.render(camera, T_world_cam, request);
+    const RenderedImage image = renderer.render(camera, T_world_cam, request);
     cv::Mat grey;
-    cv::cvtColor(picture.rgb, grey, cv::COLOR_RGB2GRAY);
+    cv::cvtColor(image.rgb, grey, cv::COLOR_RGB2GRAY);
     Corners found;
-    found.depth = picture.depth;
+    found.depth = image.depth;
     for (const Keypoint& keypoint : orb.extract(grey).features.keypoints) {
       found.pixels.emplace_back(keypoint.x, keypoint.y);
     }
@@ -69,7 +69,7 @@ TEST_P(SteadyCornersTest, RepeatUnderAShiftOfAQuarterPixelNearAndFar) {
   for (const Pose& T_world_body : aisle_route(world, 4)) {
     const RigCamera& mounted = rig.cameras[0];
     const Pose T_world_cam = T_world_body * mounted.T_body_cam;
-    // Moving the principal point moves the whole picture, without parallax.
+    // Moving the principal point moves the whole image, without parallax.
     PinholeCamera moved = mounted.model;
     moved.cx += kShift;
     moved.cy += kShift;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The pictures of the real world against the camera model, through the detector that SLAM uses.
+// The images of the real world against the camera model, through the detector that SLAM uses.
 
 #include <gtest/gtest.h>
 
@@ -20,13 +20,13 @@ namespace {
 
 const std::filesystem::path kSource = VINEBENCH_SOURCE_DIR;
 
-class WorldPictureTest : public testing::Test {
+class WorldImageTest : public testing::Test {
  protected:
   WorldConfig world_ = load_world(kSource / "worlds" / "csl-vineyard.yaml");
   Rig rig_ = load_rig(kSource / "models" / "csl-rover" / "rig.yaml");
 };
 
-TEST_F(WorldPictureTest, TheTagsCornersAreWhereTheSideCameraProjectsThem) {
+TEST_F(WorldImageTest, TheTagsCornersAreWhereTheSideCameraProjectsThem) {
   Renderer renderer(build_scene(world_, 1, default_cache()), {});
   const RigCamera& side = rig_.cameras[static_cast<std::size_t>(rig_.tag_cameras.at(0))];
   const WorldConfig::Tag& tag = world_.tags.at(0);
@@ -39,9 +39,9 @@ TEST_F(WorldPictureTest, TheTagsCornersAreWhereTheSideCameraProjectsThem) {
        {Eigen::Vector3d(0, 0, 0), {0.06, 0.1, 0.1}, {-0.05, 0.2, -0.2}, {0.1, 0.3, 0.15}}) {
     const Pose T_world_body{exp_so3({0, 0, at.z()}), {at.x(), at.y(), 0}};
     const Pose T_world_cam = T_world_body * side.T_body_cam;
-    const Picture picture = renderer.render(side.model, T_world_cam, {});
+    const RenderedImage image = renderer.render(side.model, T_world_cam, {});
     cv::Mat grey;
-    cv::cvtColor(picture.rgb, grey, cv::COLOR_RGB2GRAY);
+    cv::cvtColor(image.rgb, grey, cv::COLOR_RGB2GRAY);
     const std::vector<TagSighting> seen = detector.detect(grey, side.model, 4);
     ASSERT_EQ(seen.size(), 1u) << at.transpose();
     EXPECT_EQ(seen[0].id, 0);

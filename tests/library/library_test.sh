@@ -3,13 +3,13 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Installs the library, builds examples/feed_images against it as a project of its own, feeds it
-# pictures and checks the way it finds; docs/library.md must show that very example.
+# images and checks the way it finds; docs/library.md must show that very example.
 # Usage: library_test.sh ROOT BUILD CMAKE PLANE_PICTURES
 set -euo pipefail
 root=$1 build=$2 cmake=$3 plane_pictures=$4
 work=$build/library
 prefix=$work/prefix
-rm -rf "$prefix" "$work/pictures"
+rm -rf "$prefix" "$work/images"
 
 # The first C++ block is the example.
 awk '/^```cpp$/ { inside = 1; next } inside && /^```$/ { exit } inside' "$root/docs/library.md" |
@@ -26,12 +26,12 @@ if grep -rnF "$root" "$prefix/lib/cmake" --include=vinebench*.cmake | grep -vF "
   exit 1
 fi
 
-"$plane_pictures" "$work/pictures"
-"$work/example/feed_images" "$work/pictures" | tee "$work/poses.txt"
+"$plane_pictures" "$work/images"
+"$work/example/feed_images" "$work/images" | tee "$work/poses.txt"
 # 19 steps of 12 mm to the right, which is -y: -0.228 m. A tenth of a pixel is 0.6 mm.
 awk 'END { exit !(NR == 20 && $3 < -0.2265 && $3 > -0.2295 && $2^2 + $4^2 < 4e-6) }' "$work/poses.txt"
-[[ $(grep -vc '^#' "$work/pictures/trajectory.tum") -eq 20 ]]
-# Without pictures, and without an argument.
+[[ $(grep -vc '^#' "$work/images/trajectory.tum") -eq 20 ]]
+# Without images, and without an argument.
 mkdir -p "$work/empty"
 [[ -z $("$work/example/feed_images" "$work/empty") ]]
 if "$work/example/feed_images" 2>/dev/null; then exit 1; fi

@@ -16,13 +16,13 @@ int main(int argc, char** argv) {
   constexpr int kStep = 2;        // px
   const std::filesystem::path folder = argv[1];
   const vinebench::SyntheticTexture texture(1);
-  const cv::Mat plane = vinebench::render_picture(640 + kDisparity + kStep * kFrames, 400, texture);
-  for (const auto& [eye, shift] : {std::pair{"left", 0}, {"right", kDisparity}}) {
-    std::filesystem::create_directories(folder / eye);
+  const cv::Mat plane = vinebench::render_image(640 + kDisparity + kStep * kFrames, 400, texture);
+  for (const auto& [camera, shift] : {std::pair{"left", 0}, {"right", kDisparity}}) {
+    std::filesystem::create_directories(folder / camera);
     for (int i = 0; i < kFrames; ++i) {
       const std::string number = std::to_string(1000000 + i).substr(1);
       const cv::Mat seen = plane(cv::Rect(shift + kStep * i, 0, 640, 400));
-      if (!cv::imwrite((folder / eye / (number + ".png")).string(), seen)) return 1;
+      if (!cv::imwrite((folder / camera / (number + ".png")).string(), seen)) return 1;
     }
   }
 }

@@ -67,8 +67,8 @@ class FramesTest(unittest.TestCase):
             np.testing.assert_allclose(frame.T_world_body[:3, 3], pose[1:4], rtol=0, atol=1e-8)
             self.assertAlmostEqual(frame.time, pose[0], places=6)
 
-    def test_pictures_of_an_earlier_frame_stay(self):
-        # Of a camera that moves, three frames held at once are three pictures.
+    def test_images_of_an_earlier_frame_stay(self):
+        # Of a camera that moves, three frames held at once are three images.
         first, second, third = (f.images["back_left"] for f in self.frames)
         self.assertFalse(np.array_equal(first, second))
         self.assertFalse(np.array_equal(second, third))

@@ -58,7 +58,7 @@ class SimulationTest : public testing::Test {
     while (auto sample = source->next()) samples.push_back(std::move(*sample));
     return samples;
   }
-  static void expect_same_pictures(const std::vector<Sample>& a, const std::vector<Sample>& b) {
+  static void expect_same_images(const std::vector<Sample>& a, const std::vector<Sample>& b) {
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
       for (std::size_t camera = 0; camera < 3; ++camera) {
@@ -107,7 +107,7 @@ TEST_F(SimulationTest, SameBytesForOneAndTwoThreadsWithEveryEffectOn) {
   const std::vector<Sample> one = run(all, 1);
   const std::vector<Sample> two = run(all, 2);
   ASSERT_EQ(one.size(), 4u);
-  expect_same_pictures(one, two);
+  expect_same_images(one, two);
   expect_same_readings(one, two);
 }
 
@@ -116,13 +116,13 @@ TEST_F(SimulationTest, PerfectSensorsGiveTheTruth) {
   perfect.sensors = perfect_sensors();
   const std::vector<Sample> samples = run(perfect);
   ASSERT_EQ(samples.size(), 10u);
-  // The same pictures, rendered by hand.
+  // The same images, rendered by hand.
   const Rig rig = load_rig(perfect.rover.rig);
   Renderer renderer(build_scene(perfect.world, 1, folder_ / "cache"), perfect.renderer);
   for (const std::size_t i : {0u, 9u}) {
     const Pose T_world_cam = samples[i].truth.T_world_body * rig.cameras[2].T_body_cam;
-    const Picture picture = renderer.render(rig.cameras[2].model, T_world_cam, {});
-    EXPECT_TRUE(same(samples[i].frame.images[2], picture.rgb));
+    const RenderedImage image = renderer.render(rig.cameras[2].model, T_world_cam, {});
+    EXPECT_TRUE(same(samples[i].frame.images[2], image.rgb));
   }
 }
 
@@ -155,7 +155,7 @@ TEST_F(SimulationTest, LookingAheadChangesNoTruth) {
   expect_same_readings(plain, ahead);
 }
 
-TEST_F(SimulationTest, DropsTakeOnlyTheirPictures) {
+TEST_F(SimulationTest, DropsTakeOnlyTheirImages) {
   const std::vector<Sample> whole = run(config());
   SimulationConfig burst = config();
   burst.sensors.drops.bursts = {{{"right"}, 0.2, 0.4}};
@@ -170,13 +170,13 @@ TEST_F(SimulationTest, DropsTakeOnlyTheirPictures) {
   expect_same_readings(cut, whole);
 }
 
-TEST_F(SimulationTest, InertialNoiseChangesNoPictureAndNoWheel) {
+TEST_F(SimulationTest, InertialNoiseChangesNoImageAndNoWheel) {
   const std::vector<Sample> plain = run(config());
   SimulationConfig shaky = config();
   shaky.sensors.inertial.gyroscope.noise_density = 0.1;
   shaky.sensors.inertial.gyroscope.initial_bias = 0.5;
   const std::vector<Sample> noisy = run(shaky);
-  expect_same_pictures(plain, noisy);
+  expect_same_images(plain, noisy);
   expect_same_readings(plain, noisy);  // accelerometer and wheels
   EXPECT_NE(plain[1].frame.imu[0].angular_velocity, noisy[1].frame.imu[0].angular_velocity);
 }

@@ -15,7 +15,7 @@
 namespace vinebench {
 namespace {
 
-/// The rover's arrangement with small pictures.
+/// The rover's arrangement with small images.
 Rig small_rig() {
   RigConfig config;
   for (const char* name : {"front_left", "front_right", "back_left", "back_right", "side"}) {
@@ -39,21 +39,21 @@ class FrontEndTest : public testing::Test {
     config_.features.features = 300;
     frame_.index = 4;
     frame_.stamp = stamp_of_frame(4, 15);
-    static const std::vector<cv::Mat> pictures = render(rig_);
-    frame_.images = pictures;
+    static const std::vector<cv::Mat> images = render(rig_);
+    frame_.images = images;
   }
 
   /// A textured wall 1.5 m before each pair and a tag before the side camera.
   static std::vector<cv::Mat> render(const StereoRig& rig) {
-    std::vector<cv::Mat> pictures;
+    std::vector<cv::Mat> images;
     for (const std::uint64_t texture : {11U, 12U}) {
       const SyntheticPlane plane{16, 0, 0, 320, 200, texture};
-      pictures.push_back(plane.left(1));
-      pictures.push_back(plane.right(1));
+      images.push_back(plane.left(1));
+      images.push_back(plane.right(1));
     }
     const Pose T_cam_tag{exp_so3({0.2, 0.1, 0}), {0, 0, 0.4}};
-    pictures.push_back(SyntheticTag(6, 0.161).render(rig.cameras[4].model, T_cam_tag));
-    return pictures;
+    images.push_back(SyntheticTag(6, 0.161).render(rig.cameras[4].model, T_cam_tag));
+    return images;
   }
 
   std::shared_ptr<const FrameFeatures> process(const Frame& frame, int threads = 1) {
@@ -133,7 +133,7 @@ TEST_F(FrontEndTest, OneFrameLeavesNothingForTheNext) {
   EXPECT_EQ(bytes_of(*front_end.process(frame_, times_)), first);
 }
 
-TEST_F(FrontEndTest, AnEmptyPictureHasNoFeatures) {
+TEST_F(FrontEndTest, AnEmptyImageHasNoFeatures) {
   frame_.images[0] = cv::Mat();  // front left: nothing of the front pair
   frame_.images[3] = cv::Mat();  // back right: features without a match
   frame_.images[4] = cv::Mat();
@@ -147,7 +147,7 @@ TEST_F(FrontEndTest, AnEmptyPictureHasNoFeatures) {
   EXPECT_TRUE(features->tags.empty());
 }
 
-TEST_F(FrontEndTest, ColourPicturesAreRead) {
+TEST_F(FrontEndTest, ColourImagesAreRead) {
   const std::string grey = bytes_of(*process(frame_));
   for (cv::Mat& image : frame_.images) {
     const cv::Mat channels[] = {image, image, image};
@@ -160,19 +160,19 @@ TEST_F(FrontEndTest, ColourPicturesAreRead) {
 
 TEST_F(FrontEndTest, AWrongSizeIsAnErrorThatNamesTheCamera) {
   frame_.images[3] = frame_.images[3].colRange(0, 300).clone();
-  expect_error("back_right", "expected a picture of 320 x 200, found 300 x 200");
+  expect_error("back_right", "expected an image of 320 x 200, found 300 x 200");
 }
 
 TEST_F(FrontEndTest, SoIsAWrongType) {
   frame_.images[4] = cv::Mat(200, 320, CV_16UC1, cv::Scalar(0));
-  expect_error("side", "expected an 8-bit grey or RGB picture");
+  expect_error("side", "expected an 8-bit grey or RGB image");
 }
 
-TEST_F(FrontEndTest, SoIsAWrongNumberOfPictures) {
+TEST_F(FrontEndTest, SoIsAWrongNumberOfImages) {
   frame_.images.pop_back();
   EXPECT_THAT([&] { process(frame_); },
               testing::ThrowsMessage<Error>(
-                  testing::HasSubstr("expected 5 pictures, one a camera of the rig, found 4")));
+                  testing::HasSubstr("expected 5 images, one a camera of the rig, found 4")));
 }
 
 TEST_F(FrontEndTest, TellsTheTimeOfEachStage) {

@@ -100,7 +100,7 @@ class MotionAccuracyTest : public testing::TestWithParam<int> {
     for (std::size_t v = 0; v < associations.size(); ++v) {
       for (std::size_t f = 0; f < associations[v].size(); ++f) {
         if (associations[v][f] < 0) continue;
-        const Reprojection error(known_.rig.eyes[v],
+        const Reprojection error(known_.rig.left_cameras[v],
                                  known_.rig.measurement(clean_->views[v], static_cast<int>(f)));
         const auto J =
             error.linearise(truth(), known_.map.landmark(associations[v][f]).position).by_pose;

@@ -102,7 +102,7 @@ TEST(PipelineMotionsTest, TurnsOnTheSpot) {
   EXPECT_LT(exact.position, 1e-5);  // m; pixels are floats, as above, over twenty keyframes
   EXPECT_LT(exact.turn, 1e-5);      // rad
   // Once round and a little more. Landmarks half a metre away are found on coarse levels, where
-  // half a pixel is 1.8 px of the picture: over some 200 of them and both ends 1.8 / 263 /
+  // half a pixel is 1.8 px of the image: over some 200 of them and both ends 1.8 / 263 /
   // sqrt(100) = 0.7 mrad a keyframe, over 40 keyframes 4 mrad, and twice that; 1 mm of the cameras'
   // lever of 0.15 m and of the landmarks themselves goes with it.
   const WorstError noisy = drive(make_aisle(0.5, 3, 1000), turning(200));

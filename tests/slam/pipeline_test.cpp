@@ -98,7 +98,7 @@ TEST(PipelineTest, GoesOnWhileOnePairIsBlind) {
 std::pair<std::vector<double>, double> drive_miscalibrated(const SlamConfig& settings) {
   const SyntheticAisle aisle(0.5, 9, kLandmarks);
   Pipeline pipeline(settings, aisle.rig, {});
-  const StereoEye& pair = aisle.rig.pairs[1];
+  const RectifiedPair& pair = aisle.rig.pairs[1];
   std::vector<Pose> truth;
   std::vector<double> offsets;
   for (std::int64_t i = 0; i < 90; ++i) {
@@ -140,7 +140,7 @@ Pose wheels(std::int64_t frame, double slip) {
   return step;
 }
 
-TEST(PipelineTest, ReckonsThroughADarkHalfSecond) {
+TEST(PipelineTest, ReckonsThroughABlackoutOfHalfASecond) {
   const SyntheticAisle aisle(0.5, 5, kLandmarks);
   Pipeline pipeline(config(), aisle.rig, {});
   std::vector<Pose> truth;
@@ -161,7 +161,7 @@ TEST(PipelineTest, ReckonsThroughADarkHalfSecond) {
   EXPECT_LT(worst_error(pipeline.finish().trajectory, truth), 0.02);
 }
 
-TEST(PipelineTest, BeginsAnewByItsWheelsWhereNothingIsKnown) {
+TEST(PipelineTest, RestartsByItsWheelsWhereNothingIsKnown) {
   const SyntheticAisle aisle(0.5, 8, kLandmarks);
   Pipeline pipeline(config(), aisle.rig, {});
   std::vector<Pose> truth;

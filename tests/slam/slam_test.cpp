@@ -39,7 +39,7 @@ Rig two_pairs() {
 
 const cv::Mat& wall(std::uint64_t texture) {
   const auto render = [](std::uint64_t seed) {
-    return render_picture(kWidth + kDisparity + kShift * kFrames, kHeight, SyntheticTexture(seed));
+    return render_image(kWidth + kDisparity + kShift * kFrames, kHeight, SyntheticTexture(seed));
   };
   static const cv::Mat walls[] = {render(11), render(12)};
   return walls[texture];
@@ -97,7 +97,7 @@ class SlamTest : public testing::Test {
   }
 };
 
-TEST_F(SlamTest, PicturesToPoses) {
+TEST_F(SlamTest, ImagesToPoses) {
   const auto slam = system(pool_);
   for (int i = 0; i < kFrames; ++i) {
     const Estimate estimate = slam->process(frame(i, i));

@@ -16,7 +16,7 @@
 
 namespace vinebench::test {
 
-/// A bent trunk with a few blades: two levels, two materials, a picture of four by four.
+/// A bent trunk with a few blades: two levels, two materials, an image of four by four.
 inline Asset small_plant() {
   Asset asset;
   asset.add(Texture{"leaf", cv::Mat(4, 4, CV_8UC4, cv::Scalar(40, 90, 30, 255)), true});

@@ -11,7 +11,7 @@
 
 namespace vinebench::test {
 
-/// A chessboard of 10 x 7 squares in the plane y = 0 around the origin, to measure where a picture
+/// A chessboard of 10 x 7 squares in the plane y = 0 around the origin, to measure where an image
 /// shows known points.
 struct Chessboard {
   static constexpr int kColumns = 10;

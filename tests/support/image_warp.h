@@ -26,7 +26,7 @@ inline cv::Mat grey_of(const cv::Mat& rgb) {
   return grey;
 }
 
-/// Picture b as a sees it.
+/// RenderedImage b as a sees it.
 inline cv::Mat warped(const cv::Mat& b, const cv::Mat& flow, const cv::Vec2f& offset = {0, 0}) {
   cv::Mat map(flow.size(), CV_32FC2), result;
   for (int y = 0; y < flow.rows; ++y) {

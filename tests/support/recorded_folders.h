@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 inline constexpr int kWidth = 32;
 inline constexpr int kHeight = 24;
 
-/// A small picture whose greys tell camera and number.
-inline cv::Mat numbered_picture(int camera, int number) {
+/// A small image whose greys tell camera and number.
+inline cv::Mat numbered_image(int camera, int number) {
   return {kHeight, kWidth, CV_8UC1, cv::Scalar(20 * camera + number)};
 }
 
@@ -34,13 +34,13 @@ inline void write_text(const fs::path& file, const std::string& text) {
   write_file_atomically(file, text);
 }
 
-/// A KITTI excerpt without labels and times: two eyes 0.5 m apart, driving ahead by 1 m a frame.
+/// A KITTI excerpt without labels and times: two cameras 0.5 m apart, driving ahead by 1 m a frame.
 inline fs::path write_kitti(const TestFolder& folder, int frames = 5) {
   const fs::path root = folder / "kitti";
   std::string poses;
   for (int i = 0; i < frames; ++i) {
-    write_image(root / fmt::format("image_l/{:06}.png", i), numbered_picture(0, i));
-    write_image(root / fmt::format("image_r/{:06}.png", i), numbered_picture(1, i));
+    write_image(root / fmt::format("image_l/{:06}.png", i), numbered_image(0, i));
+    write_image(root / fmt::format("image_r/{:06}.png", i), numbered_image(1, i));
     poses += fmt::format("1 0 0 0 0 1 0 0 0 0 1 {}\n", i);
   }
   write_text(root / "poses.txt", poses);
@@ -49,7 +49,7 @@ inline fs::path write_kitti(const TestFolder& folder, int frames = 5) {
 }
 
 inline std::string sensor_yaml(double y, const std::string& distortion = "[0, 0, 0, 0]") {
-  // The eye looks ahead (body x), so T_BS turns z to x, x to -y, y to -z.
+  // The camera looks ahead (body x), so T_BS turns z to x, x to -y, y to -z.
   return fmt::format(
       "sensor_type: camera\nT_BS:\n  cols: 4\n  rows: 4\n"
       "  data: [0, 0, 1, 0,\n  -1, 0, 0, {},\n  0, -1, 0, 0,\n  0, 0, 0, 1]\nrate_hz: 20\n"
@@ -61,7 +61,7 @@ inline std::string sensor_yaml(double y, const std::string& distortion = "[0, 0,
 inline constexpr std::int64_t kFirstStamp = 1403715273262142976;
 inline constexpr std::int64_t kPeriod = 50'000'000;  // ns
 
-/// Its list, pictures and sensor.yaml.
+/// Its list, images and sensor.yaml.
 inline void write_euroc_camera(const fs::path& root, int camera,
                                const std::vector<std::int64_t>& stamps) {
   const fs::path folder = root / fmt::format("mav0/cam{}", camera);
@@ -69,7 +69,7 @@ inline void write_euroc_camera(const fs::path& root, int camera,
   for (std::size_t i = 0; i < stamps.size(); ++i) {
     const std::string name = fmt::format("{}.png", stamps[i]);
     list += fmt::format("{},{}\r\n", stamps[i], name);
-    write_image(folder / "data" / name, numbered_picture(camera, static_cast<int>(i)));
+    write_image(folder / "data" / name, numbered_image(camera, static_cast<int>(i)));
   }
   write_text(folder / "data.csv", list);
   write_text(folder / "sensor.yaml", sensor_yaml(camera % 2 == 0 ? 0 : -0.1));

@@ -11,7 +11,7 @@ namespace vinebench::testing_support {
 /// The rover's rig with its front pair, with its back pair too, or with a third one that is the
 /// front pair turned to the left.
 inline StereoRig rig_of_pairs(StereoRig rig, std::size_t pairs) {
-  StereoEye side = rig.pairs.front();
+  RectifiedPair side = rig.pairs.front();
   const Pose turn{exp_so3({0, 0, std::numbers::pi / 2}), {0, 0, 0}};
   side.name = "third";
   side.T_body_cam = turn * side.T_body_cam;

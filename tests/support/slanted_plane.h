@@ -12,16 +12,16 @@
 
 namespace vinebench::testing_support {
 
-/// One pair, whose left eye's frame is the body's, before a textured plane that is slanted like the
-/// ground: in the eye's first frame n . p = 1 with n = (0.1, 0.6, 0.8) / m. The map holds one
-/// keyframe at the origin with a landmark every 30 px, found on level 0 in the left half of the
-/// picture and on level 2 in the right one.
+/// One pair, whose left camera's frame is the body's, before a textured plane that is slanted like
+/// the ground: in the camera's first frame n . p = 1 with n = (0.1, 0.6, 0.8) / m. The map holds
+/// one keyframe at the origin with a landmark every 30 px, found on level 0 in the left half of the
+/// image and on level 2 in the right one.
 struct SlantedPlane {
   SlantedPlane() : rig(make_rig(), OrbConfig{}), map(1.2) {
     for (int y = 60; y < kHeight - 50; y += 30) {
       for (int x = 60; x < kWidth - 50; x += 30) places.emplace_back(x, y);
     }
-    auto seen = picture(Pose{});
+    auto seen = image(Pose{});
     for (const Eigen::Vector2d& place : places) add_feature(*seen, place, level_of(place));
     seen->views[0].placed.assign(places.size(), 1);
     map.add_keyframe(seen, Pose{}, no_associations(*seen));
@@ -33,7 +33,7 @@ struct SlantedPlane {
 
   static int level_of(const Eigen::Vector2d& place) { return place.x() > 160 ? 2 : 0; }
 
-  const PinholeCamera& lens() const { return rig.eyes[0].lens; }
+  const PinholeCamera& lens() const { return rig.left_cameras[0].lens; }
 
   double depth(const Eigen::Vector2d& pixel) const {
     return 1 / normal.dot(lens().unproject(pixel));
@@ -42,23 +42,23 @@ struct SlantedPlane {
     return lens().unproject(pixel) * depth(pixel);
   }
 
-  /// What the left eye sees from a pose; no features.
-  std::shared_ptr<FrameFeatures> picture(const Pose& T_map_body) const {
+  /// What the left camera sees from a pose; no features.
+  std::shared_ptr<FrameFeatures> image(const Pose& T_map_body) const {
     auto frame = std::make_shared<FrameFeatures>();
     frame->views.resize(1);
     frame->pyramids.push_back(pyramid(T_map_body, 7));
     return frame;
   }
 
-  /// What both eyes see.
-  std::shared_ptr<FrameFeatures> stereo_picture(const Pose& T_map_body) const {
-    auto frame = picture(T_map_body);
+  /// What both cameras see.
+  std::shared_ptr<FrameFeatures> stereo_image(const Pose& T_map_body) const {
+    auto frame = image(T_map_body);
     const Pose T_left_right{Eigen::Quaterniond::Identity(), {kBaseline, 0, 0}};
     frame->right_pyramids.push_back(pyramid(T_map_body * T_left_right, 9));
     return frame;
   }
 
-  /// A feature of the first pose's picture with its exact stereo match and slant.
+  /// A feature of the first pose's image with its exact stereo match and slant.
   void add_feature(FrameFeatures& frame, const Eigen::Vector2d& pixel, int level) const {
     Keypoint keypoint;
     keypoint.x = static_cast<float>(pixel.x());
@@ -83,16 +83,16 @@ struct SlantedPlane {
   Map map;
   std::vector<Eigen::Vector2d> places;  ///< px, of landmark i in the keyframe
   Eigen::Vector3d normal{0.1, 0.6, 0.8};
-  std::uint64_t texture = 8;  ///< of the pictures that are yet to be taken
+  std::uint64_t texture = 8;  ///< of the images that are yet to be taken
 
  private:
   static StereoRig make_rig() {
-    StereoEye eye;
-    eye.name = "pair";
-    eye.lens = {kWidth, kHeight, 260, 260, (kWidth - 1) / 2.0, (kHeight - 1) / 2.0, {}};
-    eye.baseline = kBaseline;
+    RectifiedPair camera;
+    camera.name = "pair";
+    camera.lens = {kWidth, kHeight, 260, 260, (kWidth - 1) / 2.0, (kHeight - 1) / 2.0, {}};
+    camera.baseline = kBaseline;
     StereoRig rig;
-    rig.pairs.push_back(eye);  // T_body_cam is the identity
+    rig.pairs.push_back(camera);  // T_body_cam is the identity
     return rig;
   }
 
@@ -106,7 +106,7 @@ struct SlantedPlane {
       const Eigen::Vector2d at = lens().project(T_map_cam.translation + ray * range);
       return plane(at.x(), at.y());
     };
-    return OrbExtractor(OrbConfig{}).pyramid(render_picture(kWidth, kHeight, grey, 1.5, noise));
+    return OrbExtractor(OrbConfig{}).pyramid(render_image(kWidth, kHeight, grey, 1.5, noise));
   }
 };
 

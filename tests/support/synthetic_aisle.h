@@ -18,7 +18,7 @@
 namespace vinebench::testing_support {
 
 /// An aisle of random landmarks on two walls, and the features that a rig would extract there: the
-/// back end is tested on these, without pictures. World frame: the aisle runs along x at y = 0.
+/// back end is tested on these, without images. World frame: the aisle runs along x at y = 0.
 class SyntheticAisle {
  public:
   SyntheticAisle(double noise_px, std::uint64_t seed, int landmarks = 6000)
@@ -82,16 +82,16 @@ class SyntheticAisle {
 
  private:
   void fill(FrameFeatures& features, std::size_t v, const Pose& T_world_body) const {
-    const StereoEye& eye = rig.pairs[v];
-    const Pose T_cam_world = eye.T_cam_body * T_world_body.inverse();
+    const RectifiedPair& camera = rig.pairs[v];
+    const Pose T_cam_world = camera.T_cam_body * T_world_body.inverse();
     const RandomStream draw(seed_, "noise" + std::to_string(v),
                             static_cast<std::uint64_t>(features.index));
     StereoView& view = features.views[v];
     for (std::size_t i = 0; i < points_.size() && view.features.size() < 1000; ++i) {
       const Eigen::Vector3d p = T_cam_world * points_[i];
       if (p.z() < 0.15 || p.z() > 4.8) continue;
-      const Eigen::Vector2d pixel = eye.lens.project(p);
-      if (!eye.lens.contains(pixel, 19)) continue;
+      const Eigen::Vector2d pixel = camera.lens.project(p);
+      if (!camera.lens.contains(pixel, 19)) continue;
       const int level =
           std::clamp(static_cast<int>(std::lround(std::log(2.0 / p.norm()) / std::log(1.2))), 0, 7);
       const double sigma = noise_ * std::pow(1.2, level);
@@ -100,10 +100,10 @@ class SyntheticAisle {
       keypoint.y = static_cast<float>(pixel.y() + sigma * draw.normal(3 * i + 1));
       keypoint.level = level;
       const double disparity =
-          eye.lens.fx * eye.baseline / p.z() + 0.5 * sigma * draw.normal(3 * i + 2);
+          camera.lens.fx * camera.baseline / p.z() + 0.5 * sigma * draw.normal(3 * i + 2);
       StereoMatch match;
       match.x_right = static_cast<float>(keypoint.x - disparity);
-      match.depth = static_cast<float>(eye.lens.fx * eye.baseline / disparity);
+      match.depth = static_cast<float>(camera.lens.fx * camera.baseline / disparity);
       view.features.keypoints.push_back(keypoint);
       view.features.descriptors.push_back(descriptors_[i]);
       view.stereo.push_back(match);

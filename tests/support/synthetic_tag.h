@@ -41,18 +41,18 @@ class SyntheticTag {
   }
 
   cv::Mat render(const PinholeCamera& camera, const Pose& T_cam_tag, double sigma = 0) const {
-    cv::Mat picture(camera.height, camera.width, CV_8UC1, cv::Scalar(110));
-    draw(picture, camera, T_cam_tag);
+    cv::Mat image(camera.height, camera.width, CV_8UC1, cv::Scalar(110));
+    draw(image, camera, T_cam_tag);
     const RandomStream noise(5, "tag-noise");
-    for (int i = 0; sigma > 0 && i < picture.rows * picture.cols; ++i) {
-      std::uint8_t& grey = picture.at<std::uint8_t>(i / picture.cols, i % picture.cols);
+    for (int i = 0; sigma > 0 && i < image.rows * image.cols; ++i) {
+      std::uint8_t& grey = image.at<std::uint8_t>(i / image.cols, i % image.cols);
       grey = cv::saturate_cast<std::uint8_t>(grey +
                                              sigma * noise.normal(static_cast<std::uint64_t>(i)));
     }
-    return picture;
+    return image;
   }
 
-  void draw(cv::Mat& picture, const PinholeCamera& camera, const Pose& T_cam_tag) const {
+  void draw(cv::Mat& image, const PinholeCamera& camera, const Pose& T_cam_tag) const {
     constexpr int kSamples = 12;  // edges fall on twelfths of a pixel
     const Pose T_tag_cam = T_cam_tag.inverse();
     // Only pixels near the tag: within the print's circumscribed circle.
@@ -68,19 +68,18 @@ class SyntheticTag {
                                       y - 0.5 + (s / kSamples + 0.5) / kSamples);
           sum += grey(T_tag_cam.rotation * camera.unproject(pixel), T_tag_cam.translation);
         }
-        picture.at<std::uint8_t>(y, x) =
-            cv::saturate_cast<std::uint8_t>(sum / (kSamples * kSamples));
+        image.at<std::uint8_t>(y, x) = cv::saturate_cast<std::uint8_t>(sum / (kSamples * kSamples));
       }
     }
   }
 
  private:
   /// Grey level where the ray meets the plane z = 0 of the tag frame.
-  double grey(const Eigen::Vector3d& ray, const Eigen::Vector3d& eye) const {
-    const double along = -eye.z() / ray.z();
+  double grey(const Eigen::Vector3d& ray, const Eigen::Vector3d& camera) const {
+    const double along = -camera.z() / ray.z();
     const double half = cells_.cols / 2.0;
-    const int column = static_cast<int>(std::floor((eye.x() + along * ray.x()) / cell_ + half));
-    const int row = static_cast<int>(std::floor((eye.y() + along * ray.y()) / cell_ + half));
+    const int column = static_cast<int>(std::floor((camera.x() + along * ray.x()) / cell_ + half));
+    const int row = static_cast<int>(std::floor((camera.y() + along * ray.y()) / cell_ + half));
     if (column < 0 || row < 0 || column >= cells_.cols || row >= cells_.rows) return 110;
     return 30 + 190 * (cells_.at<std::uint8_t>(row, column) / 255.0);
   }

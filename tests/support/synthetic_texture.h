@@ -10,7 +10,7 @@
 namespace vinebench {
 
 /// A texture that is a function of the plane: noise of several scales, pushed through a steep
-/// curve so that it has edges as leaves and bark do. Known at every real coordinate, so a picture
+/// curve so that it has edges as leaves and bark do. Known at every real coordinate, so an image
 /// of it moved, turned or scaled is exact.
 class SyntheticTexture {
  public:
@@ -55,12 +55,13 @@ class SyntheticTexture {
   std::uint64_t seed_;
 };
 
-/// Picture whose pixel is the mean of 3 x 3 samples of grey(x, y) within it, plus normal noise.
+/// RenderedImage whose pixel is the mean of 3 x 3 samples of grey(x, y) within it, plus normal
+/// noise.
 template <class Grey>
-cv::Mat render_picture(int width, int height, const Grey& grey, double sigma = 0,
-                       std::uint64_t seed = 0) {
+cv::Mat render_image(int width, int height, const Grey& grey, double sigma = 0,
+                     std::uint64_t seed = 0) {
   const RandomStream noise(seed, "picture-noise");
-  cv::Mat picture(height, width, CV_8UC1);
+  cv::Mat image(height, width, CV_8UC1);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       double sum = 0;
@@ -69,10 +70,10 @@ cv::Mat render_picture(int width, int height, const Grey& grey, double sigma = 0
       }
       const auto index = static_cast<std::uint64_t>(y * width + x);
       const double value = sum / 9 + (sigma > 0 ? sigma * noise.normal(index) : 0);
-      picture.at<std::uint8_t>(y, x) = cv::saturate_cast<std::uint8_t>(value);
+      image.at<std::uint8_t>(y, x) = cv::saturate_cast<std::uint8_t>(value);
     }
   }
-  return picture;
+  return image;
 }
 
 }  // namespace vinebench

@@ -28,7 +28,7 @@ inline std::array<Eigen::Vector3d, 4> tag_corners(double size) {
   return {Eigen::Vector3d(-h, h, 0), {h, h, 0}, {h, -h, 0}, {-h, -h, 0}};
 }
 
-/// Detector with refined edges on the whole, undecimated picture (CV_8UC1).
+/// Detector with refined edges on the whole, undecimated image (CV_8UC1).
 inline std::vector<ReadTag> read_tags(const cv::Mat& grey, const TagFamily& family) {
   const std::unique_ptr<apriltag_detector_t, void (*)(apriltag_detector_t*)> detector(
       apriltag_detector_create(), apriltag_detector_destroy);

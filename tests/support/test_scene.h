@@ -22,14 +22,14 @@ inline PinholeCamera large_camera() {
   return {1920, 1080, 733, 733, 959.5, 539.5, {}};
 }
 
-/// A camera at `eye` that looks at `target`, rolled about its optical axis; world z is up.
-inline Pose look_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target, double roll = 0) {
-  const Eigen::Vector3d z = (target - eye).normalized();
+/// A camera at `camera` that looks at `target`, rolled about its optical axis; world z is up.
+inline Pose look_at(const Eigen::Vector3d& camera, const Eigen::Vector3d& target, double roll = 0) {
+  const Eigen::Vector3d z = (target - camera).normalized();
   const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
   Eigen::Matrix3d R_world_cam;
   R_world_cam << x, z.cross(x), z;
   const Eigen::AngleAxisd about_axis(roll, Eigen::Vector3d::UnitZ());
-  return {Eigen::Quaterniond(R_world_cam * about_axis), eye};
+  return {Eigen::Quaterniond(R_world_cam * about_axis), camera};
 }
 
 inline int add_material(Scene& scene, Label label, const Eigen::Vector3f& colour,
@@ -47,7 +47,7 @@ inline int add_material(Scene& scene, Label label, const Eigen::Vector3f& colour
 }
 
 /// A rectangle of the plane y = 0 around the origin that faces -y, as a sheet of paper held before
-/// a camera that looks along +y: the picture's top left is at (-width / 2, 0, height / 2).
+/// a camera that looks along +y: the image's top left is at (-width / 2, 0, height / 2).
 inline Primitive panel(int material, double width, double height) {
   const auto w = static_cast<float>(width / 2);
   const auto h = static_cast<float>(height / 2);

@@ -115,7 +115,7 @@ echo "20 0 15 0 0 20 11 0 0 0 1" >"$work/kitti/calib.txt"
 expect 2 "replay with a short matrix" "calib.txt:1: expected 12 numbers" "found 11" -- \
   replay "$work/kitti" --out "$work/out"
 printf '20 0 15 %s 0 20 11 0 0 0 1 0\n' 0 -10 >"$work/kitti/calib.txt"
-expect 2 "replay without pictures" "image_l: expected pictures named by their number" -- \
+expect 2 "replay without images" "image_l: expected images named by their number" -- \
   replay "$work/kitti" --out "$work/out"
 expect 2 "replay of one camera" "expected a cam1 beside cam0" -- \
   replay "$work/euroc" --out "$work/out"

@@ -52,7 +52,7 @@ touch "$work/file"
 expect 2 "Not a directory" "${record[@]}" --format rgb --out "$work/file/g"
 expect 2 "is no data set of ours" "$vinebench" check "$work"
 [[ ! -e $work/b && ! -e $work/d ]]
-# A disk that takes no more than a few pictures.
+# A disk that takes no more than a few images.
 (ulimit -f 4 && trap '' XFSZ && expect 2 "cannot be written: File too large" \
   "${record[@]}" --format depth32 --out "$work/full")
 "$vinebench" check "$work/data" >/dev/null

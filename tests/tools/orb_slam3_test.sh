@@ -18,7 +18,7 @@ check() { # check NAME COMMAND...
 
 mkdir -p "$work/output"
 touch "$work/vocabulary"
-# Eyes 0.12 m apart along y; a picture of the right one is missing.
+# Cameras 0.12 m apart along y; an image of the right one is missing.
 for camera in 0 1; do
   mkdir -p "$work/recording/mav0/cam$camera/data"
   touch "$work/recording/mav0/cam$camera/data/"{0,66666667,1000000000}.png
@@ -50,7 +50,7 @@ check "a crash after the trajectory" run "$work/stereo" "$work/vocabulary" "$wor
   "$work/output"
 check "the arguments" grep -qFx \
   "$work/vocabulary|settings.yaml|$work/recording|times.txt|vinebench" "$work/output/arguments"
-check "the frames of both eyes" diff <(printf '%s\n' 0 1000000000) "$work/output/times.txt"
+check "the frames of both cameras" diff <(printf '%s\n' 0 1000000000) "$work/output/times.txt"
 for line in "Camera1.fx: 263.278600000" "Camera1.cx: 375.500000000" "Camera.width: 752" \
   "Camera.height: 480" "Camera.fps: 15" "Stereo.b: 0.120000000"; do
   check "the setting $line" grep -qFx "$line" "$work/output/settings.yaml"

@@ -7,7 +7,7 @@
 #   verdict  its expectations hold, and a second run is the same to the byte
 #   threads  one thread gives what two give (needs verdict)
 #   resolved its own scenario.resolved.yaml repeats it (needs verdict)
-#   map      a run in the map that verdict left finds its place there, by tag and by looks (needs
+#   map      a run in the map that verdict left finds its place there, by tag and by appearance (needs
 #            verdict)
 #   replayed replays of recordings of it, EuRoC and KITTI, give the same estimate (0.8 s)
 #   plugin   the SLAM core behind the door for others' gives the same estimate (0.8 s); PLUGIN is

@@ -20,7 +20,7 @@ left = calibration["cameras"][0]
 shape = (left["height"], left["width"])
 
 
-def picture(name, kind):
+def image(name, kind):
     """By OpenCV and by PIL, which must agree."""
     file = root / name
     by_cv = cv2.imread(str(file), cv2.IMREAD_UNCHANGED)
@@ -33,35 +33,35 @@ def picture(name, kind):
     return turned
 
 
-# Pictures and labels of one camera.
-rgb = picture("rgb/left/000001.png", np.uint8)
+# Images and labels of one camera.
+rgb = image("rgb/left/000001.png", np.uint8)
 assert rgb.shape == shape + (3,) and rgb.std() > 5
-grey = picture("kitti/image_0/000001.png", np.uint8)
+grey = image("kitti/image_0/000001.png", np.uint8)
 assert np.abs(cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY).astype(int) - grey).max() == 0
 depth = np.load(root / "depth32/left/000001.npy")
 assert depth.dtype == np.float32 and depth.shape == shape
-millimetres = picture("depth/left/000001.png", np.uint16)
+millimetres = image("depth/left/000001.png", np.uint16)
 near = (depth > 0) & (depth < 65)
 assert np.abs(millimetres[near] - 1000.0 * depth[near]).max() <= 0.51
-disparity = picture("disparity/left/000001.png", np.uint16) / 256.0
+disparity = image("disparity/left/000001.png", np.uint16) / 256.0
 baseline = np.linalg.norm(
     np.subtract(calibration["cameras"][1]["position"], left["position"]))
 assert np.abs(disparity[near] - left["fx"] * baseline / depth[near]).max() < 0.05
 flow = cv2.readOpticalFlow(str(root / "flo/left/000001.flo"))
-code = picture("flow/left/000001.png", np.uint16)
+code = image("flow/left/000001.png", np.uint16)
 valid = code[..., 2] == 1
 assert valid.mean() > 0.9
 assert np.abs((code[..., :2].astype(float) - 32768) / 64 - flow)[valid].max() < 0.02
-normals = picture("normals/left/000001.png", np.uint8).astype(float) / 127.5 - 1
+normals = image("normals/left/000001.png", np.uint8).astype(float) / 127.5 - 1
 lengths = np.linalg.norm(normals, axis=2)[depth > 0]
 assert np.abs(lengths - 1).max() < 0.02  # of eight bits
 labels = yaml.safe_load((root / "semantic/labels.yaml").read_text())["labels"]
 names = {label["id"]: label["name"] for label in labels}
-semantic = picture("semantic/left/000001.png", np.uint8)
+semantic = image("semantic/left/000001.png", np.uint8)
 assert set(np.unique(semantic)) <= set(names)
 sky = next(i for i, name in names.items() if name == "sky")
 assert np.array_equal(semantic == sky, depth == 0)
-numbers = picture("instances/left/000001.png", np.uint8).astype(int) @ [1, 256, 65536]
+numbers = image("instances/left/000001.png", np.uint8).astype(int) @ [1, 256, 65536]
 table = {int(row[0]) for row in csv.reader((root / "instances/instances.csv").open())
          if not row[0].startswith("#")}
 assert set(np.unique(numbers)) - {0} <= table
@@ -107,7 +107,7 @@ except ImportError:
 body = np.loadtxt(root / "tum/body.txt")
 assert body.shape == (frames, 8)
 poses = np.loadtxt(root / "kitti/poses.txt").reshape(-1, 3, 4)
-assert poses.shape[0] == frames and np.allclose(poses[0], np.eye(4)[:3])
+assert poses.shape[0] == frames and np.allclose(poses[0], np.camera(4)[:3])
 truth = np.genfromtxt(root / "euroc/mav0/state_groundtruth_estimate0/data.csv", delimiter=",")
 assert truth.shape == (frames + 1, 17) or truth.shape == (frames, 17)
 truth = truth[-frames:]

@@ -38,7 +38,7 @@ def read(name):
 
 def matrix(translation, rotation):
     x, y, z, w = rotation.x, rotation.y, rotation.z, rotation.w
-    T = np.eye(4)
+    T = np.camera(4)
     T[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
                  [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
                  [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
@@ -50,7 +50,7 @@ def vector(v):
     return [v.x, v.y, v.z]
 
 
-def check_types(topics, pictures):
+def check_types(topics, images):
     with rosbag.Bag(str(work / "data/ros/run.bag")) as bag:
         types = {name: info.msg_type for name, info in bag.get_type_and_topic_info().topics.items()}
         latched = [c.topic for c in bag._get_connections() if c.header.get("latching") == b"1" or
@@ -59,7 +59,7 @@ def check_types(topics, pictures):
                 "/tf_static": "tf2_msgs/TFMessage", "/ground_truth": "nav_msgs/Odometry",
                 "/imu": "sensor_msgs/Imu", "/joint_states": "sensor_msgs/JointState",
                 "/tags": "tf2_msgs/TFMessage"}
-    for camera, topic in pictures.items():
+    for camera, topic in images.items():
         expected[topic] = "sensor_msgs/Image"
         expected[f"/{camera}/camera_info"] = "sensor_msgs/CameraInfo"
     assert types == expected, types
@@ -67,8 +67,8 @@ def check_types(topics, pictures):
     assert set(topics) == set(expected)
 
 
-def check_pictures(topics, pictures, stamps):
-    for number, (camera, topic) in enumerate(pictures.items()):
+def check_images(topics, images, stamps):
+    for number, (camera, topic) in enumerate(images.items()):
         sensor = yaml.safe_load((work / f"data/euroc/mav0/cam{number}/sensor.yaml").read_text())
         fx, fy, cx, cy = sensor["intrinsics"]
         infos = topics[f"/{camera}/camera_info"]
@@ -127,10 +127,10 @@ def check_truth(topics, frames):
     assert moved > 0.03, moved  # m ahead
 
 
-def check_rig(topics, pictures):
+def check_rig(topics, images):
     (_, static), = topics["/tf_static"]
     parents = {"ground_truth": "world"}
-    for number, camera in enumerate(pictures):
+    for number, camera in enumerate(images):
         mount = static.transforms[number]
         sensor = yaml.safe_load((work / f"data/euroc/mav0/cam{number}/sensor.yaml").read_text())
         T_BS = np.reshape(sensor["T_BS"]["data"], (4, 4))
@@ -139,7 +139,7 @@ def check_rig(topics, pictures):
         assert mount.child_frame_id == f"{camera}_optical_frame"
         assert mount.header.frame_id == "base_link" and mount.child_frame_id not in parents
         parents[mount.child_frame_id] = mount.header.frame_id
-    assert len(parents) == 1 + len(pictures) and "base_link" not in parents
+    assert len(parents) == 1 + len(images) and "base_link" not in parents
 
 
 def check_tags(topics):
@@ -188,7 +188,7 @@ recorded = read("data/ros/run.bag")
 listed = rows("data/frames.csv")
 assert len(listed) == 7
 check_types(recorded, images)
-check_pictures(recorded, images, [int(row[2]) for row in listed])
+check_images(recorded, images, [int(row[2]) for row in listed])
 check_readings(recorded)
 check_truth(recorded, listed)
 check_rig(recorded, images)

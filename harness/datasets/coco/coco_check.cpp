@@ -57,7 +57,7 @@ class Checker {
       }
       const auto name = image.at("file_name").get<std::string>();
       std::error_code ignored;
-      if (!fs::exists(folder_ / name, ignored)) fault(name + ": there is no such picture");
+      if (!fs::exists(folder_ / name, ignored)) fault(name + ": there is no such image");
     }
     return sizes;
   }
@@ -118,12 +118,12 @@ class Checker {
       const auto name = annotation.at("file_name").get<std::string>();
       std::map<int, std::int64_t> areas =
           areas_of(cv::imread((folder_ / "panoptic" / name).string()));
-      if (areas.empty()) fault(name + ": is no whole picture");
+      if (areas.empty()) fault(name + ": is no whole image");
       for (const Json& segment : annotation.at("segments_info")) {
         const auto found = areas.find(segment.at("id").get<int>());
         if (found == areas.end() || found->second != segment.at("area").get<std::int64_t>() ||
             !categories.contains(segment.at("category_id").get<int>())) {
-          fault(fmt::format("{}: segment {} is not as the picture has it", name,
+          fault(fmt::format("{}: segment {} is not as the image has it", name,
                             segment.at("id").get<int>()));
         }
         if (found != areas.end()) areas.erase(found);
@@ -132,11 +132,11 @@ class Checker {
     }
   }
 
-  static std::map<int, std::int64_t> areas_of(const cv::Mat& picture) {
+  static std::map<int, std::int64_t> areas_of(const cv::Mat& image) {
     std::map<int, std::int64_t> areas;
-    for (int y = 0; y < picture.rows; ++y) {
-      for (int x = 0; x < picture.cols; ++x) {
-        const auto& bgr = picture.at<cv::Vec3b>(y, x);
+    for (int y = 0; y < image.rows; ++y) {
+      for (int x = 0; x < image.cols; ++x) {
+        const auto& bgr = image.at<cv::Vec3b>(y, x);
         ++areas[bgr[2] | bgr[1] << 8 | bgr[0] << 16];
       }
     }

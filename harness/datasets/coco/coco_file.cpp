@@ -56,7 +56,7 @@ void take_list(const fs::path& file, const std::string& list, const Take& take) 
   fail("{}: expected a list '{}' of one item a line", file.string(), list);
 }
 
-/// Of all parts, with the names of their pictures put below `prefix(part)`.
+/// Of all parts, with the names of their images put below `prefix(part)`.
 Items lists_of(const fs::path& folder, const std::vector<std::string>& parts,
                const std::string& file, const std::string& list, const std::string& below) {
   return [=](const Take& take) {

@@ -19,8 +19,8 @@ namespace vinebench {
 void write_coco_from_lists(const std::filesystem::path& folder,
                            const std::set<Category>& categories);
 
-/// Makes both, in `folder`, of those in these folders below it, the pictures' names relative to
-/// `folder` (to the folder `panoptic` of each sequence for panoptic pictures likewise).
+/// Makes both, in `folder`, of those in these folders below it, the images' names relative to
+/// `folder` (to the folder `panoptic` of each sequence for panoptic images likewise).
 void merge_coco(const std::filesystem::path& folder, const std::vector<std::string>& parts,
                 const std::set<Category>& categories);
 

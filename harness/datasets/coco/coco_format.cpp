@@ -79,8 +79,8 @@ CocoFormat::CocoFormat(const fs::path& folder, const RecordingNotes& notes, cons
   make_folder(folder / "panoptic");
 }
 
-std::string CocoFormat::name_of_picture(const DatasetFrame& frame, std::size_t camera,
-                                        const std::string& ending) const {
+std::string CocoFormat::name_of_image(const DatasetFrame& frame, std::size_t camera,
+                                      const std::string& ending) const {
   return cameras_[camera] + "_" + numbered(frame.number, ending);
 }
 
@@ -90,13 +90,12 @@ std::vector<FileTask> CocoFormat::files(const std::shared_ptr<const DatasetFrame
   pending_.assign(cameras_.size(), {});
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     if (frame->frame.images[i].empty()) continue;
-    tasks.push_back({fmt::format("rgb {} {}", ending, i),
-                     folder_ / "images" / name_of_picture(*frame, i, ending), [this, frame, i] {
-                       return encode_picture(frame->frame.images[i], options_.kind);
-                     }});
+    tasks.push_back(
+        {fmt::format("rgb {} {}", ending, i), folder_ / "images" / name_of_image(*frame, i, ending),
+         [this, frame, i] { return encode_image(frame->frame.images[i], options_.kind); }});
     tasks.push_back({fmt::format("panoptic {}", i),
-                     folder_ / "panoptic" / name_of_picture(*frame, i, "png"), [this, frame, i] {
-                       const PictureLabels labels = label_things(frame->truth.views[i], scene_);
+                     folder_ / "panoptic" / name_of_image(*frame, i, "png"), [this, frame, i] {
+                       const ImageLabels labels = label_things(frame->truth.views[i], scene_);
                        pending_[i] = describe(*frame, i, labels);
                        return encode_png(id_colours(labels.segments));
                      }});
@@ -105,21 +104,18 @@ std::vector<FileTask> CocoFormat::files(const std::shared_ptr<const DatasetFrame
 }
 
 CocoFormat::Lines CocoFormat::describe(const DatasetFrame& frame, std::size_t camera,
-                                       const PictureLabels& labels) const {
+                                       const ImageLabels& labels) const {
   const std::string ending = yaml_names(options_.kind).at(static_cast<std::size_t>(options_.kind));
   const std::int64_t image = coco_image_id(options_, frame.number, camera);
   const cv::Size size = labels.segments.size();
   Lines lines;
-  lines.image = Json{{"id", image},
-                     {"file_name", "images/" + name_of_picture(frame, camera, ending)},
-                     {"width", size.width},
-                     {"height", size.height},
-                     {"license", 1},
-                     {"camera", cameras_[camera]},
-                     {"frame", frame.number},
-                     {"stamp_ns", frame.frame.stamp}}
-                    .dump() +
-                "\n";
+  lines.image =
+      Json{{"id", image},           {"file_name", "images/" + name_of_image(frame, camera, ending)},
+           {"width", size.width},   {"height", size.height},
+           {"license", 1},          {"camera", cameras_[camera]},
+           {"frame", frame.number}, {"stamp_ns", frame.frame.stamp}}
+          .dump() +
+      "\n";
   std::int64_t count = 0;
   Json segments = Json::array();
   for (const ThingLabel& thing : labels.things) {
@@ -135,7 +131,7 @@ CocoFormat::Lines CocoFormat::describe(const DatasetFrame& frame, std::size_t ca
     segments.push_back(segment(stuff.segment, stuff.category, stuff.mask, size.height));
   }
   lines.panoptic = Json{{"image_id", image},
-                        {"file_name", name_of_picture(frame, camera, "png")},
+                        {"file_name", name_of_image(frame, camera, "png")},
                         {"segments_info", segments}}
                        .dump() +
                    "\n";

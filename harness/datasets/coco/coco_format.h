@@ -12,7 +12,7 @@
 namespace vinebench {
 
 struct CocoOptions {
-  PictureKind kind = PictureKind::kPng;
+  ImageKind kind = ImageKind::kPng;
   std::set<Category> categories;    ///< of instances.json; all things where empty
   std::int64_t first_image_id = 1;  ///< differs from sequence to sequence of one data set
 };
@@ -30,15 +30,15 @@ class CocoFormat : public DatasetFormat {
   void finish() override;
 
  private:
-  /// What a camera's picture says, made beside the others' and put into the lists in order.
+  /// What a camera's image says, made beside the others' and put into the lists in order.
   struct Lines {
     std::string image;
     std::string annotations;
     std::string panoptic;
   };
-  Lines describe(const DatasetFrame& frame, std::size_t camera, const PictureLabels& labels) const;
-  std::string name_of_picture(const DatasetFrame& frame, std::size_t camera,
-                              const std::string& ending) const;
+  Lines describe(const DatasetFrame& frame, std::size_t camera, const ImageLabels& labels) const;
+  std::string name_of_image(const DatasetFrame& frame, std::size_t camera,
+                            const std::string& ending) const;
 
   std::filesystem::path folder_;
   std::vector<std::string> cameras_;

@@ -62,7 +62,7 @@ std::string describe_pair(const Rig& rig, const StereoPair& pair, const std::str
                             c.width, c.height, rig.rate_hz, rig.baseline(pair));
 }
 
-const Pose& left_eye(const Rig& rig, std::size_t pair) {
+const Pose& left_camera(const Rig& rig, std::size_t pair) {
   return rig.cameras[static_cast<std::size_t>(rig.stereo_pairs[pair].left)].T_body_cam;
 }
 
@@ -79,8 +79,8 @@ std::string settings(const Rig& rig, std::int64_t frames) {
   text +=
       "FE:\n  nFeatures: 1000\n  nLevels: 8\n  imScale: 1.2\n  edgeThreshold: 19\n"
       "  maxFastThreshold: 20\n  minFastThreshold: 7\n  patchSize: 31\n";
-  const Pose T_front_body = left_eye(rig, 0).inverse();
-  text += "Multi:\n" + matrix("  ", "T_c1_c2", T_front_body * left_eye(rig, dual ? 1 : 0));
+  const Pose T_front_body = left_camera(rig, 0).inverse();
+  text += "Multi:\n" + matrix("  ", "T_c1_c2", T_front_body * left_camera(rig, dual ? 1 : 0));
   if (!rig.tag_cameras.empty()) {
     const auto camera = static_cast<std::size_t>(rig.tag_cameras.front());
     text += matrix("", "T_c1_AT", T_front_body * rig.cameras[camera].T_body_cam);
@@ -97,7 +97,7 @@ DcvslamFormat::DcvslamFormat(const fs::path& folder, const RecordingNotes& notes
       rig_(checked(notes.rig.make())),
       tags_(folder / "tags.csv") {
   for (std::size_t pair = 0; pair < pairs_of(rig_); ++pair) {
-    for (const char* eye : kFolders[pair]) make_folder(folder / eye);
+    for (const char* camera : kFolders[pair]) make_folder(folder / camera);
   }
   tags_.append(kTagHeader);
   write_file_atomically(folder / "config.yaml", settings(rig_, 0));
@@ -106,12 +106,13 @@ DcvslamFormat::DcvslamFormat(const fs::path& folder, const RecordingNotes& notes
 std::vector<FileTask> DcvslamFormat::files(const std::shared_ptr<const DatasetFrame>& frame) {
   std::vector<FileTask> tasks;
   for (std::size_t pair = 0; pair < pairs_of(rig_); ++pair) {
-    const std::array eyes{rig_.stereo_pairs[pair].left, rig_.stereo_pairs[pair].right};
-    for (std::size_t eye = 0; eye < eyes.size(); ++eye) {
-      const auto camera = static_cast<std::size_t>(eyes[eye]);
+    const std::array cameras{rig_.stereo_pairs[pair].left, rig_.stereo_pairs[pair].right};
+    for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
+      const auto camera = static_cast<std::size_t>(cameras[camera]);
       if (frame->frame.images[camera].empty()) continue;
-      tasks.push_back(camera_picture(
-          frame, camera, colour_, folder_ / kFolders[pair][eye] / numbered(frame->number, "png")));
+      tasks.push_back(
+          camera_image(frame, camera, colour_,
+                       folder_ / kFolders[pair][camera] / numbered(frame->number, "png")));
     }
   }
   return tasks;

@@ -8,7 +8,7 @@
 namespace vinebench {
 
 /// What DC-VSLAM reads without ROS (its programs SingleCam and DualCam, run in this folder):
-/// config.yaml, the pictures of the first pair in left and right, of a second one in leftBack and
+/// config.yaml, the images of the first pair in left and right, of a second one in leftBack and
 /// rightBack; and tags.csv, the tags that are wholly in view, with their true poses and corners
 /// (bottom left first, then anticlockwise, px).
 class DcvslamFormat : public DatasetFormat {

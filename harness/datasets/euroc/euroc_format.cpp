@@ -103,7 +103,7 @@ std::vector<FileTask> EurocFormat::files(const std::shared_ptr<const DatasetFram
   std::vector<FileTask> tasks;
   for (std::size_t i = 0; i < frame->frame.images.size(); ++i) {
     if (frame->frame.images[i].empty()) continue;
-    tasks.push_back(camera_picture(frame, i, colour_, mav_ / fmt::format("cam{}/data", i) / name));
+    tasks.push_back(camera_image(frame, i, colour_, mav_ / fmt::format("cam{}/data", i) / name));
   }
   return tasks;
 }

@@ -12,9 +12,9 @@
 namespace vinebench {
 
 /// EuRoC/ASL: mav0 with cam0, cam1, … in the order of the rig (grey or RGB, PNG), imu0, wheels0,
-/// state_groundtruth_estimate0; beside mav0 times.txt (ns of the frames that both eyes of the first
-/// pair have, for ORB-SLAM3), settings for other SLAM systems, and what is ours: frames.csv (stamps
-/// of all frames, for a camera may miss one), rig.yaml, tags.yaml, slam.yaml.
+/// state_groundtruth_estimate0; beside mav0 times.txt (ns of the frames that both cameras of the
+/// first pair have, for ORB-SLAM3), settings for other SLAM systems, and what is ours: frames.csv
+/// (stamps of all frames, for a camera may miss one), rig.yaml, tags.yaml, slam.yaml.
 class EurocFormat : public DatasetFormat {
  public:
   EurocFormat(const std::filesystem::path& folder, const RecordingNotes& notes, bool colour);

@@ -34,22 +34,22 @@ std::vector<fs::path> camera_folders(const fs::path& sensors) {
   }
 }
 
-PictureList read_pictures(const fs::path& folder, bool may_be_empty) {
-  PictureList list;
+ImageList read_images(const fs::path& folder, bool may_be_empty) {
+  ImageList list;
   list.camera = folder.filename().string();
   for (const TableRow& row : read_table(folder / "data.csv")) {
     row.expect_columns(2, "timestamp [ns], filename");
     list.entries.push_back({row.nanoseconds(0), folder / "data" / row.fields[1]});
   }
   if (list.entries.empty() && !may_be_empty) {
-    fail("{}: expected a line for each picture, found none", (folder / "data.csv").string());
+    fail("{}: expected a line for each image, found none", (folder / "data.csv").string());
   }
   put_in_order(list);
   return list;
 }
 
 /// Our recordings list the frames, since any camera may have missed one; else cam0 tells them.
-std::vector<Stamp> read_instants(const fs::path& folder, const PictureList& first_camera) {
+std::vector<Stamp> read_instants(const fs::path& folder, const ImageList& first_camera) {
   const fs::path file = folder / kFrameList;
   std::error_code ignored;
   if (!fs::exists(file, ignored)) return instants_of(first_camera);
@@ -182,13 +182,13 @@ Recording read_euroc(const fs::path& named, const RecordingOptions& options) {
   cameras.resize(recording.rig.cameras.size());
   std::error_code ignored;
   const bool frames_are_listed = fs::exists(folder / kFrameList, ignored);
-  std::vector<PictureList> lists;
+  std::vector<ImageList> lists;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    lists.push_back(read_pictures(cameras[i], frames_are_listed));
+    lists.push_back(read_images(cameras[i], frames_are_listed));
     lists.back().camera = recording.rig.cameras[i].name;
   }
   const std::vector<Stamp> instants = read_instants(folder, lists.front());
-  recording.frames = associate_pictures(lists, instants);
+  recording.frames = associate_images(lists, instants);
   if (recording.rig.rate_hz <= 0) {
     const Stamp period = median_period(instants);
     recording.rig.rate_hz = period > 0 ? 1 / to_seconds(period) : kDefaultRate;

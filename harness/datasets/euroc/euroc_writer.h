@@ -11,7 +11,7 @@
 namespace vinebench {
 
 /// Writes a run as one EurocFormat, without a data set's card around it. A replay of it gives the
-/// run's estimate to the bit. A frame is in the lists once its pictures are whole, so that an
+/// run's estimate to the bit. A frame is in the lists once its images are whole, so that an
 /// interrupted recording can be read.
 class EurocWriter : public Sink {
  public:

@@ -22,12 +22,12 @@ constexpr float kFloUnknown = 1e10f;
 constexpr int kJpegQuality = 95;
 constexpr int kWebpLossless = 101;  // OpenCV: a quality above 100
 
-std::string encode(const char* ending, const cv::Mat& picture, const std::vector<int>& options) {
-  cv::Mat bgr;  // not a second name of the picture: that would turn its colours for others
-  if (picture.channels() == 3) cv::cvtColor(picture, bgr, cv::COLOR_RGB2BGR);
+std::string encode(const char* ending, const cv::Mat& image, const std::vector<int>& options) {
+  cv::Mat bgr;  // not a second name of the image: that would turn its colours for others
+  if (image.channels() == 3) cv::cvtColor(image, bgr, cv::COLOR_RGB2BGR);
   std::vector<unsigned char> bytes;
-  if (!cv::imencode(ending, bgr.empty() ? picture : bgr, bytes, options)) {
-    fail("a picture cannot be encoded as {}", ending);
+  if (!cv::imencode(ending, bgr.empty() ? image : bgr, bytes, options)) {
+    fail("an image cannot be encoded as {}", ending);
   }
   return {bytes.begin(), bytes.end()};
 }
@@ -44,41 +44,40 @@ bool is_known(const cv::Vec2f& flow) {
 
 }  // namespace
 
-std::string encode_picture(const cv::Mat& picture, PictureKind kind) {
+std::string encode_image(const cv::Mat& image, ImageKind kind) {
   switch (kind) {
-    case PictureKind::kJpeg:
-      return encode(".jpg", picture, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
-    case PictureKind::kWebp:
-      return encode(".webp", picture, {cv::IMWRITE_WEBP_QUALITY, kWebpLossless});
-    case PictureKind::kPng:
+    case ImageKind::kJpeg:
+      return encode(".jpg", image, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
+    case ImageKind::kWebp:
+      return encode(".webp", image, {cv::IMWRITE_WEBP_QUALITY, kWebpLossless});
+    case ImageKind::kPng:
       break;
   }
-  return encode_png(picture);
+  return encode_png(image);
 }
 
-cv::Mat to_grey(const cv::Mat& picture) {
-  if (picture.channels() == 1) return picture;
+cv::Mat to_grey(const cv::Mat& image) {
+  if (image.channels() == 1) return image;
   cv::Mat grey;
-  cv::cvtColor(picture, grey, cv::COLOR_RGB2GRAY);
+  cv::cvtColor(image, grey, cv::COLOR_RGB2GRAY);
   return grey;
 }
 
-std::string encode_npy(const cv::Mat& picture) {
-  if (picture.depth() != CV_32F) fail("encode_npy: expected a picture of floats");
+std::string encode_npy(const cv::Mat& image) {
+  if (image.depth() != CV_32F) fail("encode_npy: expected an image of floats");
   constexpr std::size_t kPreamble = 10;   // magic, version, length of the header
   constexpr std::size_t kAlignment = 64;  // of the data
-  const std::string channels =
-      picture.channels() == 1 ? "" : fmt::format(", {}", picture.channels());
+  const std::string channels = image.channels() == 1 ? "" : fmt::format(", {}", image.channels());
   std::string header =
-      fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}{}), }}", picture.rows,
-                  picture.cols, channels);
+      fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}{}), }}", image.rows,
+                  image.cols, channels);
   header.append(kAlignment - 1 - (kPreamble + header.size()) % kAlignment, ' ');
   header += '\n';
   std::string bytes("\x93NUMPY\x01\x00", 8);
   append(bytes, static_cast<std::uint16_t>(header.size()));
   bytes += header;
-  for (int y = 0; y < picture.rows; ++y) {
-    bytes.append(picture.ptr<char>(y), static_cast<std::size_t>(picture.cols) * picture.elemSize());
+  for (int y = 0; y < image.rows; ++y) {
+    bytes.append(image.ptr<char>(y), static_cast<std::size_t>(image.cols) * image.elemSize());
   }
   return bytes;
 }

@@ -10,21 +10,21 @@
 
 namespace vinebench {
 
-/// How pictures for people and networks are stored. Labels are always PNG.
-enum class PictureKind { kPng, kJpeg, kWebp };
-inline std::vector<std::string> yaml_names(PictureKind) {
+/// How images for people and networks are stored. Labels are always PNG.
+enum class ImageKind { kPng, kJpeg, kWebp };
+inline std::vector<std::string> yaml_names(ImageKind) {
   return {"png", "jpg", "webp"};
 }
 
 /// RGB or grey, 8 bits: PNG and WebP without loss, JPEG of quality 95.
-std::string encode_picture(const cv::Mat& picture, PictureKind kind);
+std::string encode_image(const cv::Mat& image, ImageKind kind);
 
-/// What the SLAM core sees of a picture (RGB or grey).
-cv::Mat to_grey(const cv::Mat& picture);
+/// What the SLAM core sees of an image (RGB or grey).
+cv::Mat to_grey(const cv::Mat& image);
 
-/// NumPy's file format (version 1.0) of a picture of floats: shape (rows, columns) or (rows,
+/// NumPy's file format (version 1.0) of an image of floats: shape (rows, columns) or (rows,
 /// columns, channels), little-endian.
-std::string encode_npy(const cv::Mat& picture);
+std::string encode_npy(const cv::Mat& image);
 
 /// Middlebury's .flo of a flow (CV_32FC2, px; 1e10 for NaN).
 std::string encode_flo(const cv::Mat& flow);

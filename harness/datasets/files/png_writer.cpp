@@ -37,12 +37,12 @@ void append_chunk(std::string& bytes, std::string_view type, std::string_view co
   append(bytes, libdeflate_crc32(0, bytes.data() + bytes.size() - checked, checked));
 }
 
-std::string header(const cv::Mat& picture) {
+std::string header(const cv::Mat& image) {
   std::string content;
-  append(content, static_cast<std::uint32_t>(picture.cols));
-  append(content, static_cast<std::uint32_t>(picture.rows));
-  content += static_cast<char>(8 * picture.elemSize1());
-  content += static_cast<char>(picture.channels() == 1 ? kGrey : kRgb);
+  append(content, static_cast<std::uint32_t>(image.cols));
+  append(content, static_cast<std::uint32_t>(image.rows));
+  content += static_cast<char>(8 * image.elemSize1());
+  content += static_cast<char>(image.channels() == 1 ? kGrey : kRgb);
   content.append(3, '\0');  // deflate, the five usual filters, no interlacing
   return content;
 }
@@ -59,18 +59,18 @@ void copy_row(const std::uint8_t* from, std::size_t size, bool wide, std::uint8_
 }
 
 /// Each row behind the number of its filter; good until the thread's next call. Memory of a whole
-/// picture is kept, since fresh pages cost as much as the filter.
-const std::vector<std::uint8_t>& filtered(const cv::Mat& picture) {
-  const std::size_t pixel = picture.elemSize();
-  const std::size_t row = static_cast<std::size_t>(picture.cols) * pixel;
-  const bool wide = picture.elemSize1() == 2;
+/// image is kept, since fresh pages cost as much as the filter.
+const std::vector<std::uint8_t>& filtered(const cv::Mat& image) {
+  const std::size_t pixel = image.elemSize();
+  const std::size_t row = static_cast<std::size_t>(image.cols) * pixel;
+  const bool wide = image.elemSize1() == 2;
   thread_local std::vector<std::uint8_t> bytes;
   thread_local std::vector<std::uint8_t> plain;
-  bytes.resize((row + 1) * static_cast<std::size_t>(picture.rows));
+  bytes.resize((row + 1) * static_cast<std::size_t>(image.rows));
   plain.resize(row);
   std::uint8_t* to = bytes.data();
-  for (int y = 0; y < picture.rows; ++y) {
-    copy_row(picture.ptr(y), row, wide, plain.data());
+  for (int y = 0; y < image.rows; ++y) {
+    copy_row(image.ptr(y), row, wide, plain.data());
     *to++ = kSubFilter;
     std::memcpy(to, plain.data(), std::min(pixel, row));
     for (std::size_t i = pixel; i < row; ++i) {
@@ -85,7 +85,7 @@ const std::vector<std::uint8_t>& filtered(const cv::Mat& picture) {
 std::string_view compressed(const std::vector<std::uint8_t>& bytes) {
   const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
       libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
-  if (!compressor) fail("a picture cannot be compressed: not enough memory");
+  if (!compressor) fail("an image cannot be compressed: not enough memory");
   thread_local std::vector<char> result;
   result.resize(
       std::max(result.size(), libdeflate_zlib_compress_bound(compressor.get(), bytes.size())));
@@ -95,14 +95,14 @@ std::string_view compressed(const std::vector<std::uint8_t>& bytes) {
 
 }  // namespace
 
-std::string encode_png(const cv::Mat& picture) {
+std::string encode_png(const cv::Mat& image) {
   static_assert(std::endian::native == std::endian::little, "rows of 16 bits are turned round");
-  const bool known = (picture.depth() == CV_8U || picture.depth() == CV_16U) &&
-                     (picture.channels() == 1 || picture.channels() == 3);
-  if (!known || picture.empty()) fail("PNG: expected a picture of 8 or 16 bits, grey or RGB");
+  const bool known = (image.depth() == CV_8U || image.depth() == CV_16U) &&
+                     (image.channels() == 1 || image.channels() == 3);
+  if (!known || image.empty()) fail("PNG: expected an image of 8 or 16 bits, grey or RGB");
   std::string bytes(kSignature);
-  append_chunk(bytes, "IHDR", header(picture));
-  append_chunk(bytes, "IDAT", compressed(filtered(picture)));
+  append_chunk(bytes, "IHDR", header(image));
+  append_chunk(bytes, "IDAT", compressed(filtered(image)));
   append_chunk(bytes, "IEND", "");
   return bytes;
 }

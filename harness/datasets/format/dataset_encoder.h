@@ -52,7 +52,7 @@ class DatasetEncoder {
   BackgroundWorker worker_;                // last: it must go first
 };
 
-/// The pictures of a frame in memory of their own: a source may use its own for the next frame.
+/// The images of a frame in memory of their own: a source may use its own for the next frame.
 DatasetFrame own_frame(const Sample& sample, std::int64_t number);
 
 }  // namespace vinebench

@@ -16,8 +16,8 @@ std::string numbered(std::int64_t number, const std::string& ending) {
   return fmt::format("{:06}.{}", number, ending);
 }
 
-FileTask camera_picture(const std::shared_ptr<const DatasetFrame>& frame, std::size_t camera,
-                        bool colour, std::filesystem::path file) {
+FileTask camera_image(const std::shared_ptr<const DatasetFrame>& frame, std::size_t camera,
+                      bool colour, std::filesystem::path file) {
   return {fmt::format("{} png {}", colour ? "rgb" : "grey", camera), std::move(file),
           [frame, camera, colour] {
             const cv::Mat& image = frame->frame.images[camera];

@@ -16,11 +16,11 @@ namespace vinebench {
 /// One frame on its way to the disk. Cameras are those of the data set, in its order.
 struct DatasetFrame {
   std::int64_t number = 0;  ///< in the data set, from 0 on without gaps
-  Frame frame;              ///< as the sensors gave it; pictures in memory of their own
+  Frame frame;              ///< as the sensors gave it; images in memory of their own
   Truth truth;
 };
 
-/// A file of its own that a format wants of a frame, such as a picture.
+/// A file of its own that a format wants of a frame, such as an image.
 struct FileTask {
   std::string key;  ///< tasks of one frame that have the same key have the same bytes
   std::filesystem::path file;
@@ -45,9 +45,9 @@ class DatasetFormat {
 /// "000012.png" for number 12 and "png".
 std::string numbered(std::int64_t number, const std::string& ending);
 
-/// A camera's picture as PNG: grey as the SLAM core sees it, or in colour. Shared by all formats.
-FileTask camera_picture(const std::shared_ptr<const DatasetFrame>& frame, std::size_t camera,
-                        bool colour, std::filesystem::path file);
+/// A camera's image as PNG: grey as the SLAM core sees it, or in colour. Shared by all formats.
+FileTask camera_image(const std::shared_ptr<const DatasetFrame>& frame, std::size_t camera,
+                      bool colour, std::filesystem::path file);
 
 /// Makes a folder and those above it. Throws Error with the system's reason.
 std::filesystem::path make_folder(const std::filesystem::path& folder);

@@ -32,7 +32,7 @@ std::string RecordOptions::text() const {
   for (const Category category : categories) ids.push_back(category_id(category));
   return fmt::format("{} | {} | {} | {} {} {} | {} {} {}", fmt::join(names, ","),
                      fmt::join(cameras, ","), fmt::join(ids, ","), first, last, every,
-                     pictures ? static_cast<int>(*pictures) : -1, colour, sequence);
+                     images ? static_cast<int>(*images) : -1, colour, sequence);
 }
 
 std::vector<bool> chosen_cameras(const std::vector<std::string>& names, const Rig& rig,

@@ -45,10 +45,10 @@ struct RecordOptions {
   std::int64_t first = 0;            ///< frame of the run
   std::int64_t last = std::numeric_limits<std::int64_t>::max();
   std::int64_t every = 1;
-  std::optional<PictureKind> pictures;  ///< where absent, PNG in rgb and coco, raw in ros
-  bool colour = false;                  ///< euroc, dcvslam, ros in colour; kitti in colour too
-  int threads = 2;                      ///< that encode, beside the simulation's
-  std::int64_t sequence = 0;            ///< number of the sequence in its data set
+  std::optional<ImageKind> images;  ///< where absent, PNG in rgb and coco, raw in ros
+  bool colour = false;              ///< euroc, dcvslam, ros in colour; kitti in colour too
+  int threads = 2;                  ///< that encode, beside the simulation's
+  std::int64_t sequence = 0;        ///< number of the sequence in its data set
 
   bool has(RecordFormat format) const { return formats.contains(format); }
   /// As text, for comparing a recording with one that is to be resumed.

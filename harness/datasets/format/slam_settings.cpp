@@ -196,10 +196,10 @@ std::string kalibr_imu(const Setup& setup) {
   return text + kalibr_matrix("Tg", Eigen::Matrix3d::Zero());
 }
 
-std::string stella_eye(const char* eye, const PinholeCamera& c) {
+std::string stella_camera(const char* camera, const PinholeCamera& c) {
   const std::vector<double> K{c.fx, 0, c.cx, 0, c.fy, c.cy, 0, 0, 1};
   const auto& d = c.distortion;
-  return fmt::format("  K_{0}: [{1}]\n  D_{0}: [{2}]\n", eye, reals(K),
+  return fmt::format("  K_{0}: [{1}]\n  D_{0}: [{2}]\n", camera, reals(K),
                      reals({d[0], d[1], d[2], d[3], 0}));
 }
 
@@ -218,9 +218,9 @@ std::string stella(const Setup& setup) {
     const Eigen::Vector3d y = Eigen::Vector3d::UnitZ().cross(x).normalized();
     Eigen::Matrix3d R_plane_left;
     R_plane_left << x.transpose(), y.transpose(), x.cross(y).transpose();
-    text += "StereoRectifier:\n  model: perspective\n" + stella_eye("left", c) +
+    text += "StereoRectifier:\n  model: perspective\n" + stella_camera("left", c) +
             fmt::format("  R_left: [{}]\n", reals(row_major(R_plane_left))) +
-            stella_eye("right", setup.right.model) +
+            stella_camera("right", setup.right.model) +
             fmt::format("  R_right: [{}]\n",
                         reals(row_major(R_plane_left * T_left_right.rotation.toRotationMatrix())));
   }

@@ -20,8 +20,8 @@ struct SettingsFile {
 /// reads them, stella_vslam. Throws Error for a rig without a pair.
 std::vector<SettingsFile> slam_settings(const RecordingNotes& notes);
 
-/// Whether a pair's eyes are ideal pinholes that look the same way along a common x axis with equal
-/// fx, fy and cy: to 1e-6 rad and 1e-9 px.
+/// Whether a pair's cameras are ideal pinholes that look the same way along a common x axis with
+/// equal fx, fy and cy: to 1e-6 rad and 1e-9 px.
 bool is_rectified(const Rig& rig, const StereoPair& pair);
 
 }  // namespace vinebench

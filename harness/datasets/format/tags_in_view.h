@@ -9,7 +9,7 @@
 
 namespace vinebench {
 
-/// A tag that is wholly in a tag camera's picture, as it truly is.
+/// A tag that is wholly in a tag camera's image, as it truly is.
 struct TagInView {
   std::size_t camera = 0;  ///< of the data set
   WorldConfig::Tag tag;

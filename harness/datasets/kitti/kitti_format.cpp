@@ -29,7 +29,7 @@ Eigen::Matrix<double, 3, 4> projection(const PinholeCamera& c, double shift) {
   return P;
 }
 
-/// The pair's eyes as P0 and P1, and once more, for the pictures in colour, as P2 and P3.
+/// The pair's cameras as P0 and P1, and once more, for the images in colour, as P2 and P3.
 std::string calibration(const Rig& rig, const StereoPair& pair) {
   const PinholeCamera& left = rig.cameras[static_cast<std::size_t>(pair.left)].model;
   const PinholeCamera& right = rig.cameras[static_cast<std::size_t>(pair.right)].model;
@@ -75,8 +75,8 @@ std::vector<FileTask> KittiFormat::files(const std::shared_ptr<const DatasetFram
     const auto camera = static_cast<std::size_t>(i % 2 == 0 ? pair_.left : pair_.right);
     if (frame->frame.images[camera].empty()) continue;
     tasks.push_back(
-        camera_picture(frame, camera, i >= 2,
-                       folder_ / fmt::format("image_{}", i) / numbered(frame->number, "png")));
+        camera_image(frame, camera, i >= 2,
+                     folder_ / fmt::format("image_{}", i) / numbered(frame->number, "png")));
   }
   return tasks;
 }

@@ -10,8 +10,8 @@
 namespace vinebench {
 
 /// KITTI odometry of the first pair: image_0 and image_1 (grey), with colour image_2 and image_3
-/// too, calib.txt (P0 to P3), times.txt (s), poses.txt (the left eye against its first place); and
-/// what is ours: rig.yaml with the pair alone, slam.yaml.
+/// too, calib.txt (P0 to P3), times.txt (s), poses.txt (the left camera against its first place);
+/// and what is ours: rig.yaml with the pair alone, slam.yaml.
 class KittiFormat : public DatasetFormat {
  public:
   /// Throws Error for a rig without a pair, or with one that is not rectified.

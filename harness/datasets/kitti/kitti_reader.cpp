@@ -16,9 +16,9 @@ namespace fs = std::filesystem;
 
 constexpr double kDefaultRate = 10;  // Hz, of KITTI's cameras
 constexpr std::size_t kMatrixSize = 12;
-constexpr std::size_t kEyes = 2;
+constexpr std::size_t kCameras = 2;
 
-/// The folders of a stereo pair, and which lines of calib.txt are its eyes'.
+/// The folders of a stereo pair, and which lines of calib.txt are its cameras'.
 struct Layout {
   const char* left;
   const char* right;
@@ -80,7 +80,7 @@ RigCamera camera_of(const std::string& name, const Projection& P) {
   RigCamera camera;
   camera.name = name;
   camera.model = {.fx = P(0, 0), .fy = P(1, 1), .cx = P(0, 2), .cy = P(1, 2)};
-  // x = K (p + t) with the matrix's last column K t: the eye is at -t of the first camera.
+  // x = K (p + t) with the matrix's last column K t: the camera is at -t of the first camera.
   const Eigen::Vector3d t(P(0, 3) / P(0, 0) - P(0, 2) / P(0, 0) * P(2, 3),
                           P(1, 3) / P(1, 1) - P(1, 2) / P(1, 1) * P(2, 3), P(2, 3));
   const Pose T_body_first = first_camera_mount();
@@ -93,7 +93,7 @@ Rig read_rig(const fs::path& folder, const Layout& layout) {
   const auto matrices = read_calibration(file);
   for (const std::size_t wanted : {layout.left_matrix, layout.right_matrix}) {
     if (matrices.contains(wanted)) continue;
-    fail("{}: expected a matrix P{} for the pictures in {} and {}", file.string(), wanted,
+    fail("{}: expected a matrix P{} for the images in {} and {}", file.string(), wanted,
          layout.left, layout.right);
   }
   Rig rig;
@@ -104,43 +104,43 @@ Rig read_rig(const fs::path& folder, const Layout& layout) {
   return rig;
 }
 
-/// Pictures by the number that is their name.
-std::map<std::int64_t, fs::path> pictures_in(const fs::path& folder) {
+/// Images by the number that is their name.
+std::map<std::int64_t, fs::path> images_in(const fs::path& folder) {
   static const std::array<std::string, 7> kinds{".png", ".jpg", ".jpeg", ".pgm",
                                                 ".bmp", ".tif", ".webp"};
   std::error_code error;
-  std::map<std::int64_t, fs::path> pictures;
+  std::map<std::int64_t, fs::path> images;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const std::string stem = entry.path().stem().string();
-    const bool picture = std::ranges::count(kinds, entry.path().extension().string()) > 0;
+    const bool image = std::ranges::count(kinds, entry.path().extension().string()) > 0;
     const bool number = !stem.empty() && stem.size() <= 18 &&
                         stem.find_first_not_of("0123456789") == std::string::npos;
-    if (picture && number) pictures[std::stoll(stem)] = entry.path();
+    if (image && number) images[std::stoll(stem)] = entry.path();
   }
   if (error) fail("{}: cannot be read: {}", folder.string(), error.message());
-  if (pictures.empty()) {
-    fail("{}: expected pictures named by their number, such as 000000.png, found none",
+  if (images.empty()) {
+    fail("{}: expected images named by their number, such as 000000.png, found none",
          folder.string());
   }
-  return pictures;
+  return images;
 }
 
-/// A frame for every number from the first to the last of either eye.
+/// A frame for every number from the first to the last of either camera.
 std::vector<RecordedFrame> read_frames(const fs::path& folder, const Layout& layout) {
-  const auto left = pictures_in(folder / layout.left);
-  const auto right = pictures_in(folder / layout.right);
+  const auto left = images_in(folder / layout.left);
+  const auto right = images_in(folder / layout.right);
   const std::int64_t first = std::min(left.begin()->first, right.begin()->first);
   const std::int64_t last = std::max(left.rbegin()->first, right.rbegin()->first);
   const auto most = static_cast<std::int64_t>(10 * (left.size() + right.size()));
   if (last - first >= most) {
-    fail("{}: expected pictures numbered without great gaps, found {} to {} for {} and {} pictures",
+    fail("{}: expected images numbered without great gaps, found {} to {} for {} and {} images",
          folder.string(), first, last, left.size(), right.size());
   }
   std::vector<RecordedFrame> frames;
   for (std::int64_t number = first; number <= last; ++number) {
-    const auto of = [&](const auto& eye) {
-      const auto found = eye.find(number);
-      return found == eye.end() ? fs::path() : found->second;
+    const auto of = [&](const auto& camera) {
+      const auto found = camera.find(number);
+      return found == camera.end() ? fs::path() : found->second;
     };
     frames.push_back({stamp_of_frame(number - first, kDefaultRate), {of(left), of(right)}, {}});
   }
@@ -187,13 +187,13 @@ fs::path ours(const fs::path& file) {
   return fs::is_regular_file(file, ignored) ? file : fs::path();
 }
 
-/// The pictures tell their size; calib.txt does not.
+/// The images tell their size; calib.txt does not.
 void set_sizes(Recording& recording) {
   for (std::size_t camera = 0; camera < recording.rig.cameras.size(); ++camera) {
     PinholeCamera& model = recording.rig.cameras[camera].model;
-    const cv::Size size = first_picture_size(recording, camera);
+    const cv::Size size = first_image_size(recording, camera);
     if (size.empty()) {
-      fail("{}: no picture of the {} eye can be read",
+      fail("{}: no image of the {} camera can be read",
            recording.frames.front().images[camera].string(), recording.rig.cameras[camera].name);
     }
     model.width = size.width;
@@ -219,7 +219,7 @@ Recording read_kitti(const fs::path& folder, const RecordingOptions& options) {
   Recording recording;
   recording.format = "KITTI odometry";
   const fs::path rig = options.rig.empty() ? ours(folder / "rig.yaml") : options.rig;
-  recording.rig = rig.empty() ? read_rig(folder, *layout) : load_rig_for(rig, kEyes);
+  recording.rig = rig.empty() ? read_rig(folder, *layout) : load_rig_for(rig, kCameras);
   recording.T_body_left =
       rig.empty() ? first_camera_mount() : recording.rig.cameras.front().T_body_cam;
   recording.settings = ours(folder / "slam.yaml");

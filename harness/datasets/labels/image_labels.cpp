@@ -13,7 +13,7 @@
 namespace vinebench {
 namespace {
 
-constexpr double kNearest = 0.03;  // m before the camera; nearer points are not in the picture
+constexpr double kNearest = 0.03;  // m before the camera; nearer points are not in the image
 
 // The low byte of a panoptic id where it is no bunch's part: plants have far fewer bunches.
 constexpr std::int32_t kTrunkPart = 253;
@@ -50,10 +50,11 @@ std::int32_t segment_of(const Key& key, const SceneIndex& scene) {
 }
 
 /// Masks by category and number, in one pass down the columns; sets the pixels' segments.
-std::map<Key, Runs> find_masks(const Picture& picture, const SceneIndex& scene, cv::Mat& segments) {
+std::map<Key, Runs> find_masks(const RenderedImage& image, const SceneIndex& scene,
+                               cv::Mat& segments) {
   std::map<Key, Runs> masks;
-  const cv::Mat labels = picture.labels.t();
-  const cv::Mat numbers = picture.instances.t();
+  const cv::Mat labels = image.labels.t();
+  const cv::Mat numbers = image.instances.t();
   cv::Mat columns(labels.size(), CV_32SC1);
   const auto pixels = static_cast<std::int64_t>(labels.total());
   const auto* label = labels.ptr<std::uint8_t>();
@@ -94,7 +95,7 @@ void measure_outline(const TruthView& view, const SceneIndex& scene, ThingLabel&
     ++inside;
     const auto x = std::min(static_cast<int>(std::lround(at.x())), view.camera.width - 1);
     const auto y = std::min(static_cast<int>(std::lround(at.y())), view.camera.height - 1);
-    const auto seen = view.picture.instances.at<std::int32_t>(y, x);
+    const auto seen = view.image.instances.at<std::int32_t>(y, x);
     const bool part = thing.category == Category::kBunch;
     if ((part ? seen : whole_of(seen)) == thing.number) ++shown;
   }
@@ -123,9 +124,9 @@ std::vector<ThingLabel> whole_plants(const std::vector<ThingLabel>& parts,
 
 }  // namespace
 
-PictureLabels label_things(const TruthView& view, const SceneIndex& scene) {
-  PictureLabels labels;
-  for (auto& [key, runs] : find_masks(view.picture, scene, labels.segments)) {
+ImageLabels label_things(const TruthView& view, const SceneIndex& scene) {
+  ImageLabels labels;
+  for (auto& [key, runs] : find_masks(view.image, scene, labels.segments)) {
     const std::int32_t segment = segment_of(key, scene);
     if (is_thing(key.first)) {
       labels.things.push_back({key.first, key.second, segment, std::move(runs), {}, {}});

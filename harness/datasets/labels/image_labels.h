@@ -13,16 +13,16 @@
 
 namespace vinebench {
 
-/// One thing of a picture, or what of a category a plant has there.
+/// One thing of an image, or what of a category a plant has there.
 struct ThingLabel {
   Category category = Category::kBunch;
-  std::int32_t number = 0;   ///< of Picture::instances; of a plant its whole's
-  std::int32_t segment = 0;  ///< its pixels' value in the panoptic picture; 0 of a whole plant
+  std::int32_t number = 0;   ///< of RenderedImage::instances; of a plant its whole's
+  std::int32_t segment = 0;  ///< its pixels' value in the panoptic image; 0 of a whole plant
   Runs mask;
-  /// Share of its outline within the picture that it shows itself in; absent for parts of plants
+  /// Share of its outline within the image that it shows itself in; absent for parts of plants
   /// that have no outline of their own (trunk, cane, leaf) and for the rover.
   std::optional<double> visibility;
-  std::optional<double> truncation;  ///< share of it outside the picture; absent likewise
+  std::optional<double> truncation;  ///< share of it outside the image; absent likewise
 };
 
 /// Pixels of no countable thing.
@@ -32,15 +32,15 @@ struct StuffLabel {
   Runs mask;
 };
 
-struct PictureLabels {
+struct ImageLabels {
   std::vector<ThingLabel> things;  ///< by category, then number
   std::vector<StuffLabel> stuff;   ///< by category
   cv::Mat segments;                ///< CV_32SC1: panoptic ids; every pixel has one
 };
 
-/// Takes a picture's labels and instances apart. Visibility and truncation are measured at points
-/// of the thing's surface (SceneIndex::points): the share of those that fall outside the picture,
+/// Takes an image's labels and instances apart. Visibility and truncation are measured at points
+/// of the thing's surface (SceneIndex::points): the share of those that fall outside the image,
 /// and of the others the share whose pixel shows the thing. In wind they are those of still air.
-PictureLabels label_things(const TruthView& view, const SceneIndex& scene);
+ImageLabels label_things(const TruthView& view, const SceneIndex& scene);
 
 }  // namespace vinebench

@@ -28,7 +28,7 @@ constexpr double kFlowTolerance = 0.1;  // px
 constexpr double kAgreeing = 0.9;       // share of the pixels
 constexpr double kNearest = 0.05;       // m before a camera
 
-/// The label pictures of one camera at one frame; what is not recorded is empty.
+/// The label images of one camera at one frame; what is not recorded is empty.
 struct Labels {
   cv::Mat depth;      ///< CV_16UC1, mm
   cv::Mat disparity;  ///< CV_16UC1
@@ -76,13 +76,13 @@ class Checker {
     const std::string file = name(format, frame, camera);
     std::error_code ignored;
     if (!fs::exists(folder_ / file, ignored)) return {};
-    const cv::Mat picture = cv::imread((folder_ / file).string(), cv::IMREAD_UNCHANGED);
+    const cv::Mat image = cv::imread((folder_ / file).string(), cv::IMREAD_UNCHANGED);
     const PinholeCamera& model = rig_.cameras[camera].model;
-    ++result_.pictures;
-    if (picture.size() == cv::Size(model.width, model.height) && picture.type() == type) {
-      return picture;
+    ++result_.images;
+    if (image.size() == cv::Size(model.width, model.height) && image.type() == type) {
+      return image;
     }
-    fault(file, fmt::format("is no whole picture of {} x {} pixels of its kind", model.width,
+    fault(file, fmt::format("is no whole image of {} x {} pixels of its kind", model.width,
                             model.height));
     return {};
   }

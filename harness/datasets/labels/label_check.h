@@ -19,10 +19,10 @@ struct RecordedPose {
 
 struct LabelCheck {
   std::vector<DatasetFault> faults;
-  std::int64_t pictures = 0;  ///< that were looked at
+  std::int64_t images = 0;  ///< that were looked at
 };
 
-/// Holds the label pictures of some frames of a sequence against each other and against
+/// Holds the label images of some frames of a sequence against each other and against
 /// calibration.yaml, as far as their formats are there:
 ///   sizes                 those of the calibration
 ///   depth, depth32        within half a millimetre; none where semantic says sky, else some
@@ -30,7 +30,7 @@ struct LabelCheck {
 ///   instances, semantic   bunches are where bunches are
 ///   flow                  of things at rest, where the depth's point is in the next frame: 0.1 px
 ///                         and what depth's steps make, at nine tenths of the pixels
-///   coco                  masks, boxes, areas and panoptic pictures agree
+///   coco                  masks, boxes, areas and panoptic images agree
 LabelCheck check_labels(const std::filesystem::path& sequence,
                         const std::vector<RecordedPose>& frames);
 

@@ -28,8 +28,8 @@ bool delivered(const DatasetFrame& frame, std::size_t camera) {
   return !frame.frame.images.at(camera).empty();
 }
 
-const Picture& truth_of(const DatasetFrame& frame, std::size_t camera) {
-  return frame.truth.views.at(camera).picture;
+const RenderedImage& truth_of(const DatasetFrame& frame, std::size_t camera) {
+  return frame.truth.views.at(camera).image;
 }
 
 std::vector<std::string> make_camera_folders(const fs::path& folder, const RecordingNotes& notes) {
@@ -43,15 +43,15 @@ std::vector<std::string> make_camera_folders(const fs::path& folder, const Recor
 
 }  // namespace
 
-PictureFormat::PictureFormat(const fs::path& folder, const RecordingNotes& notes, std::string name,
-                             std::string ending, Encode encode)
+ImageFormat::ImageFormat(const fs::path& folder, const RecordingNotes& notes, std::string name,
+                         std::string ending, Encode encode)
     : folder_(folder),
       cameras_(make_camera_folders(folder, notes)),
       name_(std::move(name)),
       ending_(std::move(ending)),
       encode_(std::move(encode)) {}
 
-std::vector<FileTask> PictureFormat::files(const std::shared_ptr<const DatasetFrame>& frame) {
+std::vector<FileTask> ImageFormat::files(const std::shared_ptr<const DatasetFrame>& frame) {
   std::vector<FileTask> tasks;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     if (!delivered(*frame, i)) continue;
@@ -63,17 +63,17 @@ std::vector<FileTask> PictureFormat::files(const std::shared_ptr<const DatasetFr
 }
 
 std::unique_ptr<DatasetFormat> make_rgb_format(const fs::path& folder, const RecordingNotes& notes,
-                                               PictureKind kind) {
-  return std::make_unique<PictureFormat>(folder, notes, "rgb",
-                                         yaml_names(kind).at(static_cast<std::size_t>(kind)),
-                                         [kind](const DatasetFrame& frame, std::size_t camera) {
-                                           return encode_picture(frame.frame.images[camera], kind);
-                                         });
+                                               ImageKind kind) {
+  return std::make_unique<ImageFormat>(folder, notes, "rgb",
+                                       yaml_names(kind).at(static_cast<std::size_t>(kind)),
+                                       [kind](const DatasetFrame& frame, std::size_t camera) {
+                                         return encode_image(frame.frame.images[camera], kind);
+                                       });
 }
 
 std::unique_ptr<DatasetFormat> make_depth_format(const fs::path& folder,
                                                  const RecordingNotes& notes) {
-  return std::make_unique<PictureFormat>(
+  return std::make_unique<ImageFormat>(
       folder, notes, "depth", "png", [](const DatasetFrame& frame, std::size_t camera) {
         return encode_png(millimetres(truth_of(frame, camera).depth));
       });
@@ -81,15 +81,15 @@ std::unique_ptr<DatasetFormat> make_depth_format(const fs::path& folder,
 
 std::unique_ptr<DatasetFormat> make_depth32_format(const fs::path& folder,
                                                    const RecordingNotes& notes) {
-  return std::make_unique<PictureFormat>(folder, notes, "depth32", "npy",
-                                         [](const DatasetFrame& frame, std::size_t camera) {
-                                           return encode_npy(truth_of(frame, camera).depth);
-                                         });
+  return std::make_unique<ImageFormat>(folder, notes, "depth32", "npy",
+                                       [](const DatasetFrame& frame, std::size_t camera) {
+                                         return encode_npy(truth_of(frame, camera).depth);
+                                       });
 }
 
 std::unique_ptr<DatasetFormat> make_normals_format(const fs::path& folder,
                                                    const RecordingNotes& notes) {
-  return std::make_unique<PictureFormat>(
+  return std::make_unique<ImageFormat>(
       folder, notes, "normals", "png", [](const DatasetFrame& frame, std::size_t camera) {
         return encode_png(colour_normals(truth_of(frame, camera).normals));
       });
@@ -99,10 +99,10 @@ std::unique_ptr<DatasetFormat> make_semantic_format(const fs::path& folder,
                                                     const RecordingNotes& notes) {
   make_folder(folder);
   write_file_atomically(folder / "labels.yaml", label_table_text());
-  return std::make_unique<PictureFormat>(folder, notes, "semantic", "png",
-                                         [](const DatasetFrame& frame, std::size_t camera) {
-                                           return encode_png(truth_of(frame, camera).labels);
-                                         });
+  return std::make_unique<ImageFormat>(folder, notes, "semantic", "png",
+                                       [](const DatasetFrame& frame, std::size_t camera) {
+                                         return encode_png(truth_of(frame, camera).labels);
+                                       });
 }
 
 cv::Mat millimetres(const cv::Mat& depth) {
@@ -125,28 +125,28 @@ DisparityFormat::DisparityFormat(const fs::path& folder, const RecordingNotes& n
   if (rig.stereo_pairs.empty()) fail("disparity: expected a stereo pair among the cameras");
   for (const StereoPair& pair : rig.stereo_pairs) {
     if (!is_rectified(rig, pair)) {
-      fail("disparity: the eyes of pair '{}' are not rectified as they truly are", pair.name);
+      fail("disparity: the cameras of pair '{}' are not rectified as they truly are", pair.name);
     }
     const auto left = static_cast<std::size_t>(pair.left);
-    eyes_.push_back(
+    cameras_.push_back(
         {left, rig.cameras[left].name, rig.cameras[left].model.fx * rig.baseline(pair)});
-    make_folder(folder / eyes_.back().name);
+    make_folder(folder / cameras_.back().name);
   }
 }
 
 std::vector<FileTask> DisparityFormat::files(const std::shared_ptr<const DatasetFrame>& frame) {
   std::vector<FileTask> tasks;
-  for (const Eye& eye : eyes_) {
-    if (!delivered(*frame, eye.camera)) continue;
-    tasks.push_back({fmt::format("disparity {}", eye.camera),
-                     folder_ / eye.name / numbered(frame->number, "png"), [frame, &eye] {
-                       const cv::Mat& depth = truth_of(*frame, eye.camera).depth;
+  for (const Camera& camera : cameras_) {
+    if (!delivered(*frame, camera.camera)) continue;
+    tasks.push_back({fmt::format("disparity {}", camera.camera),
+                     folder_ / camera.name / numbered(frame->number, "png"), [frame, &camera] {
+                       const cv::Mat& depth = truth_of(*frame, camera.camera).depth;
                        cv::Mat codes(depth.size(), CV_16UC1);
                        for (int y = 0; y < depth.rows; ++y) {
                          const auto* z = depth.ptr<float>(y);
                          auto* code = codes.ptr<std::uint16_t>(y);
                          for (int x = 0; x < depth.cols; ++x) {
-                           const double px = eye.focal_baseline / static_cast<double>(z[x]);
+                           const double px = camera.focal_baseline / static_cast<double>(z[x]);
                            const double steps = px * kDisparitySteps + 0.5;
                            const bool fits = z[x] > 0 && steps < kMostCode + 1;
                            code[x] = fits ? static_cast<std::uint16_t>(steps) : std::uint16_t{0};
@@ -162,11 +162,10 @@ FlowTruth flow_between(const DatasetFrame& a, const DatasetFrame& b, std::size_t
                        const Pose& T_body_cam) {
   TruthView from = a.truth.views.at(camera);
   const TruthView& to = b.truth.views.at(camera);
-  from.picture.motion = from.picture.motion.clone();  // not the frame's own
+  from.image.motion = from.image.motion.clone();  // not the frame's own
   const Pose T_cam_body = T_body_cam.inverse();
   move_rover(from.camera, from.T_world_cam, from.T_world_cam * T_cam_body,
-             to.T_world_cam * T_cam_body, from.picture.labels, from.picture.depth,
-             from.picture.motion);
+             to.T_world_cam * T_cam_body, from.image.labels, from.image.depth, from.image.motion);
   return optical_flow(from, to);
 }
 

@@ -11,17 +11,17 @@
 
 namespace vinebench {
 
-// Pictures a camera: FOLDER/<camera>/000012.png and so on. Docs: docs/datasets.md.
+// Images a camera: FOLDER/<camera>/000012.png and so on. Docs: docs/datasets.md.
 
-/// A format that makes one file of each camera's picture or truth.
-class PictureFormat : public DatasetFormat {
+/// A format that makes one file of each camera's image or truth.
+class ImageFormat : public DatasetFormat {
  public:
   /// The bytes for a camera of a frame; a camera that delivered nothing is passed over.
   using Encode = std::function<std::string(const DatasetFrame&, std::size_t camera)>;
 
   /// `name` keeps it apart from other formats; `ending` is the files'.
-  PictureFormat(const std::filesystem::path& folder, const RecordingNotes& notes, std::string name,
-                std::string ending, Encode encode);
+  ImageFormat(const std::filesystem::path& folder, const RecordingNotes& notes, std::string name,
+              std::string ending, Encode encode);
 
   std::vector<FileTask> files(const std::shared_ptr<const DatasetFrame>& frame) override;
 
@@ -34,7 +34,7 @@ class PictureFormat : public DatasetFormat {
 };
 
 std::unique_ptr<DatasetFormat> make_rgb_format(const std::filesystem::path& folder,
-                                               const RecordingNotes& notes, PictureKind kind);
+                                               const RecordingNotes& notes, ImageKind kind);
 /// 16-bit PNG in mm, 0 for sky and beyond 65.535 m.
 std::unique_ptr<DatasetFormat> make_depth_format(const std::filesystem::path& folder,
                                                  const RecordingNotes& notes);
@@ -48,21 +48,21 @@ std::unique_ptr<DatasetFormat> make_normals_format(const std::filesystem::path& 
 std::unique_ptr<DatasetFormat> make_semantic_format(const std::filesystem::path& folder,
                                                     const RecordingNotes& notes);
 
-/// Disparity of every rectified pair's left eye, 16-bit PNG in 1/256 px, 0 for none. Throws Error
-/// where a pair is not rectified, or there is none.
+/// Disparity of every rectified pair's left camera, 16-bit PNG in 1/256 px, 0 for none. Throws
+/// Error where a pair is not rectified, or there is none.
 class DisparityFormat : public DatasetFormat {
  public:
   DisparityFormat(const std::filesystem::path& folder, const RecordingNotes& notes);
   std::vector<FileTask> files(const std::shared_ptr<const DatasetFrame>& frame) override;
 
  private:
-  struct Eye {
+  struct Camera {
     std::size_t camera;
     std::string name;
     double focal_baseline;  ///< px m
   };
   std::filesystem::path folder_;
-  std::vector<Eye> eyes_;
+  std::vector<Camera> cameras_;
 };
 
 /// Flow from each frame to the next one of the data set, as 16-bit PNG of KITTI (1/64 px around
@@ -93,9 +93,9 @@ cv::Mat kitti_flow(const cv::Mat& flow);
 /// Depth (m) as CV_16UC1 in mm; 0 beyond 65.535 m.
 cv::Mat millimetres(const cv::Mat& depth);
 
-/// Instances as RGB pictures, id = R + 256 G + 65536 B: a plant, post, tag, box or person has
-/// Picture::instances' own number (its low byte says which bunch), the rover 1, all else 0; and
-/// instances.csv, which says what the numbers are.
+/// Instances as RGB images, id = R + 256 G + 65536 B: a plant, post, tag, box or person has
+/// RenderedImage::instances' own number (its low byte says which bunch), the rover 1, all else 0;
+/// and instances.csv, which says what the numbers are.
 class InstanceFormat : public DatasetFormat {
  public:
   InstanceFormat(const std::filesystem::path& folder, const RecordingNotes& notes,
@@ -115,7 +115,7 @@ class InstanceFormat : public DatasetFormat {
 /// Ids (CV_32SC1, 0 to 2^24 - 1) as RGB.
 cv::Mat id_colours(const cv::Mat& ids);
 
-/// The id that a number of Picture::instances has in pictures. Throws Error above 2^24 - 1.
+/// The id that a number of RenderedImage::instances has in images. Throws Error above 2^24 - 1.
 std::int32_t instance_id(const SceneIndex& scene, std::int32_t number);
 
 }  // namespace vinebench

@@ -16,7 +16,7 @@ inline constexpr std::size_t kLabels = 13;
 /// "sky", "ground" and so on.
 const char* label_name(Label label);
 
-/// RGB, for the eye; black for a number that is no Label.
+/// RGB, for the camera; black for a number that is no Label.
 cv::Vec3b label_colour(std::uint8_t label);
 
 /// YAML: a list `labels` of `{id, name, colour}`.

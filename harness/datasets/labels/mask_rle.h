@@ -9,7 +9,7 @@
 
 namespace vinebench {
 
-/// Pixels of a mask in a row, counted down the columns of a picture, left column first.
+/// Pixels of a mask in a row, counted down the columns of an image, left column first.
 struct Run {
   std::int64_t begin = 0;
   std::int64_t end = 0;  ///< the first behind it
@@ -23,7 +23,7 @@ Runs united(std::vector<Runs> masks);
 
 std::int64_t area_of(const Runs& runs);
 
-/// Box of a mask in a picture of that height: x, y, width, height in whole pixels, COCO's `bbox`.
+/// Box of a mask in an image of that height: x, y, width, height in whole pixels, COCO's `bbox`.
 cv::Rect box_of(const Runs& runs, int height);
 
 /// COCO's compressed run lengths, as pycocotools reads them: counts of pixels without and with the
@@ -34,7 +34,7 @@ std::string compress(const Runs& runs, std::int64_t pixels);
 /// The other way. Throws Error for text that is none or counts other than `pixels`.
 Runs decompress(const std::string& text, std::int64_t pixels);
 
-/// The mask as a picture, CV_8UC1 of 255 and 0.
+/// The mask as an image, CV_8UC1 of 255 and 0.
 cv::Mat mask_of(const Runs& runs, const cv::Size& size);
 
 }  // namespace vinebench

@@ -100,7 +100,7 @@ void write_flow(const std::filesystem::path& file, const cv::Mat& flow) {
   if (file.extension() == ".flo") {
     write_file_atomically(file, encode_flo(flow));
   } else {
-    write_picture(file, colour_flow(flow));
+    write_image(file, colour_flow(flow));
   }
 }
 

@@ -8,15 +8,15 @@
 
 namespace vinebench {
 
-/// The colour of one of Picture::instances' numbers, RGB: black for none, else not dark.
+/// The colour of one of RenderedImage::instances' numbers, RGB: black for none, else not dark.
 cv::Vec3b instance_colour(std::int32_t number);
 
-/// Picture::instances in colours for the eye, CV_8UC3: one for each instance and part, black for
-/// none.
+/// RenderedImage::instances in colours for the camera, CV_8UC3: one for each instance and part,
+/// black for none.
 cv::Mat colour_instances(const cv::Mat& instances);
 
-/// Picture::normals in colours, CV_8UC3: red to the right, green up, blue towards the camera, each
-/// from -1 (0) to 1 (255); black for sky.
+/// RenderedImage::normals in colours, CV_8UC3: red to the right, green up, blue towards the camera,
+/// each from -1 (0) to 1 (255); black for sky.
 cv::Mat colour_normals(const cv::Mat& normals);
 
 /// Flow (CV_32FC2, px) on the colour wheel, CV_8UC3: hue for the direction (red to the right, then

@@ -20,14 +20,14 @@ constexpr const char* kFormats =
     "an EuRoC/ASL folder (mav0/cam0 with data.csv and sensor.yaml) or a KITTI odometry folder "
     "(calib.txt beside image_0 and image_1, image_2 and image_3, or image_l and image_r)";
 
-/// The first picture of each camera that can be read must have the size of its calibration.
+/// The first image of each camera that can be read must have the size of its calibration.
 void check_sizes(const Recording& recording) {
   for (std::size_t camera = 0; camera < recording.rig.cameras.size(); ++camera) {
     const RigCamera& expected = recording.rig.cameras[camera];
-    const cv::Size size = first_picture_size(recording, camera);
+    const cv::Size size = first_image_size(recording, camera);
     if (size.empty()) continue;
     if (size.width != expected.model.width || size.height != expected.model.height) {
-      fail("{}: camera '{}': its calibration is for {} x {} pixels, its first picture has {} x {}",
+      fail("{}: camera '{}': its calibration is for {} x {} pixels, its first image has {} x {}",
            recording.name, expected.name, expected.model.width, expected.model.height, size.width,
            size.height);
     }
@@ -46,7 +46,7 @@ class RecordingSource : public FrameSource {
     sample.frame.index = static_cast<std::int64_t>(index_);
     sample.frame.stamp = recorded.stamp;
     sample.events = recorded.events;
-    read_pictures(recorded, sample);
+    read_images(recorded, sample);
     hand_out(recording_.imu, next_imu_, recorded.stamp, sample.frame.imu);
     hand_out(recording_.wheels, next_wheels_, recorded.stamp, sample.frame.wheels);
     const auto truth = pose_at(recording_.truth, recorded.stamp, kTruthGap);
@@ -63,22 +63,22 @@ class RecordingSource : public FrameSource {
   const StageTimes& times() const override { return times_; }
 
  private:
-  void read_pictures(const RecordedFrame& recorded, Sample& sample) {
-    const ScopedTimer timer(times_, "read pictures");
+  void read_images(const RecordedFrame& recorded, Sample& sample) {
+    const ScopedTimer timer(times_, "read images");
     const std::size_t cameras = recording_.rig.cameras.size();
     sample.frame.images.resize(cameras);
     std::vector<std::optional<SourceEvent>> faults(cameras);
     pool_.for_each(cameras, [&](std::size_t camera) {
-      faults[camera] = read_picture(recorded.images[camera], recording_.rig.cameras[camera],
-                                    sample.frame.images[camera]);
+      faults[camera] = read_image(recorded.images[camera], recording_.rig.cameras[camera],
+                                  sample.frame.images[camera]);
     });
     for (const auto& fault : faults) {
       if (fault) sample.events.push_back(*fault);
     }
   }
 
-  static std::optional<SourceEvent> read_picture(const fs::path& file, const RigCamera& camera,
-                                                 cv::Mat& image) {
+  static std::optional<SourceEvent> read_image(const fs::path& file, const RigCamera& camera,
+                                               cv::Mat& image) {
     std::error_code ignored;
     if (file.empty()) return SourceEvent{"picture_missing", camera.name, "not recorded"};
     if (!fs::exists(file, ignored)) {
@@ -157,7 +157,7 @@ Recording open_recording(const fs::path& named, const RecordingOptions& options)
   if (recording.name == "mav0") {
     recording.name = fs::weakly_canonical(named).parent_path().filename().string();
   }
-  if (recording.frames.empty()) fail("{}: has no pictures", folder.string());
+  if (recording.frames.empty()) fail("{}: has no images", folder.string());
   if (!options.groundtruth.empty()) {
     recording.truth = read_groundtruth(options.groundtruth, recording);
   }

@@ -14,7 +14,7 @@
 
 namespace vinebench {
 
-/// The pictures of one instant, by name.
+/// The images of one instant, by name.
 struct RecordedFrame {
   Stamp stamp = 0;
   std::vector<std::filesystem::path>
@@ -22,7 +22,7 @@ struct RecordedFrame {
   std::vector<SourceEvent> events;  ///< faults that were found when it was put together
 };
 
-/// A recorded data set as its reader found it; the pictures themselves stay on the disk.
+/// A recorded data set as its reader found it; the images themselves stay on the disk.
 struct Recording {
   std::string name;
   std::string format;  ///< for people: "EuRoC/ASL", "KITTI odometry"
@@ -44,11 +44,11 @@ struct RecordingOptions {
 
 /// Reads the index of a recording, whose format it recognises by its folders: EuRoC/ASL or KITTI
 /// odometry, or a data set of ours that has one of them. Faults of single frames become events of
-/// theirs; a calibration that cannot be used, a folder without pictures and pictures of another
+/// theirs; a calibration that cannot be used, a folder without images and images of another
 /// size than the calibration's throw Error.
 Recording open_recording(const std::filesystem::path& folder, const RecordingOptions& options = {});
 
-/// Gives a recording frame by frame, the cameras' pictures in grey. A picture that is not there,
+/// Gives a recording frame by frame, the cameras' images in grey. An image that is not there,
 /// cannot be read or has a wrong size is empty, and an event. The truth at a frame is interpolated
 /// between its neighbours in time where they are at most a quarter of a second apart.
 std::unique_ptr<FrameSource> play(Recording recording, WorkerPool& pool);

@@ -13,7 +13,7 @@ void add_events(RecordedFrame& frame, const SourceEvent& event, int count) {
   for (int i = 0; i < count; ++i) frame.events.push_back(event);
 }
 
-void note_faults(const PictureList& list, RecordedFrame& first) {
+void note_faults(const ImageList& list, RecordedFrame& first) {
   add_events(first, {"stamp_out_of_order", list.camera, "put in its place"}, list.out_of_order);
   add_events(first, {"stamp_repeated", list.camera, "left out"}, list.repeated);
 }
@@ -40,13 +40,13 @@ std::size_t nearest_frame(const std::vector<RecordedFrame>& frames, Stamp stamp)
   return stamp - frames[index - 1].stamp <= frames[index].stamp - stamp ? index - 1 : index;
 }
 
-/// Each frame keeps the nearest of the pictures that it is nearest to.
-void associate(const PictureList& list, std::size_t camera, Stamp half,
+/// Each frame keeps the nearest of the images that it is nearest to.
+void associate(const ImageList& list, std::size_t camera, Stamp half,
                std::vector<RecordedFrame>& frames) {
   std::vector<Stamp> off(frames.size(), half + 1);
   int differ = 0;
   Stamp most = 0;
-  for (const PictureList::Entry& entry : list.entries) {
+  for (const ImageList::Entry& entry : list.entries) {
     const std::size_t index = nearest_frame(frames, entry.stamp);
     RecordedFrame& frame = frames[index];
     const Stamp distance = std::abs(entry.stamp - frame.stamp);
@@ -74,22 +74,22 @@ void associate(const PictureList& list, std::size_t camera, Stamp half,
 
 }  // namespace
 
-void put_in_order(PictureList& list) {
-  std::vector<PictureList::Entry>& entries = list.entries;
+void put_in_order(ImageList& list) {
+  std::vector<ImageList::Entry>& entries = list.entries;
   Stamp latest = entries.empty() ? 0 : entries.front().stamp;
-  for (const PictureList::Entry& entry : entries) {
+  for (const ImageList::Entry& entry : entries) {
     if (entry.stamp < latest) ++list.out_of_order;
     latest = std::max(latest, entry.stamp);
   }
-  std::ranges::stable_sort(entries, {}, &PictureList::Entry::stamp);
-  const auto repeated = std::ranges::unique(entries, {}, &PictureList::Entry::stamp);
+  std::ranges::stable_sort(entries, {}, &ImageList::Entry::stamp);
+  const auto repeated = std::ranges::unique(entries, {}, &ImageList::Entry::stamp);
   list.repeated = static_cast<int>(repeated.size());
   entries.erase(repeated.begin(), repeated.end());
 }
 
-std::vector<Stamp> instants_of(const PictureList& list) {
+std::vector<Stamp> instants_of(const ImageList& list) {
   std::vector<Stamp> instants;
-  for (const PictureList::Entry& entry : list.entries) instants.push_back(entry.stamp);
+  for (const ImageList::Entry& entry : list.entries) instants.push_back(entry.stamp);
   return instants;
 }
 
@@ -102,8 +102,8 @@ Stamp median_period(const std::vector<Stamp>& instants) {
   return *middle;
 }
 
-std::vector<RecordedFrame> associate_pictures(const std::vector<PictureList>& lists,
-                                              const std::vector<Stamp>& instants) {
+std::vector<RecordedFrame> associate_images(const std::vector<ImageList>& lists,
+                                            const std::vector<Stamp>& instants) {
   std::vector<RecordedFrame> frames;
   for (const Stamp stamp : instants) {
     frames.push_back({stamp, std::vector<std::filesystem::path>(lists.size()), {}});

@@ -11,7 +11,7 @@
 namespace vinebench {
 
 /// What one camera of a recording took, as its list has it.
-struct PictureList {
+struct ImageList {
   struct Entry {
     Stamp stamp = 0;
     std::filesystem::path file;
@@ -23,15 +23,15 @@ struct PictureList {
 };
 
 /// Puts a list into the order of time and counts what was wrong.
-void put_in_order(PictureList& list);
+void put_in_order(ImageList& list);
 
-/// Frames at the given instants, which ascend. Each takes of each list the picture nearest in time,
-/// at most half a frame away, and no picture twice. What finds no frame, what a list has wrong and
+/// Frames at the given instants, which ascend. Each takes of each list the image nearest in time,
+/// at most half a frame away, and no image twice. What finds no frame, what a list has wrong and
 /// gaps between the instants become events.
-std::vector<RecordedFrame> associate_pictures(const std::vector<PictureList>& lists,
-                                              const std::vector<Stamp>& instants);
+std::vector<RecordedFrame> associate_images(const std::vector<ImageList>& lists,
+                                            const std::vector<Stamp>& instants);
 
-std::vector<Stamp> instants_of(const PictureList& list);
+std::vector<Stamp> instants_of(const ImageList& list);
 
 /// The median time between neighbours, ns; 0 for less than two.
 Stamp median_period(const std::vector<Stamp>& instants);

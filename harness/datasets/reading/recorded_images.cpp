@@ -20,7 +20,7 @@ cv::Mat read_grey(const std::filesystem::path& file) {
   return grey;
 }
 
-cv::Size first_picture_size(const Recording& recording, std::size_t camera) {
+cv::Size first_image_size(const Recording& recording, std::size_t camera) {
   for (const RecordedFrame& frame : recording.frames) {
     const std::filesystem::path& file = frame.images[camera];
     const cv::Mat image = file.empty() ? cv::Mat() : read_grey(file);

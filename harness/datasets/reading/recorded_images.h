@@ -8,11 +8,11 @@
 
 namespace vinebench {
 
-/// A picture file in eight bits of grey, as the SLAM core would make it grey; empty where the file
-/// is no whole picture.
+/// An image file in eight bits of grey, as the SLAM core would make it grey; empty where the file
+/// is no whole image.
 cv::Mat read_grey(const std::filesystem::path& file);
 
-/// Of the first picture of that camera that can be read; empty where none can.
-cv::Size first_picture_size(const Recording& recording, std::size_t camera);
+/// Of the first image of that camera that can be read; empty where none can.
+cv::Size first_image_size(const Recording& recording, std::size_t camera);
 
 }  // namespace vinebench

@@ -26,7 +26,7 @@ void expect_ros_name(const std::string& name) {
        name);
 }
 
-/// `shift` is P's fourth number: -fx times the baseline in a right eye.
+/// `shift` is P's fourth number: -fx times the baseline in a right camera.
 std::array<double, 12> projection(const PinholeCamera& lens, double shift) {
   return {lens.fx, 0, lens.cx, shift, 0, lens.fy, lens.cy, 0, 0, 0, 1, 0};
 }
@@ -55,19 +55,19 @@ RosCamera alone(const RigCamera& camera) {
   return ros;
 }
 
-/// Tells the two eyes how their pictures become those of a rectified pair.
+/// Tells the two cameras how their images become those of a rectified pair.
 void rectify(const Rig& rig, const StereoPair& pair, std::vector<RosCamera>& cameras) {
   const auto left = static_cast<std::size_t>(pair.left);
   const auto right = static_cast<std::size_t>(pair.right);
   const Rectification view(rig.cameras[left], rig.cameras[right],
                            fmt::format("ros: pair '{}'", pair.name));
-  for (const std::size_t eye : {left, right}) {
-    const RigCamera& camera = rig.cameras[eye];
-    cameras[eye].images = fmt::format("/{}/image_raw", camera.name);
-    cameras[eye].calibration.R = rows_of(
+  for (const std::size_t camera : {left, right}) {
+    const RigCamera& camera = rig.cameras[camera];
+    cameras[camera].images = fmt::format("/{}/image_raw", camera.name);
+    cameras[camera].calibration.R = rows_of(
         (view.T_body_left().rotation.conjugate() * camera.T_body_cam.rotation).toRotationMatrix());
-    const double shift = eye == right ? -view.lens().fx * view.baseline() : 0;
-    cameras[eye].calibration.P = projection(view.lens(), shift);
+    const double shift = camera == right ? -view.lens().fx * view.baseline() : 0;
+    cameras[camera].calibration.P = projection(view.lens(), shift);
   }
 }
 

@@ -16,8 +16,8 @@ constexpr const char* kBody = "base_link";
 // Not above the body: base_link's place is what a SLAM system is to say.
 constexpr const char* kTruth = "ground_truth";
 
-std::optional<PictureKind> checked(std::optional<PictureKind> kind) {
-  if (kind == PictureKind::kWebp) fail("ros: --image webp: expected png or jpg, or raw pictures");
+std::optional<ImageKind> checked(std::optional<ImageKind> kind) {
+  if (kind == ImageKind::kWebp) fail("ros: --image webp: expected png or jpg, or raw images");
   return kind;
 }
 
@@ -34,21 +34,21 @@ double variance(const InertialAxesConfig& axes, double rate_hz) {
   return axes.noise_density * axes.noise_density * rate_hz;
 }
 
-std::string raw_bytes(const cv::Mat& picture) {
-  const cv::Mat whole = picture.isContinuous() ? picture : picture.clone();
+std::string raw_bytes(const cv::Mat& image) {
+  const cv::Mat whole = image.isContinuous() ? image : image.clone();
   return {whole.ptr<char>(), whole.total() * whole.elemSize()};
 }
 
 }  // namespace
 
 RosFormat::RosFormat(const std::filesystem::path& folder, const RecordingNotes& notes, bool colour,
-                     std::optional<PictureKind> kind)
+                     std::optional<ImageKind> kind)
     : notes_(notes),
       rig_(notes.rig.make()),
       colour_(colour),
       kind_(checked(kind)),
       cameras_(ros_cameras(rig_)),
-      pictures_(cameras_.size()),
+      images_(cameras_.size()),
       detector_(notes.slam.tags, notes.tags),
       bag_(make_folder(folder) / "run.bag") {
   if (!kind_) return;
@@ -58,23 +58,23 @@ RosFormat::RosFormat(const std::filesystem::path& folder, const RecordingNotes& 
 std::vector<FileTask> RosFormat::files(const std::shared_ptr<const DatasetFrame>& frame) {
   std::vector<FileTask> tasks;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
-    if (!frame->frame.images[i].empty()) tasks.push_back(picture_task(frame, i));
+    if (!frame->frame.images[i].empty()) tasks.push_back(image_task(frame, i));
   }
   return tasks;
 }
 
-FileTask RosFormat::picture_task(const std::shared_ptr<const DatasetFrame>& frame,
-                                 std::size_t camera) {
+FileTask RosFormat::image_task(const std::shared_ptr<const DatasetFrame>& frame,
+                               std::size_t camera) {
   const std::string coding =
       kind_ ? yaml_names(*kind_).at(static_cast<std::size_t>(*kind_)) : "raw";
   return {fmt::format("{} {} {}", colour_ ? "rgb" : "grey", coding, camera),
           {},
           [frame, camera, colour = colour_, kind = kind_] {
             const cv::Mat& image = frame->frame.images[camera];
-            const cv::Mat picture = colour ? image : to_grey(image);
-            return kind ? encode_picture(picture, *kind) : raw_bytes(picture);
+            const cv::Mat image = colour ? image : to_grey(image);
+            return kind ? encode_image(image, *kind) : raw_bytes(image);
           },
-          [this, camera](const std::string& bytes) { pictures_[camera] = bytes; }};
+          [this, camera](const std::string& bytes) { images_[camera] = bytes; }};
 }
 
 void RosFormat::commit(const DatasetFrame& written) {
@@ -82,7 +82,7 @@ void RosFormat::commit(const DatasetFrame& written) {
   write_readings(frame);
   if (written.truth.known) write_truth({frame.stamp, written.truth.T_world_body});
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
-    if (!frame.images[i].empty()) write_picture(i, frame.images[i], frame.stamp);
+    if (!frame.images[i].empty()) write_image(i, frame.images[i], frame.stamp);
   }
   write_tags(frame);
   bag_.end_chunk();
@@ -153,13 +153,13 @@ void RosFormat::write_truth(const StampedPose& now) {
   bag_.write("/ground_truth", odometry);
 }
 
-void RosFormat::write_picture(std::size_t camera, const cv::Mat& image, Stamp stamp) {
+void RosFormat::write_image(std::size_t camera, const cv::Mat& image, Stamp stamp) {
   RosCamera& told = cameras_[camera];
   const RosHeader at = header(stamp, told.frame);
-  std::string bytes = std::move(pictures_[camera]);
+  std::string bytes = std::move(images_[camera]);
   if (kind_) {
     bag_.write(told.images,
-               RosCompressedImage{at, kind_ == PictureKind::kJpeg ? "jpeg" : "png", bytes});
+               RosCompressedImage{at, kind_ == ImageKind::kJpeg ? "jpeg" : "png", bytes});
   } else {
     const bool rgb = colour_ && image.channels() == 3;
     bag_.write(told.images, RosImage{at, image.cols, image.rows, rgb ? "rgb8" : "mono8", bytes});

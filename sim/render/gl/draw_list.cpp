@@ -41,7 +41,7 @@ class View {
        double lod_scale, const RoverShadow* shadow)
       : scene_(scene),
         frustum_(camera),
-        eye_(T_world_cam.translation),
+        camera_(T_world_cam.translation),
         cam_from_world_(T_world_cam.inverse().matrix()),
         nearer_(kLevelFocalLength / (lod_scale * std::max(camera.fx, camera.fy))),
         shadow_(shadow) {}
@@ -69,16 +69,16 @@ class View {
     if (level_of(model, at_least * nearer_) < 0) return;
     const Eigen::Matrix4d cam_from_model = cam_from_world_ * instance.world_from_model;
     if (!frustum_.may_see(model.bounds, cam_from_model)) return;
-    const Eigen::Vector3d eye = (instance.model_from_world * eye_.homogeneous()).head<3>();
+    const Eigen::Vector3d camera = (instance.model_from_world * camera_.homogeneous()).head<3>();
     const Eigen::AlignedBox3d bounds = model.bounds.cast<double>();
-    const double distance = bounds.exteriorDistance(eye) * instance.scale;
+    const double distance = bounds.exteriorDistance(camera) * instance.scale;
     const int level = level_of(model, distance * nearer_);
     if (level < 0) return;
     Visible& v = visible_.emplace_back();
     v.shell = shell_of(distance, model.ordered);
     v.model = instance.model;
     v.level = level;
-    v.order = model.ordered ? draw_order(eye - bounds.center()) : 0;
+    v.order = model.ordered ? draw_order(camera - bounds.center()) : 0;
     v.shaded = shadow_ != nullptr && shadow_->may_shade(instance.centre, instance.radius);
     v.row = {cam_from_model.topRows<3>().cast<float>(), static_cast<std::uint32_t>(index + 1)};
   }
@@ -102,7 +102,7 @@ class View {
  private:
   const GpuScene& scene_;
   Frustum frustum_;
-  Eigen::Vector3d eye_;
+  Eigen::Vector3d camera_;
   Eigen::Matrix4d cam_from_world_;
   double nearer_;  ///< distances of levels are for kLevelFocalLength
   const RoverShadow* shadow_;

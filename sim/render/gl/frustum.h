@@ -15,7 +15,7 @@ inline constexpr double kNearPlane = 0.03;  ///< m along the optical axis
 inline constexpr double kFarPlane = 200.0;  ///< m
 
 /// Takes a point of the camera's frame to OpenGL's clip space, such that it lands on the pixel
-/// where `camera` projects it. The first row of the picture is at the bottom of OpenGL's window, so
+/// where `camera` projects it. The first row of the image is at the bottom of OpenGL's window, so
 /// that pixels read back come top row first; this mirrors the window, and front faces turn
 /// clockwise.
 Eigen::Matrix4d clip_from_cam(const PinholeCamera& camera);

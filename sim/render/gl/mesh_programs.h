@@ -11,7 +11,7 @@
 namespace vinebench {
 
 /// Texture units of all programs.
-inline constexpr GLint kPictureUnit = 0;
+inline constexpr GLint kImageUnit = 0;
 inline constexpr GLint kShadowUnit = 1;
 inline constexpr GLint kGroundLightUnit = 2;
 inline constexpr GLint kCoarseShadowUnit = 3;

@@ -7,7 +7,7 @@
 
 namespace vinebench {
 
-/// A picture (CV_8UC4, sRGB) at full, half, quarter, ... size down to one pixel. Light is averaged
+/// An image (CV_8UC4, sRGB) at full, half, quarter, ... size down to one pixel. Light is averaged
 /// as light. In a cut-out the alpha of each level is scaled so that the same share of it passes one
 /// half as in the finest level: far leaves keep their area.
 std::vector<cv::Mat> mip_levels(const cv::Mat& rgba, bool cutout);

@@ -9,13 +9,13 @@
 namespace vinebench {
 namespace {
 
-/// Draws into the picture, or not, and into what is asked for of the truth.
-void draw_into(bool picture, const TruthParts& truth) {
+/// Draws into the image, or not, and into what is asked for of the truth.
+void draw_into(bool image, const TruthParts& truth) {
   const auto target = [](bool wanted, GLenum attachment) -> GLenum {
     return wanted ? attachment : GL_NONE;
   };
   const std::array targets{
-      target(picture, GL_COLOR_ATTACHMENT0), target(truth.instances, GL_COLOR_ATTACHMENT1),
+      target(image, GL_COLOR_ATTACHMENT0), target(truth.instances, GL_COLOR_ATTACHMENT1),
       target(truth.normals, GL_COLOR_ATTACHMENT2), target(truth.motion, GL_COLOR_ATTACHMENT3)};
   gl.DrawBuffers(truth.any() ? static_cast<GLsizei>(targets.size()) : 1, targets.data());
 }
@@ -29,7 +29,7 @@ Painter::Painter(const Scene& scene, int shadow_map_size)
       rover_shadow_(scene_, shadow_map_size),
       coarse_shadows_(make_coarse_depth_sampler()),
       sky_program_("sky", sky_vertex_shader(), sky_fragment_shader()),
-      sky_(make_texture({sky_picture(scene.light, scene.seed)}, false)),
+      sky_(make_texture({sky_image(scene.light, scene.seed)}, false)),
       no_vertices_(make_vertex_array()),
       wire_program_("wire", wire_vertex_shader(), wire_fragment_shader(false)),
       wire_truth_program_("truth of a wire", wire_vertex_shader(), wire_fragment_shader(true)) {
@@ -89,7 +89,7 @@ void Painter::draw_sky(const ViewBlock& view) const {
   ray_from_clip.topRows<3>() = (R_world_cam * ray_from_clip.topRows<3>()).eval();
   gl.UniformMatrix4fv(sky_program_.uniform("ray_from_clip"), 1, GL_FALSE, ray_from_clip.data());
   gl.Disable(GL_CULL_FACE);
-  bind_texture(kPictureUnit, sky_);
+  bind_texture(kImageUnit, sky_);
   gl.BindVertexArray(no_vertices_.get());
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -138,7 +138,7 @@ void Painter::bind_maps() const {
   bind_texture(kCoarseShadowUnit, shadow_map_.texture());
   gl.BindSampler(kCoarseShadowUnit, coarse_shadows_.get());
   bind_texture(kRoverShadowUnit, rover_shadow_.texture());
-  gl.ActiveTexture(GL_TEXTURE0 + kPictureUnit);
+  gl.ActiveTexture(GL_TEXTURE0 + kImageUnit);
 }
 
 void Painter::draw(const GlTarget& target, const PinholeCamera& camera, const Pose& T_world_cam,

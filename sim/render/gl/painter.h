@@ -13,7 +13,7 @@
 
 namespace vinebench {
 
-/// What a view draws beside its picture. Depth of wires comes with any of it.
+/// What a view draws beside its image. Depth of wires comes with any of it.
 struct TruthParts {
   bool depth = false;
   bool instances = false;

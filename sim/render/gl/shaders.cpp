@@ -22,9 +22,9 @@ layout(std140, binding = 0) uniform View {
   vec4 bounce;
   vec4 haze;         // encoded colour, extinction in 1/m
   vec4 light_map;    // scale and offset from the world's x and y to the map
-  vec4 gust;         // direction and length of the sway in m, time in s, time of the other picture
+  vec4 gust;         // direction and length of the sway in m, time in s, time of the other image
   vec4 gust_phase;
-  vec4 lens;         // focal length in px, brightness of the light map, of the sky's picture
+  vec4 lens;         // focal length in px, brightness of the light map, of the sky's image
 };
 )";
 
@@ -161,7 +161,7 @@ void main() {
 
 constexpr const char* kMeshFragment = R"(
 uniform vec4 surface;
-layout(binding = 0) uniform sampler2D picture;
+layout(binding = 0) uniform sampler2D image;
 in vec2 v_uv;
 #ifdef TRUTH
 flat in uvec2 v_id;
@@ -207,7 +207,7 @@ void main() {
   vec3 across = cross(dFdx(v_place), dFdy(v_place));
 #endif
 #ifdef TEXTURED
-  vec4 texel = texture(picture, v_uv);
+  vec4 texel = texture(image, v_uv);
 #ifdef CUTOUT
   if (texel.a < 0.5) discard;
 #endif
@@ -262,12 +262,12 @@ void main() {
 )";
 
 constexpr const char* kShadowFragment = R"(
-layout(binding = 0) uniform sampler2D picture;
+layout(binding = 0) uniform sampler2D image;
 in vec2 v_uv;
 
 void main() {
 #ifdef CUTOUT
-  if (texture(picture, v_uv).a < 0.5) discard;
+  if (texture(image, v_uv).a < 0.5) discard;
 #endif
 }
 )";
@@ -283,15 +283,15 @@ void main() {
 }
 )";
 
-// The sky's picture is a parabolic map: uv = ray.xy / (1 + ray.z), which reaches below the horizon.
+// The sky's image is a parabolic map: uv = ray.xy / (1 + ray.z), which reaches below the horizon.
 constexpr const char* kSkyFragment = R"(
-layout(binding = 0) uniform sampler2D picture;
+layout(binding = 0) uniform sampler2D image;
 in vec3 v_ray;
 layout(location = 0) out vec4 colour;
 
 void main() {
   vec2 p = v_ray.xy / (length(v_ray) + v_ray.z);
-  colour = vec4(texture(picture, p * (0.5 / 1.4) + 0.5).rgb * lens.z, 0.0);
+  colour = vec4(texture(image, p * (0.5 / 1.4) + 0.5).rgb * lens.z, 0.0);
 }
 )";
 

@@ -36,7 +36,7 @@ struct MeshShader {
 // each instance 4 to 6 the rows of the matrix that takes the model to the camera (or the light),
 // 7 its number. All shaders share the uniform block View; its layout is ViewBlock's.
 
-/// Lights in the vertices. Light enters the picture by c = texture * encode(light): with sRGB taken
+/// Lights in the vertices. Light enters the image by c = texture * encode(light): with sRGB taken
 /// as the power 2.2, encode(a * b) = encode(a) * encode(b), so no pixel needs a power function.
 std::string mesh_vertex_shader(const MeshShader& shader);
 std::string mesh_fragment_shader(const MeshShader& shader);
@@ -45,7 +45,7 @@ std::string mesh_fragment_shader(const MeshShader& shader);
 std::string shadow_vertex_shader();
 std::string shadow_fragment_shader(bool cutout);
 
-/// One triangle over the whole picture, behind everything.
+/// One triangle over the whole image, behind everything.
 std::string sky_vertex_shader();
 std::string sky_fragment_shader();
 

@@ -82,9 +82,9 @@ Eigen::Vector3d sky_light(const Light& light, const RandomStream& stream,
 
 }  // namespace
 
-cv::Mat sky_picture(const Light& light, std::uint64_t seed) {
+cv::Mat sky_image(const Light& light, std::uint64_t seed) {
   const RandomStream stream(seed, "renderer.clouds");
-  cv::Mat picture(kSize, kSize, CV_8UC4);
+  cv::Mat image(kSize, kSize, CV_8UC4);
   for (int row = 0; row < kSize; ++row) {
     for (int column = 0; column < kSize; ++column) {
       const Eigen::Vector2d p =
@@ -92,7 +92,7 @@ cv::Mat sky_picture(const Light& light, std::uint64_t seed) {
       const double q = p.squaredNorm();
       const Eigen::Vector3d ray(2 * p.x() / (1 + q), 2 * p.y() / (1 + q), (1 - q) / (1 + q));
       const Eigen::Vector3d c = sky_light(light, stream, ray);
-      cv::Vec4b& pixel = picture.at<cv::Vec4b>(row, column);
+      cv::Vec4b& pixel = image.at<cv::Vec4b>(row, column);
       for (int i = 0; i < 3; ++i) {
         pixel[i] = cv::saturate_cast<std::uint8_t>(255 / kSkyBrightest *
                                                    std::pow(std::max(0.0, c[i]), 1 / 2.2));
@@ -100,7 +100,7 @@ cv::Mat sky_picture(const Light& light, std::uint64_t seed) {
       pixel[3] = 255;
     }
   }
-  return picture;
+  return image;
 }
 
 }  // namespace vinebench

@@ -43,7 +43,7 @@ struct ViewSettings {
 ViewBlock make_view_block(const PinholeCamera& camera, const Pose& T_world_cam, const Light& light,
                           const Wind& wind, const ViewSettings& settings);
 
-/// How a light value is stored in a picture: sRGB taken as the power 1 / 2.2.
+/// How a light value is stored in an image: sRGB taken as the power 1 / 2.2.
 float encoded(double light);
 
 /// The light at the horizon, which haze fades to; linear RGB.

@@ -108,7 +108,7 @@ void copy(const Eigen::Vector3d& from, float* to) {
   Eigen::Map<Eigen::Vector3f>{to} = from.cast<float>();
 }
 
-/// MuJoCo's frustum is as wide as the picture's shape makes it; only its middle may be set.
+/// MuJoCo's frustum is as wide as the image's shape makes it; only its middle may be set.
 mjvGLCamera gl_camera(const PinholeCamera& camera, const Pose& T_world_cam) {
   mjvGLCamera view{};
   copy(T_world_cam.translation, view.pos);

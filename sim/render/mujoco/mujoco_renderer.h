@@ -13,10 +13,10 @@
 namespace vinebench {
 
 struct MujocoRendererConfig {
-  int width = 752;            ///< px, of the largest picture
+  int width = 752;            ///< px, of the largest image
   int height = 480;           ///< px
   double level_distance = 0;  ///< m, for MujocoScene: 0 takes the finest meshes
-  bool shadows = false;       ///< drawn anew for each picture, as MuJoCo does
+  bool shadows = false;       ///< drawn anew for each image, as MuJoCo does
 };
 
 /// MuJoCo's own renderer on a software context, for comparison only. It lives and is used in one

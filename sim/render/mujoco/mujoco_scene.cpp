@@ -76,7 +76,7 @@ Bytes msh_file(const Primitive& primitive) {
   return file;
 }
 
-/// MuJoCo's own format of pictures: width, height, RGB.
+/// MuJoCo's own format of images: width, height, RGB.
 Bytes texture_file(const Texture& texture) {
   const std::array<std::int32_t, 2> header{texture.rgba.cols, texture.rgba.rows};
   Bytes file;

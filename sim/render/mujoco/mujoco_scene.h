@@ -17,7 +17,7 @@ class MujocoScene {
   /// Takes each model at the level of detail that is drawn `level_distance` m from a camera of
   /// kLevelFocalLength (MuJoCo knows no levels); what is no longer drawn there is left out. Cut-out
   /// textures become opaque (MuJoCo's have no alpha), wires become cylinders. `width` x `height`
-  /// is the largest picture to be drawn, px. Throws Error with MuJoCo's reason.
+  /// is the largest image to be drawn, px. Throws Error with MuJoCo's reason.
   MujocoScene(const Scene& scene, double level_distance, int width, int height);
 
   const mjModel& model() const { return *model_; }

@@ -13,20 +13,21 @@
 namespace vinebench {
 namespace {
 
-using Layer = cv::Mat Picture::*;
-constexpr std::array<Layer, 6> kLayers{&Picture::rgb,       &Picture::labels,  &Picture::depth,
-                                       &Picture::instances, &Picture::normals, &Picture::motion};
+using Layer = cv::Mat RenderedImage::*;
+constexpr std::array<Layer, 6> kLayers{&RenderedImage::rgb,     &RenderedImage::labels,
+                                       &RenderedImage::depth,   &RenderedImage::instances,
+                                       &RenderedImage::normals, &RenderedImage::motion};
 
 /// Instant of a sub-frame, off the middle of the exposure.
 Stamp subframe_offset(int subframe, int count, double exposure_time) {
   return from_seconds(((subframe + 0.5) / count - 0.5) * exposure_time);
 }
 
-/// Puts a band of rows into a whole picture, begun where it is empty.
-void put_rows(const cv::Mat& band, int top, cv::Size whole, cv::Mat& picture) {
+/// Puts a band of rows into a whole image, begun where it is empty.
+void put_rows(const cv::Mat& band, int top, cv::Size whole, cv::Mat& image) {
   if (band.empty()) return;
-  if (picture.empty()) picture.create(whole, band.type());
-  band.copyTo(picture.rowRange(top, top + band.rows));
+  if (image.empty()) image.create(whole, band.type());
+  band.copyTo(image.rowRange(top, top + band.rows));
 }
 
 }  // namespace
@@ -41,12 +42,12 @@ CameraSensor::CameraSensor(const CameraSensorConfig& config, const RigCamera& ca
       photon_transfer_(config.noise, config.gamma) {
   const cv::Size size(camera.model.width, camera.model.height);
   for (const LensDirtConfig& dirt : config.dirt) {
-    if (dirt.scope.befalls(camera.name)) {
+    if (dirt.scope.applies_to(camera.name)) {
       covers_.push_back(make_lens_dirt(dirt, size, seed, index));
     }
   }
   for (const LensLeafConfig& leaf : config.leaves) {
-    if (leaf.scope.befalls(camera.name)) covers_.push_back(make_lens_leaf(leaf, size));
+    if (leaf.scope.applies_to(camera.name)) covers_.push_back(make_lens_leaf(leaf, size));
   }
   if (!config.vignetting.is_off()) vignette_ = vignette(config.vignetting, camera.model);
   if (!config.fixed_pattern.is_off()) {
@@ -59,20 +60,21 @@ Stamp CameraSensor::truth_instant(const Shot& shot) const {
   return shot.instant + subframe_offset(count / 2, count, shot.exposure.time);
 }
 
-Picture CameraSensor::capture(const Shot& shot, const PoseAt& T_world_body, const Render& render) {
-  Picture picture = expose(shot, T_world_body, render);
-  develop(picture.rgb, shot);
-  return picture;
+RenderedImage CameraSensor::capture(const Shot& shot, const PoseAt& T_world_body,
+                                    const Render& render) {
+  RenderedImage image = expose(shot, T_world_body, render);
+  develop(image.rgb, shot);
+  return image;
 }
 
 /// Colours are codes, or light where they are a mean.
-Picture CameraSensor::expose(const Shot& shot, const PoseAt& T_world_body,
-                             const Render& render) const {
+RenderedImage CameraSensor::expose(const Shot& shot, const PoseAt& T_world_body,
+                                   const Render& render) const {
   if (bands_.size() == 1) return expose_band(0, shot, T_world_body, render);
   const cv::Size size(camera_.model.width, camera_.model.height);
-  Picture whole;
+  RenderedImage whole;
   for (std::size_t i = 0; i < bands_.size(); ++i) {
-    const Picture part = expose_band(i, shot, T_world_body, render);
+    const RenderedImage part = expose_band(i, shot, T_world_body, render);
     for (const Layer layer : kLayers) {
       put_rows(part.*layer, bands_[i].top, size, whole.*layer);
     }
@@ -80,8 +82,8 @@ Picture CameraSensor::expose(const Shot& shot, const PoseAt& T_world_body,
   return whole;
 }
 
-Picture CameraSensor::expose_band(std::size_t index, const Shot& shot, const PoseAt& T_world_body,
-                                  const Render& render) const {
+RenderedImage CameraSensor::expose_band(std::size_t index, const Shot& shot,
+                                        const PoseAt& T_world_body, const Render& render) const {
   const LensBand& band = bands_[index];
   const int count = config_.blur_subframes;
   const Stamp middle = shot.instant + readout_delay(band);
@@ -89,7 +91,7 @@ Picture CameraSensor::expose_band(std::size_t index, const Shot& shot, const Pos
   colours.exposure = shot.exposure.factor(config_.exposure.reference_time);
   Renderer::Request everything = shot.request;
   everything.exposure = colours.exposure;
-  Picture result;
+  RenderedImage result;
   cv::Mat light;
   for (int i = 0; i < count; ++i) {
     const Stamp stamp = middle + subframe_offset(i, count, shot.exposure.time);
@@ -97,13 +99,13 @@ Picture CameraSensor::expose_band(std::size_t index, const Shot& shot, const Pos
     Renderer::Request& request = i == count / 2 ? everything : colours;
     request.T_world_rover = T_world_rover;
     request.time = to_seconds(stamp);
-    Picture drawn = render(band.view, T_world_rover * camera_.T_body_cam, request);
+    RenderedImage drawn = render(band.view, T_world_rover * camera_.T_body_cam, request);
     if (count > 1) add_light(drawn.rgb, 1.0f / static_cast<float>(count), light);
     if (i == count / 2) result = std::move(drawn);
   }
   if (count > 1) result.rgb = light;
   for (const Layer layer : kLayers) {
-    result.*layer = band.resample(result.*layer, layer != &Picture::rgb);
+    result.*layer = band.resample(result.*layer, layer != &RenderedImage::rgb);
   }
   return result;
 }
@@ -118,28 +120,28 @@ Stamp CameraSensor::readout_delay(const LensBand& band) const {
 bool CameraSensor::changes_light(Stamp instant) const {
   return !vignette_.empty() || fixed_pattern_ ||
          std::ranges::any_of(covers_,
-                             [&](const LensCover& c) { return c.scope.holds_at(instant); });
+                             [&](const LensCover& c) { return c.scope.is_active(instant); });
 }
 
-void CameraSensor::develop(cv::Mat& picture, const Shot& shot) {
-  if (picture.depth() == CV_8U && changes_light(shot.instant)) picture = to_light(picture);
-  if (picture.depth() == CV_32F) {
-    dim_and_cover(picture, shot);
-    picture = to_codes(picture);
+void CameraSensor::develop(cv::Mat& image, const Shot& shot) {
+  if (image.depth() == CV_8U && changes_light(shot.instant)) image = to_light(image);
+  if (image.depth() == CV_32F) {
+    dim_and_cover(image, shot);
+    image = to_codes(image);
   }
   const bool filters_colours = config_.bayer != BayerPattern::kNone;
-  if (filters_colours) picture = mosaic(picture, config_.bayer);
+  if (filters_colours) image = mosaic(image, config_.bayer);
   if (!photon_transfer_.is_identity()) {
     photon_transfer_.set_gain(shot.exposure.gain_db);
-    photon_transfer_.apply(picture, RandomStream(seed_, "sensor.noise." + std::to_string(index_),
-                                                 static_cast<std::uint64_t>(shot.frame)));
+    photon_transfer_.apply(image, RandomStream(seed_, "sensor.noise." + std::to_string(index_),
+                                               static_cast<std::uint64_t>(shot.frame)));
   }
-  if (filters_colours) picture = demosaic(picture, config_.bayer);
+  if (filters_colours) image = demosaic(image, config_.bayer);
 }
 
 void CameraSensor::dim_and_cover(cv::Mat& light, const Shot& shot) const {
   for (const LensCover& cover : covers_) {
-    if (cover.scope.holds_at(shot.instant)) cover.apply(light);
+    if (cover.scope.is_active(shot.instant)) cover.apply(light);
   }
   if (!vignette_.empty()) {
     for (int y = 0; y < light.rows; ++y) {

@@ -21,7 +21,7 @@
 
 namespace vinebench {
 
-/// How the cameras make pictures of what is before them. Only the noise is on by default.
+/// How the cameras make images of what is before them. Only the noise is on by default.
 struct CameraSensorConfig {
   ExposureConfig exposure;
   PhotonTransferConfig noise;
@@ -48,20 +48,20 @@ struct CameraSensorConfig {
     archive("dirt", dirt);
     archive("leaves", leaves);
   }
-  /// How long before and after its instant a picture can be exposed at most, s.
+  /// How long before and after its instant an image can be exposed at most, s.
   double half_window() const {
     return 0.5 * readout_time + (blur_subframes > 1 ? 0.5 * exposure.longest() : 0);
   }
 };
 
-/// One camera: from the scene to the picture that it delivers.
+/// One camera: from the scene to the image that it delivers.
 ///
 /// In the order of the light's way: the scene is drawn at the instants of the sub-frames and bands
 /// of rows, with the exposure's factor; averaged as linear light; bent by the lens; covered by what
 /// sticks to the glass; dimmed towards the corners; and then, per pixel of the sensor, given its
 /// fixed pattern, filtered for colour, amplified with noise, saturated, encoded to 8 bits and
 /// interpolated to full colour. An effect that is off costs nothing, and with all of them off the
-/// picture is the renderer's to the byte.
+/// image is the renderer's to the byte.
 class CameraSensor {
  public:
   /// `camera` is the true one, the `index`-th of the rig.
@@ -76,21 +76,21 @@ class CameraSensor {
   };
   /// The body's pose at an instant within half_window() of the shot's.
   using PoseAt = std::function<Pose(Stamp)>;
-  using Render = std::function<Picture(const PinholeCamera&, const Pose& T_world_cam,
-                                       const Renderer::Request&)>;
+  using Render = std::function<RenderedImage(const PinholeCamera&, const Pose& T_world_cam,
+                                             const Renderer::Request&)>;
 
   /// All but the colours is that of the middle sub-frame, through the same lens.
-  Picture capture(const Shot& shot, const PoseAt& T_world_body, const Render& render);
+  RenderedImage capture(const Shot& shot, const PoseAt& T_world_body, const Render& render);
 
   /// When that sub-frame of the middle row is: of an even number the one after the middle.
   Stamp truth_instant(const Shot& shot) const;
 
  private:
-  Picture expose(const Shot& shot, const PoseAt& T_world_body, const Render& render) const;
-  Picture expose_band(std::size_t band, const Shot& shot, const PoseAt& T_world_body,
-                      const Render& render) const;
+  RenderedImage expose(const Shot& shot, const PoseAt& T_world_body, const Render& render) const;
+  RenderedImage expose_band(std::size_t band, const Shot& shot, const PoseAt& T_world_body,
+                            const Render& render) const;
   Stamp readout_delay(const LensBand& band) const;
-  void develop(cv::Mat& picture, const Shot& shot);
+  void develop(cv::Mat& image, const Shot& shot);
   void dim_and_cover(cv::Mat& light, const Shot& shot) const;
   bool changes_light(Stamp instant) const;
 

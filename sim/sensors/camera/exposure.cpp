@@ -11,7 +11,7 @@
 namespace vinebench {
 namespace {
 
-constexpr double kDarkest = 1;  // grey levels; a black picture must not ask for endless light
+constexpr double kDarkest = 1;  // grey levels; a black image must not ask for endless light
 
 double from_db(double gain_db) {
   return std::pow(10.0, gain_db / 20);

@@ -10,10 +10,10 @@
 
 namespace vinebench {
 
-/// How long a picture is exposed and how much its signal is amplified. The scene as it is rendered
+/// How long an image is exposed and how much its signal is amplified. The scene as it is rendered
 /// is what `reference_time` at 0 dB makes of it.
 struct ExposureConfig {
-  double time = 0.002;            ///< s; with `automatic`, of the first picture
+  double time = 0.002;            ///< s; with `automatic`, of the first image
   double gain_db = 0;             ///< dB; 20 dB are ten times the signal
   double reference_time = 0.002;  ///< s
   bool automatic = false;
@@ -39,7 +39,7 @@ struct ExposureConfig {
   double longest() const { return automatic ? max_time : time; }
 };
 
-/// What one picture is taken with.
+/// What one image is taken with.
 struct Exposure {
   double time = 0;     ///< s
   double gain_db = 0;  ///< dB
@@ -47,16 +47,16 @@ struct Exposure {
   double factor(double reference_time) const;
 };
 
-/// Sets exposure and gain of each camera of a rig from the pictures that it delivered before. The
+/// Sets exposure and gain of each camera of a rig from the images that it delivered before. The
 /// two cameras of a stereo pair share theirs.
 class ExposureControl {
  public:
   ExposureControl(const ExposureConfig& config, const Rig& rig);
 
-  /// Of that camera's next picture.
+  /// Of that camera's next image.
   const Exposure& of(std::size_t camera) const { return groups_[group_of_[camera]].exposure; }
 
-  /// Takes in the pictures of a frame, one a camera; empty ones were not delivered. The mean of a
+  /// Takes in the images of a frame, one a camera; empty ones were not delivered. The mean of a
   /// group's brightness moves the logarithm of its exposure towards the target's by a first-order
   /// lag: time is lengthened first, then the gain raised.
   void observe(const std::vector<cv::Mat>& images);
@@ -74,7 +74,7 @@ class ExposureControl {
   std::vector<std::size_t> group_of_;
 };
 
-/// Mean of a picture's codes (CV_8U, any channels), over every fourth row.
+/// Mean of an image's codes (CV_8U, any channels), over every fourth row.
 double mean_brightness(const cv::Mat& image);
 
 }  // namespace vinebench

@@ -10,7 +10,7 @@
 
 namespace vinebench {
 
-/// What a sensor's pixels have each of their own, the same in every picture. Off by default.
+/// What a sensor's pixels have each of their own, the same in every image. Off by default.
 struct FixedPatternConfig {
   double response = 0;             ///< standard deviation of a pixel's sensitivity, share (PRNU)
   double offset = 0;               ///< standard deviation of a pixel's black, electrons (DSNU)

@@ -47,7 +47,7 @@ std::array<float, 256> decoding_table() {
   return table;
 }
 
-/// Light of 0 to 1 in equal steps of its square root, where the eye's and the table's steps are
+/// Light of 0 to 1 in equal steps of its square root, where the camera's and the table's steps are
 /// about even, to a byte.
 constexpr int kSteps = 4096;
 std::array<std::uint8_t, kSteps + 1> encoding_table() {

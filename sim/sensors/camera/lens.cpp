@@ -26,7 +26,7 @@ cv::Mat seen_points(const PinholeCamera& camera) {
       if (!((camera.project(ray) - Eigen::Vector2d(x, y)).norm() < 1e-6)) {
         fail(
             "lens: the distortion ({}, {}, {}, {}) folds over at pixel ({}, {}), expected one that "
-            "grows steadily to the picture's corners",
+            "grows steadily to the image's corners",
             camera.distortion[0], camera.distortion[1], camera.distortion[2], camera.distortion[3],
             x, y);
       }
@@ -111,14 +111,14 @@ void add_map(LensBand& band, const PinholeCamera& whole, const cv::Mat& places) 
 
 }  // namespace
 
-cv::Mat LensBand::resample(const cv::Mat& picture, bool nearest) const {
-  if (map.empty() || picture.empty()) return picture;
+cv::Mat LensBand::resample(const cv::Mat& image, bool nearest) const {
+  if (map.empty() || image.empty()) return image;
   cv::Mat rows_seen;
   // Given the fractions too, OpenCV 4.6 takes the pixel that is not the nearest.
   if (nearest) {
-    cv::remap(picture, rows_seen, map_nearest, {}, cv::INTER_NEAREST, cv::BORDER_REPLICATE);
+    cv::remap(image, rows_seen, map_nearest, {}, cv::INTER_NEAREST, cv::BORDER_REPLICATE);
   } else {
-    cv::remap(picture, rows_seen, map, map_fraction, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
+    cv::remap(image, rows_seen, map, map_fraction, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
   }
   return rows_seen;
 }

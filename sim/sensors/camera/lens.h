@@ -9,7 +9,7 @@
 
 namespace vinebench {
 
-/// Some rows of a camera's picture and the ideal pinhole view that shows them.
+/// Some rows of a camera's image and the ideal pinhole view that shows them.
 struct LensBand {
   int top = 0;  ///< first row
   int rows = 0;
@@ -19,12 +19,12 @@ struct LensBand {
   cv::Mat map_nearest;   ///< CV_16SC2: the view's pixel that is nearest to this place
 
   /// From the view to the rows: bicubic for colours, the nearest pixel for everything else.
-  cv::Mat resample(const cv::Mat& picture, bool nearest) const;
+  cv::Mat resample(const cv::Mat& image, bool nearest) const;
 };
 
-/// Cuts a camera's picture into `count` bands of rows, top first. The view of a distorted lens is a
+/// Cuts a camera's image into `count` bands of rows, top first. The view of a distorted lens is a
 /// pinhole's of the same focal length, or one up to 1.5 times as long where the lens magnifies, so
-/// that no detail is lost. Throws Error for a distortion that folds over within the picture or
+/// that no detail is lost. Throws Error for a distortion that folds over within the image or
 /// needs a view of more than 8192 pixels a side.
 std::vector<LensBand> make_lens_bands(const PinholeCamera& camera, int count);
 

@@ -20,7 +20,7 @@ struct LensDirtConfig {
   std::array<double, 2> radius_px{8, 45};  ///< least and greatest, px; small ones are many
   double opacity = 0.8;                    ///< greatest share of the light that a speck takes
   double blur_px = 7;                      ///< standard deviation of its edge, px
-  double glow = 0.35;        ///< light that a speck scatters into the lens, of the picture's mean
+  double glow = 0.35;        ///< light that a speck scatters into the lens, of the image's mean
   std::int64_t pattern = 0;  ///< another number, another pattern
   template <class Archive>
   void serialize(Archive& archive) {
@@ -38,8 +38,8 @@ struct LensDirtConfig {
 /// A vine leaf that sticks to the front glass.
 struct LensLeafConfig {
   FaultScope scope;
-  Eigen::Vector2d position{0.5, 0.5};  ///< of its middle, shares of the picture's width and height
-  double size = 0.5;                   ///< its length, share of the picture's height
+  Eigen::Vector2d position{0.5, 0.5};  ///< of its middle, shares of the image's width and height
+  double size = 0.5;                   ///< its length, share of the image's height
   double angle_deg = 0;                ///< its tip points up at 0, to the right at 90
   double opacity = 1;                  ///< share of the light that it takes
   double blur_px = 6;                  ///< standard deviation of its edge, px
@@ -58,7 +58,7 @@ struct LensLeafConfig {
 struct LensCover {
   FaultScope scope;
   cv::Mat opacity;          ///< CV_32FC1, 0 to 1
-  cv::Vec3f glow{0, 0, 0};  ///< linear colour where it is opaque, of the picture's mean light
+  cv::Vec3f glow{0, 0, 0};  ///< linear colour where it is opaque, of the image's mean light
 
   /// Onto linear light (CV_32FC3), in place.
   void apply(cv::Mat& light) const;

@@ -52,7 +52,7 @@ PhotonTransfer::PhotonTransfer(const PhotonTransferConfig& config, double gamma)
 }
 
 bool PhotonTransfer::is_identity() const {
-  return !config_.enabled && gamma_ == kPictureGamma;
+  return !config_.enabled && gamma_ == kImageGamma;
 }
 
 void PhotonTransfer::set_gain(double gain_db) {
@@ -81,7 +81,7 @@ void PhotonTransfer::fill_level(std::size_t level) {
 }
 
 void PhotonTransfer::apply(cv::Mat& image, const RandomStream& stream) const {
-  if (image.depth() != CV_8U) fail("photon transfer: expected a picture of 8 bits");
+  if (image.depth() != CV_8U) fail("photon transfer: expected an image of 8 bits");
   const int values = image.cols * image.channels();
   const int hashes_per_row = (values + kDrawsPerHash - 1) / kDrawsPerHash;
   const std::uint8_t* table = table_.data();

@@ -25,7 +25,7 @@ struct PhotonTransferConfig {
   }
 };
 
-/// From the light of a rendered picture to the codes that a sensor gives. A pixel of light L (1 is
+/// From the light of a rendered image to the codes that a sensor gives. A pixel of light L (1 is
 /// white) at gain G is L * full_well / G electrons; their variance is their number plus read_noise
 /// squared (Janesick, Photon Transfer, 2007). The sum is scaled back, saturated, encoded with the
 /// sensor's gamma and rounded to 8 bits.
@@ -34,13 +34,13 @@ class PhotonTransfer {
   /// `gamma` is the sensor's: 2.2 encodes as the renderer does, 1 is linear.
   PhotonTransfer(const PhotonTransferConfig& config, double gamma);
 
-  /// Whether it leaves every picture as it is.
+  /// Whether it leaves every image as it is.
   bool is_identity() const;
 
   /// Rounded to a tenth of a dB, so that a slowly turning gain needs few new tables.
   void set_gain(double gain_db);
 
-  /// Turns a picture of the renderer's codes, CV_8U of any channels, into the sensor's, in place. A
+  /// Turns an image of the renderer's codes, CV_8U of any channels, into the sensor's, in place. A
   /// pixel's draw is a function of the stream and its index alone. Draws end at 2.9 standard
   /// deviations (256 equally likely classes).
   void apply(cv::Mat& image, const RandomStream& stream) const;

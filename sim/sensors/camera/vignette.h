@@ -10,7 +10,7 @@
 
 namespace vinebench {
 
-/// How light falls off towards the picture's corners; both laws multiply.
+/// How light falls off towards the image's corners; both laws multiply.
 struct VignettingConfig {
   /// Share of the natural law of cos^4 of the angle to the optical axis: 0 none of it, 1 all.
   double natural = 0;

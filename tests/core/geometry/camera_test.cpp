@@ -31,7 +31,7 @@ TEST(CameraTest, DistortionIsBrownConrady) {
   EXPECT_NEAR(pixel.y(), 239.5 + 260.0 * 0.2096, 1e-10);
 }
 
-TEST(CameraTest, UnprojectUndoesProjectAllOverThePicture) {
+TEST(CameraTest, UnprojectUndoesProjectAllOverTheImage) {
   // Without distortion, a mild lens, and a barrel such as a wide lens has (monotonic to the
   // corner, where r2 = 2.9).
   for (const std::array<double, 4>& distortion :
@@ -55,7 +55,7 @@ TEST(CameraTest, PixelsAreSquaresAboutWholeNumbers) {
   EXPECT_FALSE(lens.contains({-0.51, 10}));
   EXPECT_FALSE(lens.contains({751.5, 10}));
   EXPECT_FALSE(lens.contains({10, 479.5}));
-  // The middle of the picture is the principal point of a centred lens: (width - 1) / 2.
+  // The middle of the image is the principal point of a centred lens: (width - 1) / 2.
   EXPECT_TRUE(lens.contains({lens.cx, lens.cy}, 239.99));
   EXPECT_FALSE(lens.contains({lens.cx, lens.cy}, 240.01));
 }

@@ -42,7 +42,7 @@ TEST(RigTest, TheRoverHasThePapersLenses) {
   EXPECT_EQ(rig.find_camera("none"), -1);
 }
 
-TEST(RigTest, BaselinesAreTwelveCentimetresAlongTheLeftEyesXAxis) {
+TEST(RigTest, BaselinesAreTwelveCentimetresAlongTheLeftCamerasXAxis) {
   const Rig rig = rover();
   ASSERT_EQ(rig.stereo_pairs.size(), 2u);
   for (const StereoPair& pair : rig.stereo_pairs) {
@@ -56,8 +56,8 @@ TEST(RigTest, BaselinesAreTwelveCentimetresAlongTheLeftEyesXAxis) {
 }
 
 TEST(RigTest, TheBackPairLooksTheOppositeWay) {
-  // Back-left is 0.30 m behind front-left and 0.12 m to its right; the left and right eyes of the
-  // back pair swap sides of the rover.
+  // Back-left is 0.30 m behind front-left and 0.12 m to its right; the left and right cameras of
+  // the back pair swap sides of the rover.
   const Pose T_front_back = between(rover(), "front_left", "back_left");
   const Eigen::Matrix3d half_turn = Eigen::Vector3d(-1, 1, -1).asDiagonal();
   EXPECT_LT((T_front_back.rotation.toRotationMatrix() - half_turn).norm(), kRounding);
@@ -73,11 +73,11 @@ TEST(RigTest, TheSideCameraLooksRight) {
   EXPECT_LT((T_front_side.translation - Eigen::Vector3d(0.21, 0, -0.09)).norm(), kRounding);
 }
 
-TEST(RigTest, AStereoRigLooksAheadFromItsLeftEye) {
+TEST(RigTest, AStereoRigLooksAheadFromItsLeftCamera) {
   const Rig rig = Rig::stereo({640, 400, 400, 400, 319.5, 199.5}, 0.12);
   ASSERT_EQ(rig.stereo_pairs.size(), 1u);
   EXPECT_NEAR(rig.baseline(rig.stereo_pairs[0]), 0.12, kRounding);
-  // A point 2 m ahead of the left eye is 0.12 m to the left of the right eye's axis.
+  // A point 2 m ahead of the left camera is 0.12 m to the left of the right camera's axis.
   const Eigen::Vector3d p_body(2, 0, 0);
   const Pose T_right_body = rig.cameras[1].T_body_cam.inverse();
   EXPECT_LT((rig.cameras[0].T_body_cam.inverse() * p_body - Eigen::Vector3d(0, 0, 2)).norm(),
@@ -100,21 +100,21 @@ TEST(RigTest, UnknownNamesAreErrorsWithFileAndKey) {
   const auto error_of = [&](const std::string& text) {
     return test::error_of([&] { load_rig(folder.write("rig_test.yaml", text)); });
   };
-  const std::string eyes = "cameras:\n  - {name: a}\n  - {name: b}\n";
-  EXPECT_THAT(error_of(eyes + "stereo_pairs:\n  - {name: p, left: a, right: c}\n"),
+  const std::string cameras = "cameras:\n  - {name: a}\n  - {name: b}\n";
+  EXPECT_THAT(error_of(cameras + "stereo_pairs:\n  - {name: p, left: a, right: c}\n"),
               testing::AllOf(testing::HasSubstr("rig_test.yaml:"),
                              testing::HasSubstr("stereo_pairs.0"), testing::HasSubstr("'c'")));
-  EXPECT_THAT(error_of(eyes + "tag_cameras: [a, d]\n"),
+  EXPECT_THAT(error_of(cameras + "tag_cameras: [a, d]\n"),
               testing::AllOf(testing::HasSubstr("tag_cameras.1"), testing::HasSubstr("'d'")));
   EXPECT_THAT(error_of("name: empty\n"), testing::HasSubstr("expected at least one camera"));
-  EXPECT_EQ(error_of(eyes), "");
+  EXPECT_EQ(error_of(cameras), "");
 }
 
 TEST(RigTest, AConfigMadeInCodeIsCheckedToo) {
   RigConfig config;
   config.name = "mine";
   config.cameras.resize(1);
-  config.cameras[0].name = "eye";
+  config.cameras[0].name = "camera";
   config.tag_cameras = {"nose"};
   EXPECT_THAT([&] { config.make(); },
               testing::ThrowsMessage<Error>(

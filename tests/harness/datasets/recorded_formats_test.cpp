@@ -110,7 +110,7 @@ TEST_F(RecordedFormatsTest, SettingsOfOtherSystems) {
   const cv::FileStorage raw((settings / "orbslam3_raw.yaml").string(), cv::FileStorage::READ);
   cv::Mat T_c1_c2;
   raw["Stereo.T_c1_c2"] >> T_c1_c2;
-  EXPECT_NEAR(T_c1_c2.at<float>(0, 3), 0.12f, 1e-6f);  // the right eye stands to the right
+  EXPECT_NEAR(T_c1_c2.at<float>(0, 3), 0.12f, 1e-6f);  // the right camera stands to the right
   const auto basalt = nlohmann::json::parse(read_file(settings / "basalt_calib.json"))["value0"];
   EXPECT_EQ(basalt["T_imu_cam"].size(), 3u);
   EXPECT_EQ(basalt["calib_gyro_bias"].size(), 12u);
@@ -161,8 +161,8 @@ TEST_F(RecordedFormatsTest, DcVslam) {
   for (const char* key : {"Camera_l", "Camera_r", "CameraB_l", "CameraB_r"}) {
     EXPECT_EQ(config[key]["fx"].as<double>(), test::kFocal);
   }
-  for (const char* eye : {"left", "right"}) {
-    EXPECT_FALSE(cv::imread((out() / "dcvslam" / eye / "000005.png").string()).empty());
+  for (const char* camera : {"left", "right"}) {
+    EXPECT_FALSE(cv::imread((out() / "dcvslam" / camera / "000005.png").string()).empty());
   }
   // The side camera sees the tag; its middle is where the corners' diagonals meet.
   const auto tags = lines_of(out() / "dcvslam/tags.csv");

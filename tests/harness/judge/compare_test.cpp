@@ -20,19 +20,19 @@ Json run(int seed, double ate_m, const char* scenario = "row") {
 }
 
 /// The change of the ATE from some values to others, m.
-FigureChange ate_change(const std::vector<double>& before, const std::vector<double>& after) {
+MetricChange ate_change(const std::vector<double>& before, const std::vector<double>& after) {
   std::vector<RunPair> pairs;
   for (std::size_t i = 0; i < before.size(); ++i) {
     const int seed = static_cast<int>(i);
     pairs.push_back({"row", seed, run(seed, before[i]), run(seed, after[i])});
   }
-  return compare_figures(pairs).front();
+  return compare_metrics(pairs).front();
 }
 
 // Differences 1, 2, 3 mm: mean 2, standard deviation 1, t of two degrees 4.303:
 // 4.303 / sqrt(3) = 2.484, so that zero is within.
 TEST(CompareTest, AnIntervalThatHoldsZeroIsTheSame) {
-  const FigureChange change = ate_change({0.010, 0.011, 0.012}, {0.011, 0.013, 0.015});
+  const MetricChange change = ate_change({0.010, 0.011, 0.012}, {0.011, 0.013, 0.015});
   EXPECT_EQ(change.figure.title, "ATE, mm");
   EXPECT_EQ(change.pairs, 3u);
   EXPECT_NEAR(change.before, 11, 1e-9);
@@ -48,7 +48,7 @@ TEST(CompareTest, PairsTakeOutWhatSeedsHaveInCommon) {
 }
 
 TEST(CompareTest, OnePairGivesNoInterval) {
-  const FigureChange change = ate_change({0.01}, {0.02});
+  const MetricChange change = ate_change({0.01}, {0.02});
   EXPECT_FALSE(change.half_width);
   EXPECT_EQ(change.change, Change::kUnknown);
   EXPECT_EQ(ate_change({0.01}, {0.01}).change, Change::kSame);
@@ -57,8 +57,8 @@ TEST(CompareTest, OnePairGivesNoInterval) {
 
 TEST(CompareTest, TheOverallVerdictIsThatOfTheEstimate) {
   const auto changes = [](Change ate, Change coverage, Change speed) {
-    const Figure cost{.of_estimate = false};
-    return std::vector<FigureChange>{
+    const Metric cost{.of_estimate = false};
+    return std::vector<MetricChange>{
         {.change = ate}, {.change = coverage}, {.figure = cost, .change = speed}};
   };
   using enum Change;

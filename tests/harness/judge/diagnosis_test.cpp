@@ -17,9 +17,9 @@ using testing::HasSubstr;
 
 /// Twenty seconds of a straight way east at 0.5 m/s, 10 frames a second, seen by a pair and a side
 /// camera in clear view, with a tag in view from 5 s to 6 s. Everything is well.
-class ExplainTest : public testing::Test {
+class DiagnosisTest : public testing::Test {
  protected:
-  ExplainTest() {
+  DiagnosisTest() {
     record_.rig = fakes::rig();
     record_.rig.stereo_pairs = {{"front", 0, 1}};
     for (RigCamera& camera : record_.rig.cameras) camera.model.fx = 300;
@@ -57,12 +57,12 @@ class ExplainTest : public testing::Test {
       record_.ticks[i].estimate.T_map_body->translation.y() = 0.1 * share;
     }
   }
-  std::vector<Explanation> found() const {
-    return explain(record_, measure(record_, {}), scenario_);
+  std::vector<DegradedSegment> found() const {
+    return diagnose(record_, measure(record_, {}), scenario_);
   }
   std::vector<Cause> causes() const {
     std::vector<Cause> list;
-    for (const Explanation& explanation : found()) list.push_back(explanation.cause);
+    for (const DegradedSegment& explanation : found()) list.push_back(explanation.cause);
     return list;
   }
 
@@ -74,13 +74,13 @@ void weaken(Tick& tick) {
   tick.estimate.cameras[0].inliers = tick.estimate.cameras[1].inliers = 10;
 }
 
-TEST_F(ExplainTest, AGoodRunHasNothingToExplain) {
+TEST_F(DiagnosisTest, AGoodRunHasNothingToExplain) {
   EXPECT_TRUE(found().empty());
-  EXPECT_THAT(format_explanations(record_, {}), HasSubstr("nowhere"));
-  EXPECT_TRUE(explain({}, {}, scenario_).empty());
+  EXPECT_THAT(format_diagnosis(record_, {}), HasSubstr("nowhere"));
+  EXPECT_TRUE(diagnose({}, {}, scenario_).empty());
 }
 
-TEST_F(ExplainTest, WeakTrackingBehindACartonIsOcclusion) {
+TEST_F(DiagnosisTest, WeakTrackingBehindACartonIsOcclusion) {
   meanwhile([](Tick& tick) {
     weaken(tick);
     tick.truth.box_share = {0.9, 0.9, 0};
@@ -91,16 +91,16 @@ TEST_F(ExplainTest, WeakTrackingBehindACartonIsOcclusion) {
   EXPECT_EQ(list[0].cause, Cause::kOcclusion);
   EXPECT_EQ(list[0].first, 100u);
   EXPECT_EQ(list[0].last, 120u);
-  EXPECT_THAT(list[0].cameras, ElementsAre(0));  // a pair's left eye stands for both
+  EXPECT_THAT(list[0].cameras, ElementsAre(0));  // a pair's left camera stands for both
   EXPECT_EQ(list[0].share, 1);
   EXPECT_EQ(list[0].inliers, 20);
   EXPECT_EQ(list[0].usual_inliers, 180);
   EXPECT_EQ(list[0].error_growth, 0);
-  EXPECT_THAT(format_explanations(record_, list),
+  EXPECT_THAT(format_diagnosis(record_, list),
               HasSubstr("10.00 to 12.00 s: occlusion in front_left (100 % of the time)"));
 }
 
-TEST_F(ExplainTest, LosingTrackIsSuffering) {
+TEST_F(DiagnosisTest, LosingTrackIsSuffering) {
   meanwhile([](Tick& tick) {
     tick.estimate.status = TrackingStatus::kLost;
     tick.estimate.T_map_body.reset();
@@ -108,11 +108,11 @@ TEST_F(ExplainTest, LosingTrackIsSuffering) {
   });
   const auto list = found();
   ASSERT_EQ(list.size(), 1u);
-  EXPECT_EQ(list[0].cause, Cause::kDroppedPictures);
+  EXPECT_EQ(list[0].cause, Cause::kDroppedImages);
   EXPECT_EQ(list[0].untracked, 21);
 }
 
-TEST_F(ExplainTest, FewFeaturesInAClearViewAreLittleTexture) {
+TEST_F(DiagnosisTest, FewFeaturesInAClearViewAreLittleTexture) {
   meanwhile([](Tick& tick) {
     weaken(tick);
     tick.estimate.cameras[0].features = 150;  // of usually 500
@@ -121,7 +121,7 @@ TEST_F(ExplainTest, FewFeaturesInAClearViewAreLittleTexture) {
 }
 
 // 0.5 m/s at 1 m and 300 px: 150 px/s; in 20 ms 3 px, in 10 ms 1.5 px.
-TEST_F(ExplainTest, MotionBlurIsCountedInPixels) {
+TEST_F(DiagnosisTest, MotionBlurIsCountedInPixels) {
   meanwhile([](Tick& tick) {
     weaken(tick);
     tick.truth.blur_time = {0.020, 0.020, 0};
@@ -131,7 +131,7 @@ TEST_F(ExplainTest, MotionBlurIsCountedInPixels) {
   EXPECT_THAT(causes(), ElementsAre(Cause::kUnexplained));
 }
 
-TEST_F(ExplainTest, AnErrorThatGrowsFastIsFoundWithoutWeakTracking) {
+TEST_F(DiagnosisTest, AnErrorThatGrowsFastIsFoundWithoutWeakTracking) {
   slide();
   const auto list = found();
   ASSERT_EQ(list.size(), 1u);
@@ -143,7 +143,7 @@ TEST_F(ExplainTest, AnErrorThatGrowsFastIsFoundWithoutWeakTracking) {
   EXPECT_NEAR(list[0].error_growth, 0.1, 1e-9);
 }
 
-TEST_F(ExplainTest, ARightCorrectionIsNoGrowth) {
+TEST_F(DiagnosisTest, ARightCorrectionIsNoGrowth) {
   slide();
   record_.ticks[110].estimate.loop_closure = LoopClosure{};
   RunResults results;
@@ -153,14 +153,14 @@ TEST_F(ExplainTest, ARightCorrectionIsNoGrowth) {
   for (std::size_t i = 100; i < record_.ticks.size(); ++i) {
     record_.ticks[i].estimate.T_map_body->translation.y() = i < 110 ? 0 : 0.1;
   }
-  EXPECT_TRUE(explain(record_, results, scenario_).empty());
+  EXPECT_TRUE(diagnose(record_, results, scenario_).empty());
   closure.correct = false;
-  const auto list = explain(record_, results, scenario_);
+  const auto list = diagnose(record_, results, scenario_);
   ASSERT_FALSE(list.empty());
   EXPECT_EQ(list[0].cause, Cause::kWrongTag);
 }
 
-TEST_F(ExplainTest, AMiscalibratedRigIsBlamedForWhatNothingElseExplains) {
+TEST_F(DiagnosisTest, AMiscalibratedRigIsBlamedForWhatNothingElseExplains) {
   scenario_.simulation.sensors.calibration.rotation_deg = 0.5;
   slide();
   EXPECT_THAT(causes(), ElementsAre(Cause::kCalibrationError));
@@ -169,7 +169,7 @@ TEST_F(ExplainTest, AMiscalibratedRigIsBlamedForWhatNothingElseExplains) {
 }
 
 // A map 2 % too large: 10 mm in each second of 0.5 m, and never more than usual.
-TEST_F(ExplainTest, ASteadyDriftOfTheWholeRunIsSuffering) {
+TEST_F(DiagnosisTest, ASteadyDriftOfTheWholeRunIsSuffering) {
   for (Tick& tick : record_.ticks) tick.estimate.T_map_body->translation *= 1.02;
   scenario_.simulation.sensors.calibration.focal_px = 5;
   const auto list = found();
@@ -182,7 +182,7 @@ TEST_F(ExplainTest, ASteadyDriftOfTheWholeRunIsSuffering) {
 }
 
 // Plants stand 1 m apart along the row, which leads east: a jump ahead by 2.05 m is two of them.
-TEST_F(ExplainTest, AJumpByPlantsIsARepeatedPattern) {
+TEST_F(DiagnosisTest, AJumpByPlantsIsARepeatedPattern) {
   const auto jump = [&](double x, double y) {
     for (std::size_t i = 110; i < record_.ticks.size(); ++i) {
       record_.ticks[i].estimate.T_map_body->translation =
@@ -200,7 +200,7 @@ TEST_F(ExplainTest, AJumpByPlantsIsARepeatedPattern) {
   EXPECT_THAT(jump(1, 0), ElementsAre(Cause::kUnexplained));  // no matches, no pattern
 }
 
-TEST_F(ExplainTest, TagsMayBeMissedOrWrong) {
+TEST_F(DiagnosisTest, TagsMayBeMissedOrWrong) {
   meanwhile([](Tick& tick) {
     weaken(tick);
     tick.truth.visible_tags = {0};
@@ -215,16 +215,16 @@ TEST_F(ExplainTest, TagsMayBeMissedOrWrong) {
   EXPECT_THAT(causes(), ElementsAre(Cause::kUnexplained));
 }
 
-TEST_F(ExplainTest, SeveralCausesComeStrongestFirst) {
+TEST_F(DiagnosisTest, SeveralCausesComeStrongestFirst) {
   meanwhile([](Tick& tick) {
     weaken(tick);
     tick.truth.box_share = {0.9, 0.9, 0};
     if (tick.index <= 110) tick.delivered[0] = false;  // 11 of 21 ticks
   });
-  EXPECT_THAT(causes(), ElementsAre(Cause::kOcclusion, Cause::kDroppedPictures));
+  EXPECT_THAT(causes(), ElementsAre(Cause::kOcclusion, Cause::kDroppedImages));
 }
 
-TEST_F(ExplainTest, TheTrueMotionIsThatOfTheBody) {
+TEST_F(DiagnosisTest, TheTrueMotionIsThatOfTheBody) {
   const TrueMotion motion = true_motion(record_, 50);
   EXPECT_NEAR(motion.speed, 0.5, 1e-9);
   EXPECT_NEAR(motion.turn, 0, 1e-9);

@@ -13,7 +13,7 @@ namespace {
 RunRecord record_of(fakes::Slam::Change change) {
   fakes::Source source;
   fakes::Slam slam(std::move(change));
-  Recorder recorder(source.rig(), fakes::scenario().simulation.world.tags);
+  RunRecorder recorder(source.rig(), fakes::scenario().simulation.world.tags);
   run_lockstep(source, slam, {&recorder});
   return recorder.record();
 }

@@ -7,9 +7,9 @@
 namespace vinebench {
 namespace {
 
-TEST(FiguresTest, AreFoundInMetricsInTheirUnits) {
+TEST(MetricTableTest, AreFoundInMetricsInTheirUnits) {
   const Json metrics{{"ate_rmse_m", 0.0123}, {"loop_closures", {{"wrong", 2}}}, {"coverage", {}}};
-  for (const Figure& figure : figures()) {
+  for (const Metric& figure : shown_metrics()) {
     const auto value = value_of(figure, metrics);
     if (figure.key == "/ate_rmse_m") {
       EXPECT_DOUBLE_EQ(value.value(), 12.3);  // mm
@@ -21,7 +21,7 @@ TEST(FiguresTest, AreFoundInMetricsInTheirUnits) {
   }
 }
 
-TEST(FiguresTest, TablesLineUp) {
+TEST(MetricTableTest, TablesLineUp) {
   EXPECT_EQ(markdown_table({{"name", "x, mm"}, {"a", "–"}, {"longer", "12.5"}}, 1),
             "| name   | x, mm |\n"
             "|--------|------:|\n"

@@ -16,7 +16,7 @@ namespace {
 RunRecord record_of(fakes::Slam::Change change) {
   fakes::Source source;
   fakes::Slam slam(std::move(change));
-  Recorder recorder(source.rig(), fakes::scenario().simulation.world.tags);
+  RunRecorder recorder(source.rig(), fakes::scenario().simulation.world.tags);
   run_lockstep(source, slam, {&recorder});
   return recorder.record();
 }
@@ -95,10 +95,10 @@ TEST(ResultsTest, LiveAndCorrectedAreJudgedApart) {
   EXPECT_NEAR(results.live.value().ate.rmse, 0, 1e-12);
 }
 
-TEST(ResultsTest, MeasuresTheBlindStretch) {
+TEST(ResultsTest, MeasuresTheOcclusion) {
   const RunResults results = measure(record_of(blind_and_lost), asking(everything()));
   ASSERT_TRUE(results.blind);
-  const BlindStretch& blind = *results.blind;
+  const OcclusionSegment& blind = *results.blind;
   EXPECT_EQ(blind.first, 80u);
   EXPECT_EQ(blind.last, 120u);
   EXPECT_DOUBLE_EQ(blind.seconds, 4);

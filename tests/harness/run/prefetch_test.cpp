@@ -13,10 +13,10 @@
 namespace vinebench {
 namespace {
 
-TEST(LookAheadTest, GivesTheSourcesSamplesInOrder) {
+TEST(PrefetchTest, GivesTheSourcesSamplesInOrder) {
   fakes::Source alone(1, 20);
   fakes::Source source(1, 20);
-  LookAhead ahead(source);
+  Prefetch ahead(source);
   EXPECT_EQ(ahead.size(), 20);
   for (int i = 0; i < 20; ++i) {
     const auto expected = alone.next();
@@ -30,10 +30,10 @@ TEST(LookAheadTest, GivesTheSourcesSamplesInOrder) {
   ahead.times();  // nothing is under way: must not wait for ever
 }
 
-TEST(LookAheadTest, MayBeLeftBeforeTheEnd) {
+TEST(PrefetchTest, MayBeLeftBeforeTheEnd) {
   fakes::Source source(1, 20);
   {
-    LookAhead ahead(source);
+    Prefetch ahead(source);
     ahead.next();
   }
   // One was given, one was under way: the source goes on with the third.
@@ -49,9 +49,9 @@ class Failing : public fakes::Source {
   }
 };
 
-TEST(LookAheadTest, AnErrorComesInItsTurn) {
+TEST(PrefetchTest, AnErrorComesInItsTurn) {
   Failing source;
-  LookAhead ahead(source);
+  Prefetch ahead(source);
   EXPECT_TRUE(ahead.next());
   EXPECT_TRUE(ahead.next());
   EXPECT_THAT([&] { ahead.next(); },

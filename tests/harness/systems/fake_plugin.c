@@ -3,7 +3,7 @@
  *
  * A SLAM system in plain C that stands still, for plugin_slam_test. The settings' file name says
  * what goes wrong: *.create, *.process, *.finish, *.pose; it is the position's x in millimetres
- * that says how many bytes of pictures and samples it was given. */
+ * that says how many bytes of images and samples it was given. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -32,7 +32,7 @@ class PluginSlamTest : public testing::Test {
       slam->finish();
     });
   }
-  /// Three pictures of 8 x 6 pixels, one of them missing, and two inertial samples.
+  /// Three images of 8 x 6 pixels, one of them missing, and two inertial samples.
   static Frame frame() {
     Frame frame = fakes::Source().next()->frame;
     frame.images[1].release();
@@ -46,7 +46,7 @@ TEST_F(PluginSlamTest, AFrameGoesInAndAnEstimateComesOut) {
   const Estimate estimate = slam->process(frame());
   EXPECT_EQ(estimate.status, TrackingStatus::kTracking);
   EXPECT_TRUE(estimate.keyframe);
-  // 2 pictures of 8 x 6 x 3 bytes and 2 samples are 290.
+  // 2 images of 8 x 6 x 3 bytes and 2 samples are 290.
   EXPECT_DOUBLE_EQ(estimate.T_map_body.value().translation.x(), 0.290);
   ASSERT_EQ(estimate.cameras.size(), 3u);
   EXPECT_EQ(estimate.cameras[2].inliers, 3);

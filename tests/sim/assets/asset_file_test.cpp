@@ -174,7 +174,7 @@ TEST(GltfTest, BrokenFilesAreNamedWithWhatIsWrong) {
               HasSubstr("does not fit"));
 }
 
-TEST(GltfTest, AMissingBufferOrPictureIsNamed) {
+TEST(GltfTest, AMissingBufferOrImageIsNamed) {
   const test::TestFolder folder;
   std::string text = gltf();
   const std::size_t at = text.find("data:");
@@ -187,13 +187,13 @@ TEST(GltfTest, AMissingBufferOrPictureIsNamed) {
       R"("textures":[{"source":0}],"images":[{"uri":"gone.png"}]})";
   text = gltf("\"mesh\":0", ",\"material\":0");
   text.pop_back();
-  const auto no_picture = folder.write("picture.gltf", text + material);
-  EXPECT_THAT(error_of([&] { load_asset(no_picture); }),
-              AllOf(HasSubstr(no_picture.string()), HasSubstr("gone.png")));
-  folder.write("gone.png", "not a picture");
-  EXPECT_THAT(error_of([&] { load_asset(no_picture); }), HasSubstr("expected a picture"));
+  const auto no_image = folder.write("image.gltf", text + material);
+  EXPECT_THAT(error_of([&] { load_asset(no_image); }),
+              AllOf(HasSubstr(no_image.string()), HasSubstr("gone.png")));
+  folder.write("gone.png", "not an image");
+  EXPECT_THAT(error_of([&] { load_asset(no_image); }), HasSubstr("expected an image"));
   cv::imwrite((folder / "gone.png").string(), cv::Mat(2, 2, CV_8UC3, cv::Scalar(10, 20, 200)));
-  const Asset asset = load_asset(no_picture);
+  const Asset asset = load_asset(no_image);
   EXPECT_EQ(asset.textures.at(0).rgba.at<cv::Vec4b>(1, 1),
             cv::Vec4b(200, 20, 10, 255));  // from BGR
 }
@@ -262,7 +262,7 @@ Vertex vertex_at(const Asset& asset, const Eigen::Vector3f& place) {
   return {};
 }
 
-TEST(MeshFileTest, ObjIsZUpWithTheFirstRowOfItsPictureOnTop) {
+TEST(MeshFileTest, ObjIsZUpWithTheFirstRowOfItsImageOnTop) {
   const test::TestFolder folder;
   cv::imwrite((folder / "skin.png").string(), cv::Mat(2, 2, CV_8UC3, cv::Scalar(10, 20, 200)));
   folder.write("vine.mtl", "newmtl skin\nKd 1 1 1\nmap_Kd skin.png\n");
@@ -271,7 +271,7 @@ TEST(MeshFileTest, ObjIsZUpWithTheFirstRowOfItsPictureOnTop) {
   const Asset asset = load_asset(file);
   EXPECT_EQ(triangle_count(asset.model.levels.at(0)), 1);
   const Vertex top = vertex_at(asset, {0, 0, 2});
-  // OBJ counts v from below: 1 is the picture's first row, which is 0 for us.
+  // OBJ counts v from below: 1 is the image's first row, which is 0 for us.
   EXPECT_LT((top.uv - Eigen::Vector2f(0, 0)).norm(), 1e-6f);
   EXPECT_LT((vertex_at(asset, {1, 0, 0}).uv - Eigen::Vector2f(1, 1)).norm(), 1e-6f);
   EXPECT_LT((top.normal - Eigen::Vector3f(0, -1, 0)).norm(), 1e-5f);

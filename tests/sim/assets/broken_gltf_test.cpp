@@ -50,7 +50,7 @@ class BrokenGltfTest : public test::BrokenFiles {
     gltf.more = more;
     return message("broken.gltf", gltf.text());
   }
-  std::string with_picture(const std::string& image) const {
+  std::string with_image(const std::string& image) const {
     return with_material(
         R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],)"
         R"("textures":[{"source":0}],"images":[)" +
@@ -214,7 +214,7 @@ TEST_F(BrokenGltfTest, MaterialsOutOfRange) {
   EXPECT_THAT(material(R"("pbrMetallicRoughness":{"baseColorTexture":{"index":4}})"),
               HasSubstr("names texture 4 of 0"));
   const std::string missing = R"(,"materials":[{}],"textures":[{"source":3}])";
-  EXPECT_THAT(with_material(missing), HasSubstr("names picture 3 of 0"));
+  EXPECT_THAT(with_material(missing), HasSubstr("names image 3 of 0"));
 }
 
 TEST_F(BrokenGltfTest, LevelsOutOfRange) {
@@ -233,32 +233,32 @@ TEST_F(BrokenGltfTest, LevelsOutOfRange) {
   EXPECT_THAT(level("[2,1e99]", "[1]"), HasSubstr("until"));
 }
 
-TEST_F(BrokenGltfTest, Pictures) {
-  EXPECT_THAT(with_picture(R"({"uri":"gone.png"})"), HasSubstr("gone.png"));
+TEST_F(BrokenGltfTest, Images) {
+  EXPECT_THAT(with_image(R"({"uri":"gone.png"})"), HasSubstr("gone.png"));
   std::filesystem::create_directory(folder_ / "folder.png");
-  EXPECT_THAT(with_picture(R"({"uri":"folder.png"})"), HasSubstr("folder.png"));
-  EXPECT_THAT(with_picture(R"({"bufferView":0})"), HasSubstr("expected a picture"));
-  EXPECT_THAT(with_picture(R"({"bufferView":77})"), HasSubstr("77"));
-  EXPECT_THAT(with_picture(R"({"bufferView":-2})"), HasSubstr("-2"));
-  EXPECT_THAT(with_picture(R"({"uri":"data:image/png;base64,"})"), testing::Ne(""));
-  EXPECT_THAT(with_picture("{}"), testing::Ne(""));
-  const auto picture = [&](const char* name, const std::string& bytes) {
+  EXPECT_THAT(with_image(R"({"uri":"folder.png"})"), HasSubstr("folder.png"));
+  EXPECT_THAT(with_image(R"({"bufferView":0})"), HasSubstr("expected an image"));
+  EXPECT_THAT(with_image(R"({"bufferView":77})"), HasSubstr("77"));
+  EXPECT_THAT(with_image(R"({"bufferView":-2})"), HasSubstr("-2"));
+  EXPECT_THAT(with_image(R"({"uri":"data:image/png;base64,"})"), testing::Ne(""));
+  EXPECT_THAT(with_image("{}"), testing::Ne(""));
+  const auto image = [&](const char* name, const std::string& bytes) {
     folder_.write(name, bytes);
-    return with_picture(fmt::format(R"({{"uri":"{}"}})", name));
+    return with_image(fmt::format(R"({{"uri":"{}"}})", name));
   };
   std::vector<unsigned char> encoded;
   const cv::Mat skin(40, 30, CV_8UC3, cv::Scalar(10, 200, 20));
   for (const char* kind : {".png", ".jpg", ".tif"}) {
     cv::imencode(kind, skin, encoded);
     const std::string bytes(encoded.begin(), encoded.end());
-    EXPECT_EQ(picture("skin", bytes), "") << kind;
-    EXPECT_THAT(picture("skin", bytes.substr(0, 20)), HasSubstr("expected a picture")) << kind;
+    EXPECT_EQ(image("skin", bytes), "") << kind;
+    EXPECT_THAT(image("skin", bytes.substr(0, 20)), HasSubstr("expected an image")) << kind;
   }
-  EXPECT_THAT(picture("text.png", "no picture"), HasSubstr("found something else"));
+  EXPECT_THAT(image("text.png", "no image"), HasSubstr("found something else"));
 }
 
 /// A PNG whose header asks for 16 gigapixels.
-TEST_F(BrokenGltfTest, PicturesOfAbsurdSize) {
+TEST_F(BrokenGltfTest, ImagesOfAbsurdSize) {
   std::vector<unsigned char> encoded;
   cv::imencode(".png", cv::Mat(2, 2, CV_8UC3, cv::Scalar(1, 2, 3)), encoded);
   const auto with_size = [&](unsigned columns, unsigned rows) {
@@ -268,7 +268,7 @@ TEST_F(BrokenGltfTest, PicturesOfAbsurdSize) {
       bytes[20 + i] = static_cast<char>(rows >> (24 - 8 * i));
     }
     folder_.write("skin.png", bytes);
-    return with_picture(R"({"uri":"skin.png"})");
+    return with_image(R"({"uri":"skin.png"})");
   };
   EXPECT_THAT(with_size(131072, 131072), HasSubstr("found 131072 x 131072"));
   EXPECT_THAT(with_size(16384, 16384), HasSubstr("16777216 in all"));

@@ -12,7 +12,7 @@
 namespace vinebench {
 namespace {
 
-/// How a plant looks: the share of the picture that it covers, and its mean colour (RGB, 0 to 255).
+/// How a plant looks: the share of the image that it covers, and its mean colour (RGB, 0 to 255).
 struct Look {
   double coverage = 0;
   cv::Scalar colour;
@@ -42,12 +42,12 @@ std::vector<Look> looks_of_level(const Asset& plant, std::size_t level) {
   std::vector<Look> looks;
   for (const Eigen::Vector3d& towards : kTowards) {
     const Pose T_world_cam = test::look_at(middle + kDistance * towards.normalized(), middle);
-    const Picture picture = renderer.render(camera, T_world_cam, {true, false});
+    const RenderedImage image = renderer.render(camera, T_world_cam, {true, false});
     cv::Mat seen;  // what the farthest levels paint into one
-    cv::inRange(picture.labels, static_cast<int>(Label::kCane), static_cast<int>(Label::kBunch),
+    cv::inRange(image.labels, static_cast<int>(Label::kCane), static_cast<int>(Label::kBunch),
                 seen);
     looks.push_back(
-        {cv::countNonZero(seen) / static_cast<double>(seen.total()), cv::mean(picture.rgb, seen)});
+        {cv::countNonZero(seen) / static_cast<double>(seen.total()), cv::mean(image.rgb, seen)});
   }
   return looks;
 }
@@ -68,7 +68,7 @@ TEST_P(LevelsTest, AllHaveTheSameCoverageAndColour) {
       ASSERT_GT(near[i].coverage, 0.15);
       // Cards hide the thin gaps between leaves that are seen aslant: a fifth at most.
       EXPECT_NEAR(looks[i].coverage / near[i].coverage, 1, level < 3 ? 0.04 : 0.2);
-      // A tenth of a colour's value is 0.15 of an aperture: no eye sees that step outdoors.
+      // A tenth of a colour's value is 0.15 of an aperture: no camera sees that step outdoors.
       for (int c = 0; c < 2; ++c) {
         EXPECT_NEAR(looks[i].colour[c] / near[i].colour[c], 1, 0.1) << "channel " << c;
       }

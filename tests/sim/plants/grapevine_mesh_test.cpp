@@ -152,7 +152,7 @@ TEST(GrapevineMeshTest, EachBunchIsAPartThatAFileKeeps) {
   }
 }
 
-TEST(PlantTexturesTest, ASeedIsOneSetOfPictures) {
+TEST(PlantTexturesTest, ASeedIsOneSetOfImages) {
   const std::vector<Texture> again = plant_textures({}, growth_stage(89), 1);
   const std::vector<Texture> other = plant_textures({}, growth_stage(89), 2);
   for (std::size_t i = 0; i < again.size(); ++i) {

@@ -22,9 +22,9 @@ namespace {
 
 using namespace test;
 
-cv::Mat grey_of(const Picture& picture) {
+cv::Mat grey_of(const RenderedImage& image) {
   cv::Mat grey;
-  cv::cvtColor(picture.rgb, grey, cv::COLOR_RGB2GRAY);
+  cv::cvtColor(image.rgb, grey, cv::COLOR_RGB2GRAY);
   return grey;
 }
 
@@ -69,16 +69,16 @@ TEST_F(ChessboardTest, FarFromTheWorldsOriginNothingMoves) {
         return near_scene;
       }(),
       {});
-  const Picture near_picture = near_renderer.render(small_camera(), pose, {});
+  const RenderedImage near_image = near_renderer.render(small_camera(), pose, {});
   pose.translation += far_away;
-  const Picture far_picture = renderer.render(small_camera(), pose, {});
+  const RenderedImage far_image = renderer.render(small_camera(), pose, {});
   // Only the last bits of the doubles differ; single pixels on an edge may.
-  const double changed = cv::norm(near_picture.rgb, far_picture.rgb, cv::NORM_L1);
-  EXPECT_LT(changed, 1e-4 * 255 * near_picture.rgb.total());
+  const double changed = cv::norm(near_image.rgb, far_image.rgb, cv::NORM_L1);
+  EXPECT_LT(changed, 1e-4 * 255 * near_image.rgb.total());
 }
 
-/// The tag's picture from the library's own code table, one white module around the black square.
-cv::Mat tag_picture(int id, int module) {
+/// The tag's image from the library's own code table, one white module around the black square.
+cv::Mat tag_image(int id, int module) {
   const std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)> family(tag36h11_create(),
                                                                                 tag36h11_destroy);
   // Debian's library does not export its own image_u8_destroy(), which frees these two.
@@ -122,7 +122,7 @@ TEST(RendererTest, TagCornersAreWhereTheCameraProjectsThem) {
   constexpr double kPanel = kSize * 10 / 8;  // with its white border
   Scene scene;
   const int material =
-      add_material(scene, Label::kTag, Eigen::Vector3f::Constant(0.8f), tag_picture(0, 32));
+      add_material(scene, Label::kTag, Eigen::Vector3f::Constant(0.8f), tag_image(0, 32));
   add_instance(scene, add_model(scene, panel(material, kPanel, kPanel)), {0, 0, 0});
   light_evenly(scene);
   Renderer renderer(scene, {});
@@ -133,7 +133,7 @@ TEST(RendererTest, TagCornersAreWhereTheCameraProjectsThem) {
         look_at({-0.2, -0.9, -0.1}, {0, 0, 0}, 0.2)}) {
     const auto corners = detect_tag(grey_of(renderer.render(camera, pose, {})));
     ASSERT_EQ(corners.size(), 4u);
-    // The library's order: counter-clockwise in the picture from the bottom left.
+    // The library's order: counter-clockwise in the image from the bottom left.
     const double h = kSize / 2;
     const Eigen::Vector3d expected[] = {{-h, 0, -h}, {h, 0, -h}, {h, 0, h}, {-h, 0, h}};
     for (int i = 0; i < 4; ++i) {
@@ -206,10 +206,10 @@ class TwoPanelsTest : public testing::Test {
 TEST_F(TwoPanelsTest, LabelsAndDepthAgreeWithGeometry) {
   Renderer renderer(scene_, {});
   const PinholeCamera camera = small_camera();
-  const Picture picture = renderer.render(camera, pose_, {.labels = true, .depth = true});
-  ASSERT_EQ(picture.rgb.type(), CV_8UC3);
-  ASSERT_EQ(picture.labels.type(), CV_8UC1);
-  ASSERT_EQ(picture.depth.type(), CV_32FC1);
+  const RenderedImage image = renderer.render(camera, pose_, {.labels = true, .depth = true});
+  ASSERT_EQ(image.rgb.type(), CV_8UC3);
+  ASSERT_EQ(image.labels.type(), CV_8UC1);
+  ASSERT_EQ(image.depth.type(), CV_32FC1);
   int compared = 0;
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u) {
@@ -222,42 +222,42 @@ TEST_F(TwoPanelsTest, LabelsAndDepthAgreeWithGeometry) {
                           : within(3, 2, 0.5)  ? Label::kBox
                                                : Label::kSky;
       const float depth = label == Label::kLeaf ? 2.0f : label == Label::kBox ? 3.0f : 0.0f;
-      if (picture.labels.at<std::uint8_t>(v, u) != static_cast<std::uint8_t>(label)) continue;
+      if (image.labels.at<std::uint8_t>(v, u) != static_cast<std::uint8_t>(label)) continue;
       ++compared;
       // 32-bit depth over 0.03 to 200 m resolves 0.02 mm at 3 m.
-      ASSERT_NEAR(picture.depth.at<float>(v, u), depth, 1e-4) << u << ", " << v;
+      ASSERT_NEAR(image.depth.at<float>(v, u), depth, 1e-4) << u << ", " << v;
     }
   }
   // All but pixels whose centre lies on an edge to the last bit.
   EXPECT_GT(compared, 0.999 * camera.width * camera.height);
-  const auto middle = picture.rgb.at<cv::Vec3b>(240, 376);
+  const auto middle = image.rgb.at<cv::Vec3b>(240, 376);
   EXPECT_GT(middle[1], middle[0]);
 }
 
 TEST_F(TwoPanelsTest, GivesOnlyWhatIsAskedFor) {
   Renderer renderer(scene_, {});
-  const Picture picture = renderer.render(small_camera(), pose_, {});
-  EXPECT_TRUE(picture.labels.empty());
-  EXPECT_TRUE(picture.depth.empty());
+  const RenderedImage image = renderer.render(small_camera(), pose_, {});
+  EXPECT_TRUE(image.labels.empty());
+  EXPECT_TRUE(image.depth.empty());
 }
 
 TEST_F(TwoPanelsTest, EvenLightShowsColoursAsTheyAre) {
   Renderer renderer(scene_, {});
-  const Picture picture = renderer.render(small_camera(), pose_, {});
+  const RenderedImage image = renderer.render(small_camera(), pose_, {});
   // Linear 0.8 and 0.1 to the power 1 / 2.2: 230.4 and 89.5 of 255.
-  const auto middle = picture.rgb.at<cv::Vec3b>(240, 376);
+  const auto middle = image.rgb.at<cv::Vec3b>(240, 376);
   EXPECT_NEAR(middle[0], 89.5, 1.5);
   EXPECT_NEAR(middle[1], 230.4, 1.5);
   EXPECT_NEAR(middle[2], 89.5, 1.5);
 }
 
 TEST_F(TwoPanelsTest, RenderersInTwoThreadsGiveTheSameBytes) {
-  const auto draw = [&](std::vector<cv::Mat>& pictures) {
+  const auto draw = [&](std::vector<cv::Mat>& images) {
     Renderer renderer(scene_, {});
     for (int i = 0; i < 5; ++i) {
       const Pose pose = look_at({0.1 * i, 0, 0.02 * i}, {0, 1, 0}, 0.01 * i);
-      pictures.push_back(renderer.render(small_camera(), pose, {}).rgb);
-      pictures.push_back(renderer.render(large_camera(), pose, {}).rgb);
+      images.push_back(renderer.render(small_camera(), pose, {}).rgb);
+      images.push_back(renderer.render(large_camera(), pose, {}).rgb);
     }
   };
   std::vector<cv::Mat> one;
@@ -266,7 +266,7 @@ TEST_F(TwoPanelsTest, RenderersInTwoThreadsGiveTheSameBytes) {
   draw(other);
   thread.join();
   for (std::size_t i = 0; i < one.size(); ++i) {
-    EXPECT_EQ(cv::norm(one[i], other[i], cv::NORM_INF), 0) << "picture " << i;
+    EXPECT_EQ(cv::norm(one[i], other[i], cv::NORM_INF), 0) << "image " << i;
   }
 }
 

@@ -95,7 +95,7 @@ TEST(PhysicsWorldTest, RoverFitsTheAisles) {
   EXPECT_GT(top, 0.45);
 }
 
-TEST(PhysicsWorldTest, NoPartOfTheRoverIsInAPicture) {
+TEST(PhysicsWorldTest, NoPartOfTheRoverIsInAImage) {
   PhysicsWorld physics(kModels / "rover.xml", one_row());
   const std::vector<Eigen::Vector3d> points = rover_surface(physics);
   ASSERT_GT(points.size(), 10000u);

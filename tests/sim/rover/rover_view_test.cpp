@@ -55,8 +55,8 @@ class RoverViewTest : public testing::Test {
     add_rover(scene_, kModel);
   }
 
-  Picture draw(const Pose& T_world_cam, const std::optional<Pose>& rover,
-               Renderer::Request request = {}) {
+  RenderedImage draw(const Pose& T_world_cam, const std::optional<Pose>& rover,
+                     Renderer::Request request = {}) {
     if (!renderer_) renderer_.emplace(scene_, RendererConfig{});
     request.T_world_rover = rover;
     return renderer_->render(camera_, T_world_cam, request);
@@ -80,27 +80,26 @@ class RoverViewTest : public testing::Test {
 TEST_F(RoverViewTest, IsSeenFromOutsideWhereItStands) {
   // Between the wheels one looks at the chassis' side, 0.13 m off the middle: 1.87 m away.
   const Pose view = look_at({2, -1, 0.165}, {2, 1, 0.165});
-  const Picture picture =
+  const RenderedImage image =
       draw(view, kRover, {.labels = true, .depth = true, .instances = true, .normals = true});
-  EXPECT_EQ(picture.labels.at<std::uint8_t>(240, 376), static_cast<std::uint8_t>(Label::kRover));
-  EXPECT_NEAR(picture.depth.at<float>(240, 376), 1.87f, 1e-3f);
-  EXPECT_LT(cv::norm(picture.normals.at<cv::Vec3f>(240, 376) - cv::Vec3f(0, 0, -1)), 1e-3);
-  const InstanceName name = instance_name(scene_, picture.instances.at<std::int32_t>(240, 376));
+  EXPECT_EQ(image.labels.at<std::uint8_t>(240, 376), static_cast<std::uint8_t>(Label::kRover));
+  EXPECT_NEAR(image.depth.at<float>(240, 376), 1.87f, 1e-3f);
+  EXPECT_LT(cv::norm(image.normals.at<cv::Vec3f>(240, 376) - cv::Vec3f(0, 0, -1)), 1e-3);
+  const InstanceName name = instance_name(scene_, image.instances.at<std::int32_t>(240, 376));
   EXPECT_EQ(name.thing, Thing::kRover);
   EXPECT_EQ(name.model, "rover");
   const cv::Mat labels = draw(view, {}, {.labels = true}).labels;
   EXPECT_EQ(cv::countNonZero(labels == static_cast<int>(Label::kRover)), 0);
 }
 
-// Done means the stereo cameras see past it: nothing of it is in the rig's own pictures.
-TEST_F(RoverViewTest, IsInNoneOfItsOwnPictures) {
+// Done means the stereo cameras see past it: nothing of it is in the rig's own images.
+TEST_F(RoverViewTest, IsInNoneOfItsOwnImages) {
   const Rig rig = load_rig(kModel.parent_path() / "rig.yaml");
   Renderer renderer(scene_, {});
   for (const RigCamera& mounted : rig.cameras) {
-    const Picture picture = renderer.render(mounted.model, kRover * mounted.T_body_cam,
-                                            {.labels = true, .T_world_rover = kRover});
-    EXPECT_EQ(cv::countNonZero(picture.labels == static_cast<int>(Label::kRover)), 0)
-        << mounted.name;
+    const RenderedImage image = renderer.render(mounted.model, kRover * mounted.T_body_cam,
+                                                {.labels = true, .T_world_rover = kRover});
+    EXPECT_EQ(cv::countNonZero(image.labels == static_cast<int>(Label::kRover)), 0) << mounted.name;
   }
 }
 
@@ -162,7 +161,7 @@ TEST_F(RoverViewTest, ChangesNothingOutOfView) {
 }
 
 TEST_F(RoverViewTest, CastsNoShadowWithoutASun) {
-  // The rover's own picture ends at x = 2.25, 0.27 m from the middle of what this one shows.
+  // The rover's own image ends at x = 2.25, 0.27 m from the middle of what this one shows.
   camera_ = {200, 300, 500, 500, 99.5, 149.5, {}};
   const Pose view = above(2.52, 1, 1.0);
   EXPECT_GT(changed_pixels(view), 1000);
@@ -180,7 +179,7 @@ TEST_F(RoverViewTest, DoesNotDependOnWhatWasDrawnBefore) {
 }
 
 TEST_F(RoverViewTest, FlowGoesWithTheRover) {
-  // Rover and camera drive on together by 0.05 m and turn by 0.02 rad: its picture stays in place.
+  // Rover and camera drive on together by 0.05 m and turn by 0.02 rad: its image stays in place.
   const Pose later = kRover * Pose{from_roll_pitch_yaw({0, 0, 0.02}), {0.05, 0, 0}};
   const Pose T_rover_cam = kRover.inverse() * look_at({0.8, 0.2, 0.7}, {2, 1, 0.2});
   Renderer::Request request = truth_request();
@@ -191,7 +190,7 @@ TEST_F(RoverViewTest, FlowGoesWithTheRover) {
   int pixels = 0, visible = 0;
   for (int y = 0; y < camera_.height; ++y) {
     for (int x = 0; x < camera_.width; ++x) {
-      if (a.picture.labels.at<std::uint8_t>(y, x) != static_cast<std::uint8_t>(Label::kRover)) {
+      if (a.image.labels.at<std::uint8_t>(y, x) != static_cast<std::uint8_t>(Label::kRover)) {
         continue;
       }
       ++pixels;

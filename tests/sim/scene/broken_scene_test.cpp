@@ -41,7 +41,7 @@ TEST_F(BrokenSceneTest, TexturesOfWrongSizeOrKind) {
   for (const cv::Mat& wrong : {cv::Mat(), cv::Mat(0, 4, CV_8UC4), cv::Mat(4, 4, CV_8UC3),
                                cv::Mat(4, 4, CV_32FC4), cv::Mat(4, 4, CV_8UC1)}) {
     rgba = wrong;
-    EXPECT_THAT(problem(), HasSubstr("texture 'leaf': expected a picture of 4 channels"));
+    EXPECT_THAT(problem(), HasSubstr("texture 'leaf': expected an image of 4 channels"));
   }
   rgba = cv::Mat(1, 16385, CV_8UC4);
   EXPECT_THAT(problem(), HasSubstr("at most 16384 pixels a side, found 16385 x 1"));

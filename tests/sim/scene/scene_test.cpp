@@ -176,7 +176,7 @@ TEST_F(SceneTest, WoodLedToOneSidePointsTheSameWayAllAlongTheRow) {
 }
 
 std::string glb_of_model(const Scene& scene, std::size_t index) {
-  const Asset asset{{}, scene.materials, scene.models.at(index)};  // pictures are compared apart
+  const Asset asset{{}, scene.materials, scene.models.at(index)};  // images are compared apart
   return to_glb(asset);
 }
 

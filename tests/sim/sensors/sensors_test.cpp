@@ -53,13 +53,13 @@ TEST_F(SensorsTest, ReadsEveryKindOfKey) {
   EXPECT_TRUE(config.camera.exposure.automatic);
   EXPECT_EQ(config.camera.bayer, BayerPattern::kGrbg);
   ASSERT_EQ(config.camera.dirt.size(), 2u);
-  EXPECT_TRUE(config.camera.dirt[0].scope.befalls("front_left"));
-  EXPECT_FALSE(config.camera.dirt[0].scope.befalls("side"));
-  EXPECT_FALSE(config.camera.dirt[0].scope.holds_at(from_seconds(1.999)));
-  EXPECT_TRUE(config.camera.dirt[0].scope.holds_at(from_seconds(2)));
-  EXPECT_FALSE(config.camera.dirt[0].scope.holds_at(from_seconds(3)));
-  EXPECT_TRUE(config.camera.dirt[1].scope.befalls("side"));
-  EXPECT_TRUE(config.camera.dirt[1].scope.holds_at(from_seconds(1e5)));
+  EXPECT_TRUE(config.camera.dirt[0].scope.applies_to("front_left"));
+  EXPECT_FALSE(config.camera.dirt[0].scope.applies_to("side"));
+  EXPECT_FALSE(config.camera.dirt[0].scope.is_active(from_seconds(1.999)));
+  EXPECT_TRUE(config.camera.dirt[0].scope.is_active(from_seconds(2)));
+  EXPECT_FALSE(config.camera.dirt[0].scope.is_active(from_seconds(3)));
+  EXPECT_TRUE(config.camera.dirt[1].scope.applies_to("side"));
+  EXPECT_TRUE(config.camera.dirt[1].scope.is_active(from_seconds(1e5)));
   EXPECT_EQ(config.calibration.cameras[0].focal_px, Eigen::Vector2d(2, 3));
   EXPECT_EQ(config.inertial.gyroscope.range, 4);
 }

@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 constexpr double kBaseline = 0.2;  // m
 
-/// A panel of 0.5 x 3 m at 2 m before one of 4 x 1 m at 3 m, and sky round them. Both eyes look
+/// A panel of 0.5 x 3 m at 2 m before one of 4 x 1 m at 3 m, and sky round them. Both cameras look
 /// along +y, the right one 0.2 m beside the left one.
 class TwoPanelsTruthTest : public testing::Test {
  protected:
@@ -36,7 +36,7 @@ class TwoPanelsTruthTest : public testing::Test {
     if (!renderer_) renderer_.emplace(scene_, RendererConfig{});
     return {camera_, T_world_cam, renderer_->render(camera_, T_world_cam, truth_request())};
   }
-  static Pose eye(double x) { return look_at({x, 0, 0}, {x, 1, 0}); }
+  static Pose camera(double x) { return look_at({x, 0, 0}, {x, 1, 0}); }
 
   /// Whether u is within 0.6 px of one of the edges: pixels there may fall either way.
   static bool on_edge(double u, std::initializer_list<double> edges) {
@@ -49,12 +49,12 @@ class TwoPanelsTruthTest : public testing::Test {
 };
 
 TEST_F(TwoPanelsTruthTest, TheOcclusionMaskIsWhatTheDrawingSays) {
-  const DisparityTruth truth = disparity(view(eye(0)), view(eye(kBaseline)));
+  const DisparityTruth truth = disparity(view(camera(0)), view(camera(kBaseline)));
   ASSERT_EQ(truth.disparity.type(), CV_32FC1);
   ASSERT_EQ(truth.visible.type(), CV_8UC1);
   const auto pixel = [&](double x, double depth) { return camera_.fx * x / depth + camera_.cx; };
-  // The right eye's ray to (X, 3) crosses y = 2 at 0.2 + (X - 0.2) * 2 / 3, which the near panel
-  // blocks for -0.475 < X < 0.275; the left eye sees |X| > 0.375 beside it.
+  // The right camera's ray to (X, 3) crosses y = 2 at 0.2 + (X - 0.2) * 2 / 3, which the near panel
+  // blocks for -0.475 < X < 0.275; the left camera sees |X| > 0.375 beside it.
   const double hidden = pixel(-0.475, 3), near_left = pixel(-0.25, 2), near_right = pixel(0.25, 2);
   for (const int v : {220, 239, 260}) {
     for (int u = static_cast<int>(pixel(-2, 3)) + 2; u < pixel(2, 3) - 1; ++u) {
@@ -64,7 +64,7 @@ TEST_F(TwoPanelsTruthTest, TheOcclusionMaskIsWhatTheDrawingSays) {
       EXPECT_EQ(truth.visible.at<std::uint8_t>(v, u) != 0, u < hidden || u > near_left) << u;
     }
   }
-  // Above the far panel there is sky at the same pixel of both eyes; the right one sees the near
+  // Above the far panel there is sky at the same pixel of both cameras; the right one sees the near
   // panel from X = -0.45 to 0.05 of its own.
   const double from = pixel(-0.45, 2), to = pixel(0.05, 2);
   for (int u = 0; u < camera_.width; ++u) {
@@ -77,7 +77,7 @@ TEST_F(TwoPanelsTruthTest, TheOcclusionMaskIsWhatTheDrawingSays) {
 }
 
 TEST_F(TwoPanelsTruthTest, FlowIsWhereThePlanesPointsGo) {
-  const TruthView a = view(eye(0));
+  const TruthView a = view(camera(0));
   const TruthView b = view(look_at({0.1, 0.3, -0.05}, {0.2, 2, 0.1}, 0.1));
   const FlowTruth truth = optical_flow(a, b);
   int compared = 0, outside = 0;
@@ -104,7 +104,7 @@ TEST_F(TwoPanelsTruthTest, FlowIsWhereThePlanesPointsGo) {
 }
 
 TEST_F(TwoPanelsTruthTest, WhatIsBehindTheOtherCameraHasNoFlow) {
-  const FlowTruth truth = optical_flow(view(eye(0)), view(look_at({0, 4, 0}, {0, 5, 0})));
+  const FlowTruth truth = optical_flow(view(camera(0)), view(look_at({0, 4, 0}, {0, 5, 0})));
   EXPECT_TRUE(std::isnan(truth.flow.at<cv::Vec2f>(239, 375)[0]));
   EXPECT_EQ(truth.visible.at<std::uint8_t>(239, 375), 0);
   // The sky is ahead of both.
@@ -113,9 +113,9 @@ TEST_F(TwoPanelsTruthTest, WhatIsBehindTheOtherCameraHasNoFlow) {
 }
 
 TEST_F(TwoPanelsTruthTest, WrongViewsAreErrors) {
-  const TruthView left = view(eye(0)), right = view(eye(kBaseline));
+  const TruthView left = view(camera(0)), right = view(camera(kBaseline));
   TruthView lacking = right;
-  lacking.picture.normals.release();
+  lacking.image.normals.release();
   EXPECT_THAT(error_of([&] { optical_flow(left, lacking); }),
               HasSubstr("expected depth and normals"));
   TruthView bent = right;
@@ -145,7 +145,7 @@ TEST_F(TwoPanelsTruthTest, NumbersSayWhatTheyStandFor) {
 /// The two panels through a lens of strong distortion and bands of rows.
 class LensTruthTest : public TwoPanelsTruthTest {
  protected:
-  Picture capture(const RigCamera& camera, int bands) {
+  RenderedImage capture(const RigCamera& camera, int bands) {
     if (!renderer_) renderer_.emplace(scene_, RendererConfig{});
     CameraSensorConfig config = perfect_sensors().camera;
     config.readout_time = bands > 1 ? 1e-3 : 0;
@@ -155,21 +155,21 @@ class LensTruthTest : public TwoPanelsTruthTest {
     shot.exposure = {config.exposure.time, config.exposure.gain_db};
     shot.request = truth_request();
     return sensor.capture(
-        shot, [&](Stamp) { return eye(0); },
+        shot, [&](Stamp) { return camera(0); },
         [&](const PinholeCamera& view, const Pose& pose, const Renderer::Request& request) {
           return renderer_->render(view, pose, request);
         });
   }
 };
 
-TEST_F(LensTruthTest, EveryPictureIsBentAlikeToTheNearestPixel) {
+TEST_F(LensTruthTest, EveryImageIsBentAlikeToTheNearestPixel) {
   const RigCamera camera{
       "left", {400, 300, 150, 150, 199.5, 149.5, {-0.15, 0.02, 0.001, -0.002}}, {}};
   for (const int bands : {1, 7}) {
-    const Picture picture = capture(camera, bands);
-    ASSERT_EQ(picture.instances.size(), picture.labels.size());
-    ASSERT_EQ(picture.normals.size(), picture.labels.size());
-    ASSERT_EQ(picture.motion.size(), picture.labels.size());
+    const RenderedImage image = capture(camera, bands);
+    ASSERT_EQ(image.instances.size(), image.labels.size());
+    ASSERT_EQ(image.normals.size(), image.labels.size());
+    ASSERT_EQ(image.motion.size(), image.labels.size());
     int compared = 0;
     for (int v = 0; v < 300; ++v) {
       for (int u = 0; u < 400; ++u) {
@@ -184,11 +184,11 @@ TEST_F(LensTruthTest, EveryPictureIsBentAlikeToTheNearestPixel) {
         const bool near = x < 0.125 && y < 0.75;
         const bool far = !near && x < 2 / 3.0 && y < 0.5 / 3;
         const Label label = near ? Label::kPost : far ? Label::kBox : Label::kSky;
-        ASSERT_EQ(picture.labels.at<std::uint8_t>(v, u), static_cast<int>(label))
+        ASSERT_EQ(image.labels.at<std::uint8_t>(v, u), static_cast<int>(label))
             << u << ", " << v << ", bands " << bands;
-        ASSERT_EQ(picture.instances.at<std::int32_t>(v, u), near ? 512 : far ? 256 : 0);
-        ASSERT_NEAR(picture.depth.at<float>(v, u), near ? 2 : far ? 3 : 0, 1e-4);
-        ASSERT_NEAR(picture.normals.at<cv::Vec3f>(v, u)[2], near || far ? -1 : 0, 1e-4);
+        ASSERT_EQ(image.instances.at<std::int32_t>(v, u), near ? 512 : far ? 256 : 0);
+        ASSERT_NEAR(image.depth.at<float>(v, u), near ? 2 : far ? 3 : 0, 1e-4);
+        ASSERT_NEAR(image.normals.at<cv::Vec3f>(v, u)[2], near || far ? -1 : 0, 1e-4);
         ++compared;
       }
     }

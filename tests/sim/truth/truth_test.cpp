@@ -23,7 +23,7 @@ TEST(LabelShareTest, CountsPixels) {
   EXPECT_DOUBLE_EQ(label_share(labels, Label::kGround), 0.75);
   EXPECT_DOUBLE_EQ(label_share(labels, Label::kTag), 0);
   EXPECT_DOUBLE_EQ(label_share(cv::Mat(), Label::kBox), 0);
-  // A part of a picture is not continuous in memory.
+  // A part of an image is not continuous in memory.
   EXPECT_DOUBLE_EQ(label_share(labels(cv::Rect(0, 0, 10, 10)), Label::kBox), 0.5);
 }
 
@@ -53,10 +53,10 @@ TEST_F(TagVisibleTest, InView) {
 
 TEST_F(TagVisibleTest, OutOfView) {
   EXPECT_FALSE(visible(look_at({0, -1, 1}, {0, -2, 1})));  // behind the camera
-  EXPECT_FALSE(visible(look_at({0, -1, 1}, {3, 0, 1})));   // beside the picture
+  EXPECT_FALSE(visible(look_at({0, -1, 1}, {3, 0, 1})));   // beside the image
 }
 
-TEST_F(TagVisibleTest, CutByThePicturesEdge) {
+TEST_F(TagVisibleTest, CutByTheImagesEdge) {
   // 1 m away, the half width of 375.5 px is 1.43 m: the square's far side is at the camera's
   // offset + 0.1 m.
   const auto beside = [&](double offset) {
@@ -90,7 +90,7 @@ TEST_F(TagVisibleTest, OccludedAtItsCentreOrACorner) {
     cv::circle(labels_, at, 4, cv::Scalar(static_cast<int>(Label::kLeaf)), cv::FILLED);
     return visible(pose);
   };
-  // 1 m away: the square reaches 26.3 px from the picture's middle (375.5, 239.5), its checked
+  // 1 m away: the square reaches 26.3 px from the image's middle (375.5, 239.5), its checked
   // corners 25 px.
   EXPECT_FALSE(cover({375, 239}));
   EXPECT_FALSE(cover({375 - 25, 239 - 25}));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The truth pictures of a whole vineyard.
+// The truth images of a whole vineyard.
 
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ class TruthWorldTest : public testing::Test {
             renderer.render(camera_, T_world_cam, truth_request(time, other_time))};
   }
   Eigen::Vector3d point(const TruthView& v, int x, int y) const {
-    const double depth = v.picture.depth.at<float>(y, x);
+    const double depth = v.image.depth.at<float>(y, x);
     return v.T_world_cam * (depth * camera_.unproject({x, y}));
   }
 
@@ -61,15 +61,15 @@ class TruthWorldTest : public testing::Test {
   PinholeCamera camera_ = small_camera();
 };
 
-TEST_F(TruthWorldTest, FlowWarpsOnePictureOntoTheNext) {
+TEST_F(TruthWorldTest, FlowWarpsOneImageOntoTheNext) {
   Renderer renderer(grow(csl_vineyard()), {});
   // A frame of a rover at 0.75 m/s and 15 Hz, in a curve of 0.3 rad/s.
   const TruthView a = view(renderer, in_aisle()), b = view(renderer, in_aisle(-0.25, 0.03, 0.17));
   const FlowTruth forth = optical_flow(a, b), back = optical_flow(b, a);
-  // 15 % leave the picture; others are hidden by what is nearer or change their level of detail.
+  // 15 % leave the image; others are hidden by what is nearer or change their level of detail.
   EXPECT_GT(cv::countNonZero(forth.visible), 0.6 * forth.visible.total());
 
-  const cv::Mat grey_a = grey_of(a.picture.rgb), grey_b = grey_of(b.picture.rgb);
+  const cv::Mat grey_a = grey_of(a.image.rgb), grey_b = grey_of(b.image.rgb);
   const double exact = mean_difference(grey_a, warped(grey_b, forth.flow), forth.visible);
   EXPECT_LT(exact, 0.5 * mean_difference(grey_a, grey_b, forth.visible));
   for (const cv::Vec2f& off : {cv::Vec2f(0.5f, 0), {-0.5f, 0}, {0, 0.5f}, {0, -0.5f}}) {
@@ -84,7 +84,7 @@ TEST_F(TruthWorldTest, FlowWarpsOnePictureOntoTheNext) {
   const std::vector<double> trips = round_trips(forth, back, forth.visible);
   EXPECT_LT(quantile(trips, 0.5), 0.05);
   EXPECT_LT(quantile(trips, 0.99), 0.5);
-  // What is seen in both pictures is the same thing.
+  // What is seen in both images is the same thing.
   int same = 0, all = 0;
   for (int y = 0; y < camera_.height; ++y) {
     for (int x = 0; x < camera_.width; ++x) {
@@ -93,27 +93,27 @@ TEST_F(TruthWorldTest, FlowWarpsOnePictureOntoTheNext) {
       const int u = std::min(cvRound(x + f[0]), camera_.width - 1);
       const int v = std::min(cvRound(y + f[1]), camera_.height - 1);
       ++all;
-      same += a.picture.labels.at<std::uint8_t>(y, x) == b.picture.labels.at<std::uint8_t>(v, u);
+      same += a.image.labels.at<std::uint8_t>(y, x) == b.image.labels.at<std::uint8_t>(v, u);
     }
   }
   EXPECT_GT(same, 0.97 * all);
 }
 
-TEST_F(TruthWorldTest, DisparityWarpsTheRightPictureOntoTheLeft) {
+TEST_F(TruthWorldTest, DisparityWarpsTheRightImageOntoTheLeft) {
   constexpr double kBaseline = 0.12;  // m
   Renderer renderer(grow(csl_vineyard()), {});
-  const Pose left_eye = in_aisle();
-  const Pose right_eye = left_eye * Pose{Eigen::Quaterniond::Identity(), {kBaseline, 0, 0}};
-  const TruthView left = view(renderer, left_eye), right = view(renderer, right_eye);
+  const Pose left_camera = in_aisle();
+  const Pose right_camera = left_camera * Pose{Eigen::Quaterniond::Identity(), {kBaseline, 0, 0}};
+  const TruthView left = view(renderer, left_camera), right = view(renderer, right_camera);
   const DisparityTruth truth = disparity(left, right);
   for (int y = 0; y < camera_.height; ++y) {
     for (int x = 0; x < camera_.width; ++x) {
-      const float depth = left.picture.depth.at<float>(y, x);
+      const float depth = left.image.depth.at<float>(y, x);
       const double expected = depth == 0 ? 0 : camera_.fx * kBaseline / depth;
       ASSERT_NEAR(truth.disparity.at<float>(y, x), expected, 0.01);
     }
   }
-  const cv::Mat grey_left = grey_of(left.picture.rgb), grey_right = grey_of(right.picture.rgb);
+  const cv::Mat grey_left = grey_of(left.image.rgb), grey_right = grey_of(right.image.rgb);
   cv::Mat flow;
   const cv::Mat level = cv::Mat::zeros(truth.disparity.size(), CV_32F);
   cv::merge(std::vector<cv::Mat>{-truth.disparity, level}, flow);
@@ -161,12 +161,12 @@ TEST_F(TruthWorldTest, LabelsInstancesDepthAndNormalsAgreeWithTheGeometry) {
     const Eigen::Matrix3d R_world_cam = pose.rotation.toRotationMatrix();
     for (int y = 0; y < camera_.height; ++y) {
       for (int x = 0; x < camera_.width; ++x) {
-        const auto label = static_cast<Label>(v.picture.labels.at<std::uint8_t>(y, x));
+        const auto label = static_cast<Label>(v.image.labels.at<std::uint8_t>(y, x));
         const bool sky = label == Label::kSky;
-        const cv::Vec3f n = v.picture.normals.at<cv::Vec3f>(y, x);
-        ASSERT_EQ(sky, v.picture.depth.at<float>(y, x) == 0) << x << ", " << y;
-        ASSERT_EQ(v.picture.motion.at<cv::Vec3f>(y, x), cv::Vec3f(0, 0, 0));
-        const InstanceName name = instance_name(scene_, v.picture.instances.at<std::int32_t>(y, x));
+        const cv::Vec3f n = v.image.normals.at<cv::Vec3f>(y, x);
+        ASSERT_EQ(sky, v.image.depth.at<float>(y, x) == 0) << x << ", " << y;
+        ASSERT_EQ(v.image.motion.at<cv::Vec3f>(y, x), cv::Vec3f(0, 0, 0));
+        const InstanceName name = instance_name(scene_, v.image.instances.at<std::int32_t>(y, x));
         ASSERT_TRUE(may_show(name.thing, label)) << name_of(name.thing) << " " << int(label);
         ASSERT_EQ(name.part > 0, label == Label::kBunch) << x << ", " << y;
         ++seen[name.thing];
@@ -187,7 +187,7 @@ TEST_F(TruthWorldTest, LabelsInstancesDepthAndNormalsAgreeWithTheGeometry) {
           // Cards of the far levels reach a little beyond the finest level.
           ASSERT_LT(model.bounds.exteriorDistance(p_model), 0.03) << name.model << " " << p;
         }
-        if (name.thing == Thing::kGround && v.picture.depth.at<float>(y, x) < 15) {
+        if (name.thing == Thing::kGround && v.image.depth.at<float>(y, x) < 15) {
           ASSERT_NEAR(p.z(), 0, 0.002) << x << ", " << y;
           ++ground;
           upright += (R_world_cam * normal).z() > 0.999;
@@ -223,7 +223,7 @@ TEST_F(TruthWorldTest, UnevenGroundIsWhereTheTerrainSays) {
   const TruthView v = view(renderer, in_aisle(-0.3, 0, 0.1, 0.3));
   for (int y = 0; y < camera_.height; ++y) {
     for (int x = 0; x < camera_.width; ++x) {
-      const InstanceName name = instance_name(scene_, v.picture.instances.at<std::int32_t>(y, x));
+      const InstanceName name = instance_name(scene_, v.image.instances.at<std::int32_t>(y, x));
       const Eigen::Vector3d p = point(v, x, y);
       if (name.thing != Thing::kGround || (p - v.T_world_cam.translation).norm() > 4) continue;
       if (!terrain.box().contains(terrain.frame().from_world(p.head<2>()))) continue;
@@ -234,7 +234,7 @@ TEST_F(TruthWorldTest, UnevenGroundIsWhereTheTerrainSays) {
   EXPECT_GT(compared, 50000);
 }
 
-TEST_F(TruthWorldTest, AskingForTheTruthChangesNoByteOfThePicture) {
+TEST_F(TruthWorldTest, AskingForTheTruthChangesNoByteOfTheImage) {
   grow(csl_vineyard());
   for (const bool windy : {false, true}) {
     Scene scene = scene_;
@@ -243,11 +243,11 @@ TEST_F(TruthWorldTest, AskingForTheTruthChangesNoByteOfThePicture) {
       scene.light.haze = 0.05f;
     }
     Renderer renderer(scene, {});
-    const Picture plain = renderer.render(camera_, in_aisle(), {.labels = true, .time = 2});
-    const Picture full = renderer.render(camera_, in_aisle(), truth_request(2, 2.1));
+    const RenderedImage plain = renderer.render(camera_, in_aisle(), {.labels = true, .time = 2});
+    const RenderedImage full = renderer.render(camera_, in_aisle(), truth_request(2, 2.1));
     EXPECT_EQ(different_values(plain.rgb, full.rgb), 0);
     EXPECT_EQ(different_values(plain.labels, full.labels), 0);
-    const Picture again = renderer.render(camera_, in_aisle(), {.labels = true, .time = 2});
+    const RenderedImage again = renderer.render(camera_, in_aisle(), {.labels = true, .time = 2});
     EXPECT_EQ(different_values(plain.rgb, again.rgb), 0);
   }
 }
@@ -264,18 +264,18 @@ TEST_F(TruthWorldTest, WindMovesLeavesAndMotionSaysWhereTo) {
                              calm.render(camera_, pose, {}).rgb),
             0);
   const TruthView a = view(renderer, pose, kTime, kLater), b = view(renderer, pose, kLater, kTime);
-  EXPECT_GT(different_values(a.picture.rgb, b.picture.rgb), 50000);
+  EXPECT_GT(different_values(a.image.rgb, b.image.rgb), 50000);
   const FlowTruth forth = optical_flow(a, b), back = optical_flow(b, a);
-  cv::Mat leaves = a.picture.labels == static_cast<int>(Label::kLeaf);
+  cv::Mat leaves = a.image.labels == static_cast<int>(Label::kLeaf);
   std::vector<double> lengths;
   for (int y = 0; y < camera_.height; ++y) {
     for (int x = 0; x < camera_.width; ++x) {
       const double length = cv::norm(forth.flow.at<cv::Vec2f>(y, x));
       if (leaves.at<std::uint8_t>(y, x) != 0) lengths.push_back(length);
-      if (is(a.picture.labels, y, x, Label::kPost)) {
+      if (is(a.image.labels, y, x, Label::kPost)) {
         ASSERT_LT(length, 0.001);
       }
-      if (is(a.picture.labels, y, x, Label::kTrunk)) {
+      if (is(a.image.labels, y, x, Label::kTrunk)) {
         ASSERT_LT(length, 0.001);
       }
     }
@@ -286,7 +286,7 @@ TEST_F(TruthWorldTest, WindMovesLeavesAndMotionSaysWhereTo) {
   const std::vector<double> trips = round_trips(forth, back, leaves);
   EXPECT_LT(quantile(trips, 0.5), 0.1);
   EXPECT_LT(quantile(trips, 0.95), 0.5);
-  const cv::Mat grey_a = grey_of(a.picture.rgb), grey_b = grey_of(b.picture.rgb);
+  const cv::Mat grey_a = grey_of(a.image.rgb), grey_b = grey_of(b.image.rgb);
   const std::vector<double> shifts =
       patch_shifts(grey_a, warped(grey_b, forth.flow), forth.visible, leaves);
   EXPECT_GT(shifts.size(), 20u);

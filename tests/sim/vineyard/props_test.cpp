@@ -28,7 +28,7 @@ WorldConfig one_row() {
   return world;
 }
 
-/// Spread of a picture's first channel, 0 to 255.
+/// Spread of an image's first channel, 0 to 255.
 double spread(const Texture& texture) {
   cv::Mat red;
   cv::extractChannel(texture.rgba, red, 0);

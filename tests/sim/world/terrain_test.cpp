@@ -76,7 +76,7 @@ double drawn_height(const Scene& scene, const Eigen::Vector2d& p) {
   return std::nan("");
 }
 
-TEST(TerrainTest, IsOneSurfaceInPhysicsAndPicture) {
+TEST(TerrainTest, IsOneSurfaceInPhysicsAndImage) {
   const WorldConfig world = bumpy();
   const Terrain terrain(world);
   PhysicsWorld physics(kSource / "models/csl-rover/rover.xml", world);

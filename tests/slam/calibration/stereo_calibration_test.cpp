@@ -25,7 +25,7 @@ std::vector<Pose> drive() {
 /// puts them.
 AisleMap map_with_offset(const SyntheticAisle& aisle, double offset) {
   AisleMap made(aisle, {});
-  const EyeModel& eye = made.rig.eyes[1];
+  const StereoCameraModel& camera = made.rig.left_cameras[1];
   for (const Pose& pose : drive()) {
     auto frame = aisle.frame(static_cast<std::int64_t>(made.map.keyframes().size()), pose);
     StereoView& view = frame->views[1];
@@ -33,7 +33,7 @@ AisleMap map_with_offset(const SyntheticAisle& aisle, double offset) {
       StereoMatch& match = view.stereo[f];
       match.x_right += static_cast<float>(offset);
       match.depth = static_cast<float>(
-          eye.depth_of(static_cast<double>(view.features.keypoints[f].x - match.x_right)));
+          camera.depth_of(static_cast<double>(view.features.keypoints[f].x - match.x_right)));
     }
     made.add(frame, pose);
   }

@@ -11,7 +11,7 @@ namespace {
 
 using testing_support::SyntheticAisle;
 
-TEST(EstimatorRigTest, MeasuresWithTheRightEyeWhereThereIsADepth) {
+TEST(EstimatorRigTest, MeasuresWithTheRightCameraWhereThereIsADepth) {
   const SyntheticAisle aisle(0, 1, 300);
   const EstimatorRig rig(aisle.rig, OrbConfig{});
   StereoView view = aisle.frame(0, Pose{})->views[0];
@@ -56,22 +56,23 @@ TEST(EstimatorRigTest, CorrectsDepthsByTheDisparityOffset) {
   rig.set_disparity_offsets({0.5, 0});
   corrected.stereo[3].x_right = view.features.keypoints[3].x - 0.1F;
   rig.correct_depths(0, corrected);
-  const EyeModel& eye = rig.eyes[0];
+  const StereoCameraModel& camera = rig.left_cameras[0];
   const double disparity =
       static_cast<double>(view.features.keypoints[5].x - view.stereo[5].x_right);
-  EXPECT_NEAR(corrected.stereo[5].depth, eye.lens.fx * eye.baseline / (disparity + 0.5), 1e-6);
+  EXPECT_NEAR(corrected.stereo[5].depth, camera.lens.fx * camera.baseline / (disparity + 0.5),
+              1e-6);
   EXPECT_EQ(corrected.stereo[5].x_right, view.stereo[5].x_right);
   EXPECT_EQ(corrected.stereo[3].depth, -1);
 }
 
-TEST(EstimatorRigTest, TagEyesHaveNoDistortionLeft) {
+TEST(EstimatorRigTest, TagCamerasHaveNoDistortionLeft) {
   Rig bent = load_rig(VINEBENCH_SOURCE_DIR "/models/csl-rover/rig.yaml");
   bent.cameras[4].model.distortion = {-0.05, 0, 0, 0};
   const EstimatorRig rig(make_stereo_rig(bent, {}), OrbConfig{});
-  ASSERT_EQ(rig.tag_eyes.size(), 5u);
-  EXPECT_FALSE(rig.tag_eyes[4].lens.has_distortion());
-  EXPECT_EQ(rig.tag_eyes[4].lens.fx, 733);
-  const Pose identity = rig.tag_eyes[4].T_cam_body * bent.cameras[4].T_body_cam;
+  ASSERT_EQ(rig.undistorted_cameras.size(), 5u);
+  EXPECT_FALSE(rig.undistorted_cameras[4].lens.has_distortion());
+  EXPECT_EQ(rig.undistorted_cameras[4].lens.fx, 733);
+  const Pose identity = rig.undistorted_cameras[4].T_cam_body * bent.cameras[4].T_body_cam;
   EXPECT_LT((identity.matrix() - Eigen::Matrix4d::Identity()).norm(), 1e-14);
 }
 

@@ -20,7 +20,7 @@ PinholeCamera lens(double fx, double fy, double cx, double cy) {
   return {.width = 376, .height = 240, .fx = fx, .fy = fy, .cx = cx, .cy = cy};
 }
 
-/// A pair as EuRoC's at half size: barrel distortion, different lenses, eyes some degrees off.
+/// A pair as EuRoC's at half size: barrel distortion, different lenses, cameras some degrees off.
 Rig raw_rig() {
   Rig rig;
   rig.name = "raw";
@@ -48,10 +48,10 @@ Rig ideal_rig() {
 /// rotation are exact. One texture cell is about as many pixels as in the other tests.
 cv::Mat view_of_wall(const RigCamera& camera) {
   const SyntheticTexture texture(5);
-  return render_picture(camera.model.width, camera.model.height, [&](double x, double y) {
+  return render_image(camera.model.width, camera.model.height, [&](double x, double y) {
     const Eigen::Vector3d ray = camera.T_body_cam.rotation * camera.model.unproject({x, y});
-    const Eigen::Vector3d eye = camera.T_body_cam.translation;
-    const Eigen::Vector3d p = eye + ray * ((kWall - eye.x()) / ray.x());
+    const Eigen::Vector3d camera = camera.T_body_cam.translation;
+    const Eigen::Vector3d p = camera + ray * ((kWall - camera.x()) / ray.x());
     return texture(150 * p.y(), 150 * p.z());
   });
 }
@@ -71,14 +71,14 @@ std::vector<double> wall_errors(const Rig& rig) {
   const StereoRig used = make_stereo_rig(rig, {});
   const auto features = features_of(rig, used);
   const StereoView& view = features->views[0];
-  const StereoEye& eye = used.pairs[0];
+  const RectifiedPair& camera = used.pairs[0];
   std::vector<double> errors;
   for (std::size_t i = 0; i < view.features.size(); ++i) {
     if (view.stereo[i].depth <= 0) continue;
     const Keypoint& keypoint = view.features.keypoints[i];
     const Eigen::Vector3d p_cam =
-        eye.lens.unproject({keypoint.x, keypoint.y}) * static_cast<double>(view.stereo[i].depth);
-    errors.push_back(std::abs((eye.T_body_cam * p_cam).x() - kWall));
+        camera.lens.unproject({keypoint.x, keypoint.y}) * static_cast<double>(view.stereo[i].depth);
+    errors.push_back(std::abs((camera.T_body_cam * p_cam).x() - kWall));
   }
   std::ranges::sort(errors);
   return errors;
@@ -90,8 +90,8 @@ TEST(RectificationTest, ARawPairMeasuresAsAnIdealOneDoes) {
   ASSERT_GT(ideal.size(), 200u);
   EXPECT_GT(raw.size(), 0.8 * static_cast<double>(ideal.size()));
   // A depth z is off by z^2 / (f b) a pixel of disparity: 1.5^2 / (229 * 0.11) = 0.089 m. Maps are
-  // fixed to 1/32 px in each eye and interpolation adds about as much again: 0.1 px at the median
-  // beyond the ideal pair's error.
+  // fixed to 1/32 px in each camera and interpolation adds about as much again: 0.1 px at the
+  // median beyond the ideal pair's error.
   EXPECT_LT(raw[raw.size() / 2], ideal[ideal.size() / 2] + 0.1 * 0.089);
   EXPECT_LT(raw[raw.size() * 9 / 10], ideal[ideal.size() * 9 / 10] + 0.3 * 0.089);
 }
@@ -111,7 +111,7 @@ TEST(RectificationTest, PointsFallOnOneRowAtTheirDisparity) {
   for (int i = 0; i < 2; ++i) {
     const RigCamera& camera = rig.cameras[static_cast<std::size_t>(i)];
     const Eigen::Vector2d seen = camera.model.project(camera.T_body_cam.inverse() * p_body);
-    const cv::Mat painted = render_picture(376, 240, [&](double x, double y) {
+    const cv::Mat painted = render_image(376, 240, [&](double x, double y) {
       return 255 * std::exp(-(Eigen::Vector2d(x, y) - seen).squaredNorm() / (2 * 4.0));
     });
     const cv::Mat rectified = i == 0 ? pair.left(painted) : pair.right(painted);
@@ -123,11 +123,11 @@ TEST(RectificationTest, PointsFallOnOneRowAtTheirDisparity) {
     }
     const Pose& T_body_common = i == 0 ? T_body_left : T_body_right;
     const Eigen::Vector2d expected = pair.lens().project(T_body_common.inverse() * p_body);
-    EXPECT_LT((sum.head<2>() / sum.z() - expected).norm(), 0.05) << "eye " << i;
+    EXPECT_LT((sum.head<2>() / sum.z() - expected).norm(), 0.05) << "camera " << i;
   }
 }
 
-TEST(RectificationTest, NoFeatureWhereAPictureEnds) {
+TEST(RectificationTest, NoFeatureWhereAImageEnds) {
   Rig rig = raw_rig();
   for (RigCamera& camera : rig.cameras) {
     camera.model = lens(229, 229, 187.5, 119.5);
@@ -137,11 +137,11 @@ TEST(RectificationTest, NoFeatureWhereAPictureEnds) {
   rig.cameras[1].T_body_cam = Rig::mount({0, -0.055, 0}, {-0.12, 0, 0});
   const StereoRig used = make_stereo_rig(rig, {});
   const auto features = features_of(rig, used);
-  const StereoEye& eye = used.pairs[0];
+  const RectifiedPair& camera = used.pairs[0];
   ASSERT_GT(features->views[0].features.size(), 100u);
   for (const Keypoint& keypoint : features->views[0].features.keypoints) {
     const Eigen::Vector3d ray =
-        eye.T_body_cam.rotation * eye.lens.unproject({keypoint.x, keypoint.y});
+        camera.T_body_cam.rotation * camera.lens.unproject({keypoint.x, keypoint.y});
     const RigCamera& real = rig.cameras[0];
     const Eigen::Vector2d source = real.model.project(real.T_body_cam.rotation.inverse() * ray);
     // 17 px of the feature's level, less the distance transform's half pixel and a rounded pixel.
@@ -172,11 +172,11 @@ TEST(RectificationTest, PairsThatAreNoneAreErrors) {
   };
   EXPECT_THAT(
       error([](Rig& rig) { std::swap(rig.stereo_pairs[0].left, rig.stereo_pairs[0].right); }),
-      testing::HasSubstr("rig 'raw': stereo pair 'front': expected the right eye to the"));
+      testing::HasSubstr("rig 'raw': stereo pair 'front': expected the right camera to the"));
   EXPECT_THAT(error([&](Rig& rig) { rig.cameras[1].T_body_cam = mount(0.055, -0.1, 0); }),
-              testing::HasSubstr("to the right of the left eye"));  // one above the other
+              testing::HasSubstr("to the right of the left camera"));  // one above the other
   EXPECT_THAT(error([&](Rig& rig) { rig.cameras[1].T_body_cam = mount(-0.055, 0, 3); }),
-              testing::HasSubstr("expected the right eye"));  // looks back
+              testing::HasSubstr("expected the right camera"));  // looks back
   EXPECT_THAT(error([](Rig& rig) {
                 rig.cameras[1].T_body_cam.translation = rig.cameras[0].T_body_cam.translation;
               }),

@@ -60,7 +60,7 @@ bool is_rectified_first(const Rig& rig, std::size_t pair) {
 
 TEST(StereoRigTest, RectifiedPairsAreUsedAsTheyAre) {
   const StereoRig rig = make_stereo_rig(rover(), {});
-  for (const StereoEye& pair : rig.pairs) {
+  for (const RectifiedPair& pair : rig.pairs) {
     const RigCamera& left = rig.cameras[static_cast<std::size_t>(pair.left_camera)];
     EXPECT_EQ(pair.rectification, nullptr);
     EXPECT_EQ(pair.lens.fx, left.model.fx);
@@ -75,7 +75,7 @@ TEST(StereoRigTest, OtherPairsAreRectifiedFirst) {
   EXPECT_FALSE(is_rectified_first(rig, 1));
 
   rig = rover();
-  rig.cameras[3].T_body_cam.translation.z() += 1e-4;  // 0.2 px a metre before the eyes
+  rig.cameras[3].T_body_cam.translation.z() += 1e-4;  // 0.2 px a metre before the cameras
   EXPECT_TRUE(is_rectified_first(rig, 1));
 
   rig = rover();
@@ -87,7 +87,7 @@ TEST(StereoRigTest, OtherPairsAreRectifiedFirst) {
   EXPECT_TRUE(is_rectified_first(rig, 1));
 }
 
-TEST(StereoRigTest, EyesTheWrongWayRoundAreAnErrorWherePairIsUsed) {
+TEST(StereoRigTest, CamerasTheWrongWayRoundAreAnErrorWherePairIsUsed) {
   Rig rig = rover();
   std::swap(rig.stereo_pairs[0].left, rig.stereo_pairs[0].right);
   EXPECT_THAT([&] { make_stereo_rig(rig, {}); },

@@ -9,7 +9,7 @@
 namespace vinebench {
 namespace {
 
-EyeModel eye() {
+StereoCameraModel camera() {
   const PinholeCamera lens{752, 480, 263.2786, 263.2786, 375.5, 239.5, {}};
   return {lens, Pose{exp_so3({0.4, -1.1, 0.8}), {0.1, 0.05, -0.4}}, 0.12};
 }
@@ -18,9 +18,9 @@ Pose body() {
   return {exp_so3({0.1, 0.2, -0.3}), {0.5, -0.2, 0.1}};
 }
 
-/// A point 1.5 m ahead of the eye, off its axis.
+/// A point 1.5 m ahead of the camera, off its axis.
 Eigen::Vector3d point() {
-  return body() * (eye().T_cam_body.inverse() * Eigen::Vector3d(0.4, -0.3, 1.5));
+  return body() * (camera().T_cam_body.inverse() * Eigen::Vector3d(0.4, -0.3, 1.5));
 }
 
 /// Central differences by the manifold's own steps against the analytic Jacobian, every column.
@@ -72,20 +72,20 @@ std::vector<double> as_vector(const PoseBlock& block) {
 }
 
 TEST(ReprojectionErrorTest, IsZeroAtTheTruth) {
-  const EyeModel e = eye();
+  const StereoCameraModel e = camera();
   PixelMeasurement m;
   const Eigen::Vector3d p_cam = e.T_cam_body * (body().inverse() * point());
   m.pixel = e.lens.project(p_cam);
   m.right_x = m.pixel.x() - e.lens.fx * e.baseline / p_cam.z();
   const ReprojectionError error(e, m);
   EXPECT_NEAR(error.chi_squared(body(), point()), 0.0, 1e-20);
-  // One pixel off in the right eye alone, at sigma = 1: chi squared is 1.
+  // One pixel off in the right camera alone, at sigma = 1: chi squared is 1.
   m.right_x = *m.right_x + 1;
   EXPECT_NEAR(ReprojectionError(e, m).chi_squared(body(), point()), 1.0, 1e-9);
 }
 
 TEST(ReprojectionErrorTest, JacobiansAreTheNumericOnes) {
-  const EyeModel e = eye();
+  const StereoCameraModel e = camera();
   PixelMeasurement m;
   m.pixel = {400, 200};
   m.sigma = 1.44;
@@ -95,8 +95,8 @@ TEST(ReprojectionErrorTest, JacobiansAreTheNumericOnes) {
   expect_jacobian(ReprojectionError(e, m), {as_vector(to_block(body())), {p.x(), p.y(), p.z()}});
 }
 
-TEST(ReprojectionErrorTest, AnUnknownDisparityOffsetMovesTheRightEyesColumnAlone) {
-  EyeModel e = eye();
+TEST(ReprojectionErrorTest, AnUnknownDisparityOffsetMovesTheRightCamerasColumnAlone) {
+  StereoCameraModel e = camera();
   PixelMeasurement m;
   m.pixel = {400, 200};
   m.right_x = 380;
@@ -104,14 +104,15 @@ TEST(ReprojectionErrorTest, AnUnknownDisparityOffsetMovesTheRightEyesColumnAlone
   const Eigen::Vector3d p = point();
   expect_jacobian(ReprojectionError(e, m, true),
                   {as_vector(to_block(body())), {p.x(), p.y(), p.z()}, {0.3}});
-  // The eye's own offset does the same: 0.6 px more in the right eye are half a standard deviation.
+  // The camera's own offset does the same: 0.6 px more in the right camera are half a standard
+  // deviation.
   const double before = Reprojection(e, m).linearise(body(), p).residual.z();
   e.disparity_offset = 0.6;
   EXPECT_NEAR(Reprojection(e, m).linearise(body(), p).residual.z() - before, 0.5, 1e-9);
 }
 
-TEST(EyeModelTest, DepthAndDisparityAreEachOthersInverse) {
-  EyeModel e = eye();
+TEST(StereoCameraModelTest, DepthAndDisparityAreEachOthersInverse) {
+  StereoCameraModel e = camera();
   e.disparity_offset = -0.4;
   // At 2 m by lens and baseline, and 0.4 px more for the offset.
   EXPECT_NEAR(e.disparity_of(2), e.lens.fx * e.baseline / 2 + 0.4, 1e-12);
@@ -119,7 +120,7 @@ TEST(EyeModelTest, DepthAndDisparityAreEachOthersInverse) {
 }
 
 TEST(ReprojectionTest, StepsThePoseAsTheManifoldDoes) {
-  const EyeModel e = eye();
+  const StereoCameraModel e = camera();
   PixelMeasurement m;
   m.pixel = {400, 200};
   m.right_x = 380;
@@ -139,7 +140,7 @@ TEST(ReprojectionTest, StepsThePoseAsTheManifoldDoes) {
 // To the bit: a step that is tried is judged by the one, and what it is judged against by the
 // other.
 TEST(ReprojectionTest, TheResidualAloneIsThatOfTheLinearisation) {
-  const EyeModel e = eye();
+  const StereoCameraModel e = camera();
   const Eigen::Vector3d behind = body() * (e.T_cam_body.inverse() * Eigen::Vector3d(0, 0, -1));
   PixelMeasurement m;
   m.pixel = {400, 200};
@@ -152,8 +153,8 @@ TEST(ReprojectionTest, TheResidualAloneIsThatOfTheLinearisation) {
   }
 }
 
-TEST(ReprojectionErrorTest, BehindTheEyeIsNoInlierAndStaysFinite) {
-  const EyeModel e = eye();
+TEST(ReprojectionErrorTest, BehindTheCameraIsNoInlierAndStaysFinite) {
+  const StereoCameraModel e = camera();
   PixelMeasurement m;
   m.pixel = {400, 200};
   const Eigen::Vector3d behind = body() * (e.T_cam_body.inverse() * Eigen::Vector3d(0, 0, -1));
@@ -185,7 +186,7 @@ TEST(OdometryErrorTest, JacobiansAreTheNumericOnes) {
 }
 
 TEST(TagCornerErrorTest, JacobiansAreTheNumericOnes) {
-  const EyeModel e = eye();
+  const StereoCameraModel e = camera();
   const Pose T_map_tag{exp_so3({0.3, -0.2, 0.5}), point()};
   expect_jacobian(TagCornerError(e, {300, 250}, 0.3, tag_corners(0.161)[1]),
                   {as_vector(to_block(body())), as_vector(to_block(T_map_tag))});

@@ -16,21 +16,21 @@ namespace vinebench {
 namespace {
 
 /// Contrast of the texture falls from full at the left to a tenth at the right.
-cv::Mat fading_picture() {
+cv::Mat fading_image() {
   const SyntheticTexture texture(11);
-  return render_picture(320, 200, [&](double x, double y) {
+  return render_image(320, 200, [&](double x, double y) {
     return 127 + (texture(x, y) - 127) * (1 - 0.9 * x / 320);
   });
 }
 
 /// The definition, cell by cell, from one pass at the low threshold: a cell keeps the corners of
 /// the high threshold, or all where it has none.
-std::map<std::pair<int, int>, int> by_definition(const cv::Mat& picture,
+std::map<std::pair<int, int>, int> by_definition(const cv::Mat& image,
                                                  const FastCellsConfig& config) {
   std::vector<cv::KeyPoint> all;
-  cv::FAST(picture, all, config.threshold_min, true);
-  const int width = picture.cols - 2 * config.edge;
-  const int height = picture.rows - 2 * config.edge;
+  cv::FAST(image, all, config.threshold_min, true);
+  const int width = image.cols - 2 * config.edge;
+  const int height = image.rows - 2 * config.edge;
   const int columns = width / config.cell;
   const int rows = height / config.cell;
   std::map<std::pair<int, int>, int> kept;
@@ -57,19 +57,19 @@ std::map<std::pair<int, int>, int> by_definition(const cv::Mat& picture,
 }
 
 TEST(FastCells, AgreesWithTheDefinition) {
-  const cv::Mat picture = fading_picture();
+  const cv::Mat image = fading_image();
   for (const int cell : {20, 32, 47}) {
     const FastCellsConfig config{20, 7, cell, 19};
     std::map<std::pair<int, int>, int> found;
-    for (const Corner& c : detect_fast_cells(picture, config)) found[{c.y, c.x}] = c.score;
-    EXPECT_EQ(found, by_definition(picture, config)) << "cells of " << cell << " px";
+    for (const Corner& c : detect_fast_cells(image, config)) found[{c.y, c.x}] = c.score;
+    EXPECT_EQ(found, by_definition(image, config)) << "cells of " << cell << " px";
   }
 }
 
 TEST(FastCells, WeakCellsGiveCornersOnlyByTheLowerThreshold) {
-  const cv::Mat picture = fading_picture();
+  const cv::Mat image = fading_image();
   const auto right_part = [&](int threshold_min) {
-    const auto corners = detect_fast_cells(picture, {20, threshold_min, 32, 19});
+    const auto corners = detect_fast_cells(image, {20, threshold_min, 32, 19});
     return std::count_if(corners.begin(), corners.end(),
                          [](const Corner& c) { return c.x > 280 && c.score < 20; });
   };
@@ -78,7 +78,7 @@ TEST(FastCells, WeakCellsGiveCornersOnlyByTheLowerThreshold) {
 }
 
 TEST(FastCells, LeavesTheBorderOut) {
-  for (const Corner& c : detect_fast_cells(fading_picture(), {20, 7, 32, 30})) {
+  for (const Corner& c : detect_fast_cells(fading_image(), {20, 7, 32, 30})) {
     EXPECT_GE(c.x, 30);
     EXPECT_GE(c.y, 30);
     EXPECT_LT(c.x, 320 - 30);
@@ -86,7 +86,7 @@ TEST(FastCells, LeavesTheBorderOut) {
   }
 }
 
-TEST(FastCells, BlankOrTinyPicturesHaveNone) {
+TEST(FastCells, BlankOrTinyImagesHaveNone) {
   EXPECT_TRUE(detect_fast_cells(cv::Mat(200, 300, CV_8UC1, cv::Scalar(90)), {}).empty());
   EXPECT_TRUE(detect_fast_cells(cv::Mat(38, 300, CV_8UC1, cv::Scalar(90)), {}).empty());
   EXPECT_TRUE(detect_fast_cells(cv::Mat(1, 1, CV_8UC1, cv::Scalar(90)), {}).empty());

@@ -41,7 +41,7 @@ TEST(FeatureGrid, FindsWhatAFullSearchFinds) {
   }
   const FeatureGrid grid(keypoints, 752, 480);
   for (int i = 0; i < 200; ++i) {
-    // Centres up to 60 px off the picture, windows from nothing to most of it.
+    // Centres up to 60 px off the image, windows from nothing to most of it.
     const auto x = static_cast<float>(draws.uniform(-60, 812));
     const auto y = static_cast<float>(draws.uniform(-60, 540));
     const auto radius = static_cast<float>(draws.uniform(0, 200));
@@ -75,7 +75,7 @@ TEST(FeatureGrid, AppendsToTheResult) {
   EXPECT_THAT(result, ElementsAre(42, 0));
 }
 
-TEST(FeatureGrid, KeepsKeypointsOffThePicture) {
+TEST(FeatureGrid, KeepsKeypointsOffTheImage) {
   const FeatureGrid grid({keypoint(-30, 500)}, 64, 64);
   EXPECT_THAT(query(grid, -30, 500, 1), ElementsAre(0));
   EXPECT_THAT(query(grid, 0, 63, 20), IsEmpty());

@@ -27,10 +27,10 @@ OrbConfig small_config() {
 
 cv::Mat textured(double sigma = 0, std::uint64_t seed = 0) {
   const SyntheticTexture texture(7);
-  return render_picture(kWidth, kHeight, texture, sigma, seed);
+  return render_image(kWidth, kHeight, texture, sigma, seed);
 }
 
-/// Similarity that takes a point of the first picture to the second: about the middle.
+/// Similarity that takes a point of the first image to the second: about the middle.
 struct Similarity {
   double angle = 0;
   double scale = 1;
@@ -45,7 +45,7 @@ struct Similarity {
   cv::Mat render(double sigma) const {
     const SyntheticTexture texture(7);
     const Similarity back = inverse();
-    return render_picture(
+    return render_image(
         kWidth, kHeight,
         [&](double x, double y) {
           const cv::Point2d p = back(x, y);
@@ -56,7 +56,7 @@ struct Similarity {
 };
 
 struct MatchQuality {
-  int visible = 0;  ///< keypoints whose point is well inside the second picture
+  int visible = 0;  ///< keypoints whose point is well inside the second image
   int matched = 0;  ///< mutual nearest neighbours below 50 bits, of these
   int correct = 0;  ///< within 3 px at the keypoint's scale
 };
@@ -113,7 +113,7 @@ TEST(OrbExtractor, GivesNearlyTheWantedFeaturesAtEveryLevel) {
   }
 }
 
-TEST(OrbExtractor, CoversThePictureEvenly) {
+TEST(OrbExtractor, CoversTheImageEvenly) {
   const Features features = OrbExtractor(small_config()).extract(textured()).features;
   // 6 x 4 cells inside the border share 600 features: 25 each on average, none under a third.
   std::vector<int> cells(24, 0);
@@ -139,12 +139,12 @@ TEST(OrbExtractor, KeepsToTheEdgeAtEveryLevel) {
 
 TEST(OrbExtractor, IsTheSameEveryTimeAndOnEveryThread) {
   const OrbExtractor extractor(small_config());
-  const cv::Mat picture = textured(2, 5);
-  const Features once = extractor.extract(picture).features;
+  const cv::Mat image = textured(2, 5);
+  const Features once = extractor.extract(image).features;
   std::vector<Features> others(4);
   std::vector<std::thread> threads;
   for (Features& other : others) {
-    threads.emplace_back([&] { other = extractor.extract(picture.clone()).features; });
+    threads.emplace_back([&] { other = extractor.extract(image.clone()).features; });
   }
   for (std::thread& thread : threads) thread.join();
   for (const Features& other : others) EXPECT_TRUE(same(once, other));
@@ -152,10 +152,10 @@ TEST(OrbExtractor, IsTheSameEveryTimeAndOnEveryThread) {
 
 TEST(OrbExtractor, DoesNotDependOnTheRowPitch) {
   const OrbExtractor extractor(small_config());
-  const cv::Mat picture = textured();
+  const cv::Mat image = textured();
   cv::Mat wide(kHeight, kWidth + 37, CV_8UC1, cv::Scalar(0));
-  picture.copyTo(wide(cv::Rect(0, 0, kWidth, kHeight)));
-  EXPECT_TRUE(same(extractor.extract(picture).features,
+  image.copyTo(wide(cv::Rect(0, 0, kWidth, kHeight)));
+  EXPECT_TRUE(same(extractor.extract(image).features,
                    extractor.extract(wide(cv::Rect(0, 0, kWidth, kHeight))).features));
 }
 
@@ -163,7 +163,7 @@ TEST(OrbExtractor, CoordinatesOfEveryLevelMeanTheSamePlace) {
   // A bright round spot with sigma 9 px at (200.3, 150.6): every level's centroid of it, mapped to
   // level 0 by the pixel-centre convention, is that place. A convention off by half a pixel would
   // show as 0.5 (s - 1), up to 1.3 px.
-  const cv::Mat spot = render_picture(kWidth, kHeight, [](double x, double y) {
+  const cv::Mat spot = render_image(kWidth, kHeight, [](double x, double y) {
     const double dx = x - 200.3;
     const double dy = y - 150.6;
     return 250 * std::exp(-(dx * dx + dy * dy) / 162);
@@ -172,13 +172,13 @@ TEST(OrbExtractor, CoordinatesOfEveryLevelMeanTheSamePlace) {
   const Extraction extraction = extractor.extract(spot);
   ASSERT_EQ(extraction.pyramid.size(), 8U);
   for (int level = 0; level < 8; ++level) {
-    const cv::Mat& picture = extraction.pyramid[static_cast<std::size_t>(level)];
+    const cv::Mat& image = extraction.pyramid[static_cast<std::size_t>(level)];
     double sum = 0;
     double sum_x = 0;
     double sum_y = 0;
-    for (int y = 0; y < picture.rows; ++y) {
-      for (int x = 0; x < picture.cols; ++x) {
-        const double grey = picture.at<std::uint8_t>(y, x);
+    for (int y = 0; y < image.rows; ++y) {
+      for (int x = 0; x < image.cols; ++x) {
+        const double grey = image.at<std::uint8_t>(y, x);
         sum += grey;
         sum_x += grey * x;
         sum_y += grey * y;
@@ -190,7 +190,7 @@ TEST(OrbExtractor, CoordinatesOfEveryLevelMeanTheSamePlace) {
   }
 }
 
-TEST(OrbExtractor, AnglesTurnWithThePicture) {
+TEST(OrbExtractor, AnglesTurnWithTheImage) {
   const OrbExtractor extractor(small_config());
   const Features upright = extractor.extract(textured()).features;
   const Similarity quarter{std::numbers::pi / 2, 1};
@@ -211,7 +211,7 @@ TEST(OrbExtractor, AnglesTurnWithThePicture) {
   EXPECT_GT(agree, pairs * 9 / 10);
 }
 
-/// Picture 2 is picture 1 turned and scaled, with its own noise of 2 grey levels.
+/// RenderedImage 2 is image 1 turned and scaled, with its own noise of 2 grey levels.
 class OrbInvariance : public testing::TestWithParam<Similarity> {};
 
 TEST_P(OrbInvariance, FeaturesMatch) {
@@ -232,7 +232,7 @@ INSTANTIATE_TEST_SUITE_P(Warps, OrbInvariance,
                                          Similarity{3.0, 1}, Similarity{0, 1.2},
                                          Similarity{0, 0.84}, Similarity{-0.8, 1.2}));
 
-TEST(OrbExtractor, BlankAndTinyPicturesHaveNoFeatures) {
+TEST(OrbExtractor, BlankAndTinyImagesHaveNoFeatures) {
   const OrbExtractor extractor(small_config());
   for (const cv::Size size : {cv::Size(640, 480), cv::Size(38, 38), cv::Size(20, 400),
                               cv::Size(1, 1), cv::Size(7, 7), cv::Size(2, 900)}) {
@@ -240,7 +240,7 @@ TEST(OrbExtractor, BlankAndTinyPicturesHaveNoFeatures) {
   }
 }
 
-TEST(OrbExtractor, RefusesOtherPictures) {
+TEST(OrbExtractor, RefusesOtherImages) {
   const OrbExtractor extractor(small_config());
   EXPECT_THROW(extractor.extract(cv::Mat(100, 100, CV_8UC3, cv::Scalar())), Error);
   EXPECT_THROW(extractor.extract(cv::Mat(100, 100, CV_32FC1, cv::Scalar(0))), Error);

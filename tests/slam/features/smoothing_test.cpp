@@ -16,11 +16,11 @@ double worst(const cv::Mat& a, const cv::Mat& b) {
 }
 
 TEST(Smoothing, IsAGaussianOfTwoPixels) {
-  const cv::Mat picture = render_picture(201, 97, SyntheticTexture(4), 2, 1);
+  const cv::Mat image = render_image(201, 97, SyntheticTexture(4), 2, 1);
   cv::Mat expected;
-  cv::GaussianBlur(picture, expected, cv::Size(7, 7), 2, 2, cv::BORDER_REFLECT_101);
+  cv::GaussianBlur(image, expected, cv::Size(7, 7), 2, 2, cv::BORDER_REFLECT_101);
   // Weights to 1/128 each way and rounding.
-  EXPECT_LE(worst(smooth(picture), expected), 2);
+  EXPECT_LE(worst(smooth(image), expected), 2);
 }
 
 TEST(Smoothing, KeepsWhatIsFlat) {
@@ -43,8 +43,8 @@ TEST(Smoothing, SpreadsAPointByTheWeights) {
 }
 
 TEST(Smoothing, AnyPitchAndAnySizeWillDo) {
-  const cv::Mat picture = render_picture(64, 40, SyntheticTexture(9));
-  const cv::Mat part = picture(cv::Rect(10, 10, 33, 21));
+  const cv::Mat image = render_image(64, 40, SyntheticTexture(9));
+  const cv::Mat part = image(cv::Rect(10, 10, 33, 21));
   EXPECT_EQ(worst(smooth(part), smooth(part.clone())), 0);
   for (const cv::Size size : {cv::Size(1, 1), cv::Size(1, 9), cv::Size(2, 2), cv::Size(9, 1)}) {
     const cv::Mat tiny(size, CV_8UC1, cv::Scalar(77));

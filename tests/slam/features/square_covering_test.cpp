@@ -16,7 +16,7 @@ namespace {
 constexpr int kWidth = 640;
 constexpr int kHeight = 400;
 
-/// 4000 corners, three quarters of them in a corner of the picture, and the strongest ones there.
+/// 4000 corners, three quarters of them in a corner of the image, and the strongest ones there.
 std::vector<Corner> crowded_corners() {
   RandomSequence draws(RandomStream(3, "crowd"));
   std::vector<Corner> corners;
@@ -44,7 +44,7 @@ TEST(SquareCovering, KeepsNearlyTheWantedCountAndNeverMore) {
 
 TEST(SquareCovering, SpreadsEvenly) {
   // A sixteenth of the area is the crowded corner. By strength alone all 200 would come from it;
-  // spread evenly 13 of 200 would, and no quarter of the picture would go without.
+  // spread evenly 13 of 200 would, and no quarter of the image would go without.
   const auto kept = suppress_square_covering(crowded_corners(), 200, kWidth, kHeight);
   const auto inside = [&](int x, int y, int width, int height) {
     return std::count_if(kept.begin(), kept.end(), [&](const Corner& c) {

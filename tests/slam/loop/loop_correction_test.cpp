@@ -77,7 +77,7 @@ TEST(SpreadCorrectionTest, AnUncertainTagIsBelievedInPart) {
 
 // 10 cm of standard deviation against 1.7 mm of the other 3 m: the rest of the way gets 3 parts in
 // ten thousand of the correction.
-TEST(SpreadCorrectionTest, AStretchWithoutSightTakesIt) {
+TEST(SpreadCorrectionTest, AnOdometryGapTakesIt) {
   Map map = straight_map({0, 1, 2, 4});
   map.keyframe(2).link = OdometryLink{1, {}, 0.01 * Matrix6d::Identity()};
   spread_correction(map, 0, 3, shifted(map, 3, {0.2, 0, 0}), Matrix6d::Zero());

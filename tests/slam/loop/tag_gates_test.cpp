@@ -109,7 +109,7 @@ TEST_F(TagJudgementTest, TheLongerTheWayTheMoreDriftIsAllowed) {
   EXPECT_FALSE(believed(0.6, 15));
 }
 
-TEST_F(TagJudgementTest, AfterAStretchWithoutSightMoreIsAllowed) {
+TEST_F(TagJudgementTest, AfterAnOdometryGapMoreIsAllowed) {
   see_first();
   const auto believed = [&](double by) {
     FrameFeatures seen = frame(100, {shifted(3, by)});
@@ -154,7 +154,7 @@ TEST_F(TagJudgementTest, OfADuplicateThatIsNewNoneIsMapped) {
   EXPECT_EQ(map_.tags()[0].id, 5);
 }
 
-TEST_F(TagJudgementTest, OneTagInTwoPicturesIsNoDuplicate) {
+TEST_F(TagJudgementTest, OneTagInTwoImagesIsNoDuplicate) {
   FrameFeatures both = frame(0, {shifted(3, 0), shifted(3, 0.001)});
   EXPECT_TRUE(loop_.judge(both, body_, 0, map_).empty());
   EXPECT_EQ(both.tags.size(), 2u);

@@ -176,7 +176,7 @@ TEST_F(MapTest, ANewKeyframeIsTiedToWhatItTracked) {
 }
 
 TEST_F(MapTest, RefreshTakesTheMedianDescriptorTheMeanDirectionAndTheReach) {
-  // Seen by eyes at (0, 0, 0) and (2, 0, 0) from either side: together from straight below.
+  // Seen by cameras at (0, 0, 0) and (2, 0, 0) from either side: together from straight below.
   map_.keyframe(1).T_map_body.translation = {2, 0, 0};
   const int id = map_.add_landmark({1, 0, 1}, {0, 0, 1});
   auto later = std::make_shared<FrameFeatures>(*frame());

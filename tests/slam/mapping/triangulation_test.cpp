@@ -36,13 +36,13 @@ TEST(TriangulationTest, NearlyParallelRaysAndRaysThatPartAreRefused) {
   EXPECT_FALSE(meet(0));
   EXPECT_FALSE(meet(0.9));
   EXPECT_TRUE(meet(1.1));
-  EXPECT_FALSE(meet(-5));  // they meet behind both eyes
+  EXPECT_FALSE(meet(-5));  // they meet behind both cameras
   // Ahead of the first, behind the second.
   EXPECT_FALSE(intersect_rays({0, 0, 0}, {0, 0, 1}, {-1, 0, 2}, {-1, 0, 0}));
 }
 
 /// The frame without its stereo matches.
-std::shared_ptr<const FrameFeatures> one_eyed(const FrameFeatures& frame) {
+std::shared_ptr<const FrameFeatures> without_pair(const FrameFeatures& frame) {
   auto copy = std::make_shared<FrameFeatures>(frame);
   for (StereoView& view : copy->views) view.stereo.assign(view.stereo.size(), StereoMatch{});
   return copy;
@@ -50,7 +50,7 @@ std::shared_ptr<const FrameFeatures> one_eyed(const FrameFeatures& frame) {
 
 Keyframe keyframe(const SyntheticAisle& aisle, std::int64_t index, const Pose& pose) {
   Keyframe result;
-  result.frame = one_eyed(*aisle.frame(index, pose));
+  result.frame = without_pair(*aisle.frame(index, pose));
   result.T_map_body = pose;
   result.landmarks = no_associations(*result.frame);
   return result;

@@ -18,7 +18,7 @@ class MatchRefinerTest : public testing::Test, protected testing_support::Slante
 
 TEST_F(MatchRefinerTest, MovesMatchesToWhereTheLandmarkIs) {
   const Pose T_map_body{exp_so3({0.01, -0.02, 0}), {0.02, -0.01, 0.1}};
-  auto frame = picture(T_map_body);
+  auto frame = image(T_map_body);
   Associations associations(1);
   std::vector<Eigen::Vector2d> truth;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -51,7 +51,7 @@ TEST_F(MatchRefinerTest, MovesMatchesToWhereTheLandmarkIs) {
 }
 
 TEST_F(MatchRefinerTest, UntiesWhatThePatchContradicts) {
-  auto frame = picture(Pose{});
+  auto frame = image(Pose{});
   Associations associations(1);
   // Every feature is tied to the landmark one row further down: the same level, another place.
   const auto row = static_cast<std::size_t>(
@@ -66,8 +66,8 @@ TEST_F(MatchRefinerTest, UntiesWhatThePatchContradicts) {
   EXPECT_LE(kept, static_cast<int>(associations[0].size()) / 20);
 }
 
-TEST_F(MatchRefinerTest, LeavesAFrameWithoutPicturesAlone) {
-  auto frame = picture(Pose{});
+TEST_F(MatchRefinerTest, LeavesAFrameWithoutImagesAlone) {
+  auto frame = image(Pose{});
   add_feature(*frame, places[0], 0);
   frame->pyramids.clear();
   Associations associations{{0}};

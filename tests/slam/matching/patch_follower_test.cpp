@@ -22,7 +22,7 @@ class PatchFollowerTest : public testing::Test, protected testing_support::Slant
     for (const int id : all_) map.landmark(id).normal = map.landmark(id).position.normalized();
   }
 
-  Eigen::Vector3d in_eye(int landmark) const {
+  Eigen::Vector3d in_camera(int landmark) const {
     return pose_.inverse() * map.landmark(landmark).position;
   }
 
@@ -31,14 +31,14 @@ class PatchFollowerTest : public testing::Test, protected testing_support::Slant
   Associations associations_ = Associations(1);
 };
 
-TEST_F(PatchFollowerTest, FindsLandmarksInBothEyes) {
-  const auto frame = stereo_picture(pose_);
+TEST_F(PatchFollowerTest, FindsLandmarksInBothCameras) {
+  const auto frame = stereo_image(pose_);
   // The pose is known to about a pixel.
   const Pose guess = pose_ * Pose{exp_so3({0.002, -0.002, 0}), {0.001, 0, 0}};
   follow_patches(map, all_, guess, rig, *frame, associations_);
   const StereoView& view = frame->views[0];
   const std::size_t n = view.features.size();
-  EXPECT_GT(n, places.size() / 2);  // others leave the picture or have too little texture
+  EXPECT_GT(n, places.size() / 2);  // others leave the image or have too little texture
   ASSERT_EQ(associations_[0].size(), n);
   ASSERT_EQ(view.features.descriptors.size(), n);
   ASSERT_EQ(view.stereo.size(), n);
@@ -48,7 +48,7 @@ TEST_F(PatchFollowerTest, FindsLandmarksInBothEyes) {
   double disparity_squares = 0;
   int with_depth = 0;
   for (std::size_t f = 0; f < n; ++f) {
-    const Eigen::Vector3d p = in_eye(associations_[0][f]);
+    const Eigen::Vector3d p = in_camera(associations_[0][f]);
     const Keypoint& keypoint = view.features.keypoints[f];
     pixel_squares += (Eigen::Vector2d(keypoint.x, keypoint.y) - lens().project(p)).squaredNorm();
     EXPECT_TRUE(view.is_placed(f));
@@ -65,8 +65,8 @@ TEST_F(PatchFollowerTest, FindsLandmarksInBothEyes) {
 }
 
 TEST_F(PatchFollowerTest, LeavesWhatIsTiedAndWhatIsNotAskedFor) {
-  const auto frame = stereo_picture(pose_);
-  const Eigen::Vector2d pixel = lens().project(in_eye(0));
+  const auto frame = stereo_image(pose_);
+  const Eigen::Vector2d pixel = lens().project(in_camera(0));
   add_feature(*frame, pixel, 0);
   add_feature(*frame, pixel, 0);
   frame->views[0].placed.assign(2, 0);
@@ -91,7 +91,7 @@ TEST_F(PatchFollowerTest, LeavesWhatIsTiedAndWhatIsNotAskedFor) {
 
 TEST_F(PatchFollowerTest, FindsNothingOnAnotherSurface) {
   texture = 99;
-  const auto frame = stereo_picture(pose_);
+  const auto frame = stereo_image(pose_);
   follow_patches(map, all_, pose_, rig, *frame, associations_);
   EXPECT_LE(associations_[0].size(), places.size() / 20);  // by chance
 }
@@ -102,28 +102,28 @@ TEST_F(PatchFollowerTest, LooksOnlyForWhatIsSeenFromAboutThatSide) {
   for (const int id : all_) {
     map.landmark(id).normal = around.rotation * map.landmark(id).position.normalized();
   }
-  const auto frame = stereo_picture(Pose{});
+  const auto frame = stereo_image(Pose{});
   follow_patches(map, all_, Pose{}, rig, *frame, associations_);
   EXPECT_TRUE(associations_[0].empty());
 }
 
 TEST_F(PatchFollowerTest, SpreadsAsManyAsAreAllowed) {
-  // The picture has 7 x 6 cells of 48 px; at most one landmark in each.
+  // The image has 7 x 6 cells of 48 px; at most one landmark in each.
   rig.refinement.follow = 42;
-  const auto frame = stereo_picture(pose_);
+  const auto frame = stereo_image(pose_);
   follow_patches(map, all_, pose_, rig, *frame, associations_);
   ASSERT_GT(associations_[0].size(), 5u);
   std::vector<int> per_cell(42, 0);
   for (const int id : associations_[0]) {
-    const Eigen::Vector2d pixel = lens().project(in_eye(id));
+    const Eigen::Vector2d pixel = lens().project(in_camera(id));
     ++per_cell[static_cast<std::size_t>(static_cast<int>(pixel.y()) / 48 * 7 +
                                         static_cast<int>(pixel.x()) / 48)];
   }
   EXPECT_EQ(*std::max_element(per_cell.begin(), per_cell.end()), 1);
 }
 
-TEST_F(PatchFollowerTest, CanBeSwitchedOffAndNeedsPictures) {
-  const auto frame = stereo_picture(pose_);
+TEST_F(PatchFollowerTest, CanBeSwitchedOffAndNeedsImages) {
+  const auto frame = stereo_image(pose_);
   rig.refinement.follow = 0;
   follow_patches(map, all_, pose_, rig, *frame, associations_);
   rig.refinement.follow = 1200;
@@ -136,8 +136,8 @@ TEST_F(PatchFollowerTest, CanBeSwitchedOffAndNeedsPictures) {
   EXPECT_TRUE(frame->views[0].features.keypoints.empty());
 }
 
-TEST_F(PatchFollowerTest, WithoutTheRightEyeThereIsNoDepth) {
-  const auto frame = picture(pose_);
+TEST_F(PatchFollowerTest, WithoutTheRightCameraThereIsNoDepth) {
+  const auto frame = image(pose_);
   frame->right_pyramids.resize(1);
   follow_patches(map, all_, pose_, rig, *frame, associations_);
   ASSERT_GT(associations_[0].size(), 5u);

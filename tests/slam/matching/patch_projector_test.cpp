@@ -16,10 +16,10 @@ class PatchProjectorTest : public testing::Test, protected testing_support::Slan
   static Observation seen(std::size_t landmark) { return {0, 0, static_cast<int>(landmark)}; }
 
   /// How far off (px, root mean square) a window is found that is looked for at its true place in
-  /// the picture from a pose; `found` counts those that fit.
+  /// the image from a pose; `found` counts those that fit.
   template <class Predict>
   double fit_error(const Pose& pose, const Predict& predict, int& found) const {
-    const auto frame = picture(pose);
+    const auto frame = image(pose);
     double squares = 0;
     found = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -100,13 +100,13 @@ TEST_F(PatchProjectorTest, SaysNothingOfWhatItCannotKnow) {
   PatchProjector here(map, Pose{}, rig);
   ASSERT_TRUE(here.on_level(seen(0), 0, landmark, 0));
   EXPECT_TRUE(here.on_level(seen(0), 0, landmark, 1));
-  EXPECT_FALSE(here.on_level(seen(0), 0, landmark, 2));    // 1.44 times smaller: another picture
+  EXPECT_FALSE(here.on_level(seen(0), 0, landmark, 2));    // 1.44 times smaller: another image
   EXPECT_FALSE(here.on_level({0, 1, 0}, 0, landmark, 0));  // of another view
 
   map.keyframe(0).patches[0] = PatchList(map.keyframe(0).patches[0].size());
   EXPECT_FALSE(here.on_level(seen(0), 0, landmark, 0));  // cut from too near the border
   map.keyframe(0).patches.clear();
-  EXPECT_FALSE(here.on_level(seen(1), 0, map.landmark(1), 0));  // a keyframe without pictures
+  EXPECT_FALSE(here.on_level(seen(1), 0, map.landmark(1), 0));  // a keyframe without images
 }
 
 TEST_F(PatchProjectorTest, SaysNothingFromBehind) {

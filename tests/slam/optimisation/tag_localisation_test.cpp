@@ -75,7 +75,7 @@ TEST_F(TagFixTest, FarAndAslantCountsLess) {
   const double near = deviation({exp_so3({0.2, 0.2, 0}), {0, 0, 0.7}});
   const double far = deviation({exp_so3({0.2, 0.2, 0}), {0, 0, 2.8}});
   const double aslant = deviation({exp_so3({0, 1.05, 0}), {0, 0, 0.7}});
-  // Range is known by the tag's size in the picture: its error grows with the square of the range.
+  // Range is known by the tag's size in the image: its error grows with the square of the range.
   EXPECT_NEAR(far / near, 16, 3);
   EXPECT_GT(aslant, near);
   // What the corners' own noise adds to the lens's.

@@ -29,7 +29,7 @@ SyntheticPlane plane(double disparity, double by_x = 0, double by_y = 0) {
   return p;
 }
 
-/// Windows all over the picture, each with a guess that is off by up to 2 px.
+/// Windows all over the image, each with a guess that is off by up to 2 px.
 Alignments align_all(const SyntheticPlane& p, const cv::Mat& left, const cv::Mat& right) {
   Alignments result;
   for (int y = 10; y < p.height - 10; y += 13) {
@@ -78,7 +78,7 @@ TEST(PatchAlignmentTest, FollowsASlantedSurface) {
   }
 }
 
-TEST(PatchAlignmentTest, ABrighterEyeChangesNothing) {
+TEST(PatchAlignmentTest, ABrighterCameraChangesNothing) {
   const SyntheticPlane p = plane(20.3);
   const cv::Mat left = p.left(0);
   const cv::Mat right = p.right(0);
@@ -111,7 +111,7 @@ TEST(PatchAlignmentTest, FindsNothingWhereThereIsNothingToFind) {
                              cv::Point(150, 115), cv::Point(-5, -5)}) {
     EXPECT_FALSE(align_patch(left, right, at.x, at.y, 0)) << at.x << ", " << at.y;
   }
-  // The right window would leave the picture.
+  // The right window would leave the image.
   EXPECT_FALSE(align_patch(left, right, 20, 60, 20));
 }
 

@@ -21,26 +21,26 @@ Eigen::Matrix3d scaling(double s) {
   return Eigen::Vector3d(s, s, 1).asDiagonal();
 }
 
-cv::Mat texture_picture() {
-  return render_picture(kWidth, kHeight, SyntheticTexture(3), kNoise, 1);
+cv::Mat texture_image() {
+  return render_image(kWidth, kHeight, SyntheticTexture(3), kNoise, 1);
 }
 
-/// The texture as a homography (its own pixels to the picture's) shows it.
-cv::Mat warped_picture(const Eigen::Matrix3d& H) {
+/// The texture as a homography (its own pixels to the image's) shows it.
+cv::Mat warped_image(const Eigen::Matrix3d& H) {
   const Eigen::Matrix3d back = H.inverse();
   const SyntheticTexture texture(3);
   const auto grey = [&](double x, double y) {
     const Eigen::Vector2d p = (back * Eigen::Vector3d(x, y, 1)).hnormalized();
     return texture(p.x(), p.y());
   };
-  return render_picture(kWidth, kHeight, grey, kNoise, 2);
+  return render_image(kWidth, kHeight, grey, kNoise, 2);
 }
 
 /// Root mean square distance (px) of the fits from where the homography puts the patches, each
 /// begun a pixel off; `found` counts them.
 double fit_error(const Eigen::Matrix3d& H, bool plain, int& found) {
-  const cv::Mat then = texture_picture();
-  const cv::Mat now = warped_picture(H);
+  const cv::Mat then = texture_image();
+  const cv::Mat now = warped_image(H);
   double sum = 0;
   found = 0;
   for (int y = 20; y <= 100; y += 10) {
@@ -87,15 +87,15 @@ TEST(PatchTest, FollowsAWarpThatAPlainShiftCannot) {
 }
 
 /// The patch about (x, y) as it is.
-std::optional<PatchWindow> plain_window(const cv::Mat& picture, double x, double y) {
-  return warp_patch(*cut_patch(picture, x, y), Eigen::Matrix3d::Identity());
+std::optional<PatchWindow> plain_window(const cv::Mat& image, double x, double y) {
+  return warp_patch(*cut_patch(image, x, y), Eigen::Matrix3d::Identity());
 }
 
 TEST(PatchTest, RefusesWhatCannotBePlaced) {
-  const cv::Mat picture = texture_picture();
-  EXPECT_FALSE(cut_patch(picture, 3, 60));
-  EXPECT_FALSE(cut_patch(picture, 80, 118));
-  EXPECT_FALSE(fit_patch(*plain_window(picture, 80, 60), picture, 2, 60));
+  const cv::Mat image = texture_image();
+  EXPECT_FALSE(cut_patch(image, 3, 60));
+  EXPECT_FALSE(cut_patch(image, 80, 118));
+  EXPECT_FALSE(fit_patch(*plain_window(image, 80, 60), image, 2, 60));
 
   // A flat surface, and an edge along which a patch slides.
   const cv::Mat flat(kHeight, kWidth, CV_8UC1, cv::Scalar(90));
@@ -106,7 +106,7 @@ TEST(PatchTest, RefusesWhatCannotBePlaced) {
 }
 
 TEST(PatchTest, ShowsNoMoreThanWasCut) {
-  const auto patch = cut_patch(texture_picture(), 80, 60);
+  const auto patch = cut_patch(texture_image(), 80, 60);
   // The window and its border reach 5 px, the patch 8: seen from 8 / 5 as far away it still fills
   // the window, from twice as far it does not.
   EXPECT_TRUE(warp_patch(*patch, scaling(1 / 1.5)));
@@ -114,10 +114,10 @@ TEST(PatchTest, ShowsNoMoreThanWasCut) {
 }
 
 TEST(PatchTest, TellsAnotherSurfaceByItsDifference) {
-  const cv::Mat picture = texture_picture();
-  const cv::Mat other = render_picture(kWidth, kHeight, SyntheticTexture(4), kNoise, 2);
-  const auto window = plain_window(picture, 80, 60);
-  const auto itself = fit_patch(*window, picture, 80.5, 60.5);
+  const cv::Mat image = texture_image();
+  const cv::Mat other = render_image(kWidth, kHeight, SyntheticTexture(4), kNoise, 2);
+  const auto window = plain_window(image, 80, 60);
+  const auto itself = fit_patch(*window, image, 80.5, 60.5);
   ASSERT_TRUE(itself);
   EXPECT_LT(itself->difference, 0.1 * itself->contrast);
   if (const auto wrong = fit_patch(*window, other, 80, 60)) {
@@ -126,9 +126,9 @@ TEST(PatchTest, TellsAnotherSurfaceByItsDifference) {
 }
 
 TEST(PatchTest, BrightnessDoesNotMatter) {
-  const cv::Mat picture = texture_picture();
-  const cv::Mat brighter = picture + 25;
-  const auto fit = fit_patch(*plain_window(picture, 80, 60), brighter, 81, 60);
+  const cv::Mat image = texture_image();
+  const cv::Mat brighter = image + 25;
+  const auto fit = fit_patch(*plain_window(image, 80, 60), brighter, 81, 60);
   ASSERT_TRUE(fit);
   EXPECT_NEAR(fit->x, 80, 0.05);  // px; a few pixels saturate
   EXPECT_NEAR(fit->y, 60, 0.05);

@@ -54,7 +54,7 @@ TEST(RowSearchTest, LooksNoFartherThanItIsAsked) {
 TEST(RowSearchTest, ARepeatedPatternHasAnEqualRival) {
   const SyntheticTexture texture(3);
   const auto fence = [&](double x, double y) { return texture(x - 24 * std::floor(x / 24), y); };
-  const cv::Mat left = render_picture(300, 60, fence);
+  const cv::Mat left = render_image(300, 60, fence);
   const RowSearch found = search_row(left, kX, kY, left, kX - 100, kX);
   EXPECT_EQ(found.best, 0);
   EXPECT_EQ(found.second, 0);
@@ -75,7 +75,7 @@ TEST(RowSearchTest, RivalsThatDoNotMatterAreLeftOut) {
 }
 
 TEST(RowSearchTest, ReadsTheWholeWindow) {
-  // Black pictures but for one grey pixel of the left: it counts wherever it is in the window.
+  // Black images but for one grey pixel of the left: it counts wherever it is in the window.
   for (const cv::Point at : {cv::Point(-8, -5), cv::Point(7, 5), cv::Point(0, 0)}) {
     cv::Mat left = cv::Mat::zeros(60, 300, CV_8UC1);
     const cv::Mat right = cv::Mat::zeros(60, 300, CV_8UC1);
@@ -87,19 +87,18 @@ TEST(RowSearchTest, ReadsTheWholeWindow) {
   }
 }
 
-TEST(RowSearchTest, WindowsOffThePictureAreNotFound) {
-  const cv::Mat picture = plane(0).left(0);
+TEST(RowSearchTest, WindowsOffTheImageAreNotFound) {
+  const cv::Mat image = plane(0).left(0);
   for (const cv::Point at : {cv::Point(7, kY), cv::Point(293, kY), cv::Point(kX, 4),
                              cv::Point(kX, 55), cv::Point(-20, kY), cv::Point(kX, 400)}) {
-    EXPECT_EQ(search_row(picture, at.x, at.y, picture, 0, 299).column, -1) << at.x << ", " << at.y;
+    EXPECT_EQ(search_row(image, at.x, at.y, image, 0, 299).column, -1) << at.x << ", " << at.y;
   }
   for (const cv::Point at : {cv::Point(8, 5), cv::Point(292, 54)}) {
-    EXPECT_EQ(search_row(picture, at.x, at.y, picture, 0, 299).column, at.x)
-        << at.x << ", " << at.y;
+    EXPECT_EQ(search_row(image, at.x, at.y, image, 0, 299).column, at.x) << at.x << ", " << at.y;
   }
-  EXPECT_EQ(search_row(picture, kX, kY, picture, -50, 7).column, -1);
-  EXPECT_EQ(search_row(picture, kX, kY, picture, 293, 400).column, -1);
-  EXPECT_EQ(search_row(picture, kX, kY, picture, 100, 99).column, -1);
+  EXPECT_EQ(search_row(image, kX, kY, image, -50, 7).column, -1);
+  EXPECT_EQ(search_row(image, kX, kY, image, 293, 400).column, -1);
+  EXPECT_EQ(search_row(image, kX, kY, image, 100, 99).column, -1);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ Matched match(const cv::Mat& left, const cv::Mat& right, const StereoConfig& con
 }
 
 struct Quality {
-  int visible = 0;  ///< keypoints whose window lies in the right picture too
+  int visible = 0;  ///< keypoints whose window lies in the right image too
   int matched = 0;  ///< of these
   int right = 0;    ///< within a pixel of their level, of these
   double rms = 0;   ///< px, of the right ones on level 0
@@ -75,13 +75,14 @@ class StereoPlaneTest : public testing::TestWithParam<SyntheticPlane> {};
 TEST_P(StereoPlaneTest, KeypointsAreMatchedAndRight) {
   const Quality quality = judge(GetParam());
   ASSERT_GT(quality.visible, 200);
-  // A whole surface that both eyes see: next to all of it.
+  // A whole surface that both cameras see: next to all of it.
   EXPECT_GT(quality.matched, quality.visible * 95 / 100);
   EXPECT_GT(quality.right, quality.matched * 99 / 100);
   EXPECT_LT(quality.rms, 0.06);
 }
 
-// From 31 m to 0.16 m before the eyes; planes slanted about the upright and about the level axis.
+// From 31 m to 0.16 m before the cameras; planes slanted about the upright and about the level
+// axis.
 INSTANTIATE_TEST_SUITE_P(Planes, StereoPlaneTest,
                          testing::Values(SyntheticPlane{1.3}, SyntheticPlane{6.0},
                                          SyntheticPlane{23.4}, SyntheticPlane{90.5},
@@ -136,8 +137,8 @@ TEST(StereoMatcherTest, RepeatedPatternsAreRefused) {
   // are whole pixels, 30 and 25, and the rivals are equal; on others they fall between pixels.
   const SyntheticTexture texture(3);
   const auto fence = [&](double x, double y) { return texture(x - 30 * std::floor(x / 30), y); };
-  const cv::Mat left = render_picture(480, 200, fence, kNoise, 1);
-  const cv::Mat right = render_picture(
+  const cv::Mat left = render_image(480, 200, fence, kNoise, 1);
+  const cv::Mat right = render_image(
       480, 200, [&](double x, double y) { return fence(x + 8, y); }, kNoise, 2);
   const Matched matched = match(left, right);
   int candidates = 0;
@@ -153,7 +154,7 @@ TEST(StereoMatcherTest, RepeatedPatternsAreRefused) {
   EXPECT_LT(taken, candidates * 2 / 100);
 }
 
-TEST(StereoMatcherTest, PicturesThatShareNothingAreNotMatched) {
+TEST(StereoMatcherTest, ImagesThatShareNothingAreNotMatched) {
   SyntheticPlane other{10};
   other.texture = 12;
   const Matched matched = match(SyntheticPlane{10}.left(kNoise), other.right(kNoise));
@@ -177,8 +178,8 @@ struct Stems {
 };
 
 TEST(StereoMatcherTest, AWindowAcrossAStemIsRefusedOrRight) {
-  const Matched matched = match(render_picture(480, 200, Stems::left, kNoise, 1),
-                                render_picture(480, 200, Stems::right, kNoise, 2));
+  const Matched matched = match(render_image(480, 200, Stems::left, kNoise, 1),
+                                render_image(480, 200, Stems::right, kNoise, 2));
   int near = 0;
   int wrong = 0;
   for (std::size_t i = 0; i < matched.matches.size(); ++i) {
@@ -201,13 +202,13 @@ TEST(StereoMatcherTest, AWindowAcrossAStemIsRefusedOrRight) {
 
 TEST(StereoMatcherTest, ImpossiblePairsAreErrors) {
   const OrbExtractor extractor(OrbConfig{});
-  const cv::Mat picture = SyntheticPlane{}.left(0);
-  const Extraction left = extractor.extract(picture);
-  const auto pyramid = extractor.pyramid(picture);
-  const PinholeCamera camera = lens(picture.cols, picture.rows);
+  const cv::Mat image = SyntheticPlane{}.left(0);
+  const Extraction left = extractor.extract(image);
+  const auto pyramid = extractor.pyramid(image);
+  const PinholeCamera camera = lens(image.cols, image.rows);
   EXPECT_THAT([&] { match_stereo(left, pyramid, camera, 0, extractor, {}); },
               testing::ThrowsMessage<Error>(testing::HasSubstr("expected a baseline above 0 m")));
-  const auto smaller = extractor.pyramid(picture.colRange(0, 400).clone());
+  const auto smaller = extractor.pyramid(image.colRange(0, 400).clone());
   EXPECT_THAT([&] { match_stereo(left, smaller, camera, kBaseline, extractor, {}); },
               testing::ThrowsMessage<Error>(testing::HasSubstr("of the same size")));
 }

@@ -16,14 +16,14 @@ namespace {
 
 /// '#' is black, '.' white.
 cv::Mat drawn(const std::vector<std::string>& rows) {
-  cv::Mat picture(static_cast<int>(rows.size()), static_cast<int>(rows[0].size()), CV_8UC1);
-  for (int y = 0; y < picture.rows; ++y) {
-    for (int x = 0; x < picture.cols; ++x) {
+  cv::Mat image(static_cast<int>(rows.size()), static_cast<int>(rows[0].size()), CV_8UC1);
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
       const bool black = rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] == '#';
-      picture.at<std::uint8_t>(y, x) = black ? 40 : 200;
+      image.at<std::uint8_t>(y, x) = black ? 40 : 200;
     }
   }
-  return picture;
+  return image;
 }
 
 TEST(BlackRegions, AreJoinedAlongRowsAndColumnsButNotCornerwise) {
@@ -47,27 +47,27 @@ TEST(BlackRegions, AreJoinedAlongRowsAndColumnsButNotCornerwise) {
 TEST(BlackRegions, AgreeWithTheDefinition) {
   constexpr int kContrast = 30;
   // Neither side is a multiple of the tiles' 4 px.
-  const cv::Mat picture = render_picture(123, 78, SyntheticTexture(5), 3, 2);
-  cv::Mat black = cv::Mat::zeros(picture.size(), CV_8UC1);
-  for (int y = 0; y < picture.rows; ++y) {
-    for (int x = 0; x < picture.cols; ++x) {
-      const int column = std::min(x / 4, picture.cols / 4 - 1);
-      const int row = std::min(y / 4, picture.rows / 4 - 1);
+  const cv::Mat image = render_image(123, 78, SyntheticTexture(5), 3, 2);
+  cv::Mat black = cv::Mat::zeros(image.size(), CV_8UC1);
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      const int column = std::min(x / 4, image.cols / 4 - 1);
+      const int row = std::min(y / 4, image.rows / 4 - 1);
       const cv::Rect around = cv::Rect(4 * column - 4, 4 * row - 4, 12, 12) &
-                              cv::Rect(0, 0, picture.cols / 4 * 4, picture.rows / 4 * 4);
+                              cv::Rect(0, 0, image.cols / 4 * 4, image.rows / 4 * 4);
       double low = 0;
       double high = 0;
-      cv::minMaxLoc(picture(around), &low, &high);
+      cv::minMaxLoc(image(around), &low, &high);
       const int middle = static_cast<int>(low) + static_cast<int>(high - low) / 2;
       black.at<std::uint8_t>(y, x) =
-          high - low >= kContrast && picture.at<std::uint8_t>(y, x) <= middle ? 255 : 0;
+          high - low >= kContrast && image.at<std::uint8_t>(y, x) <= middle ? 255 : 0;
     }
   }
   cv::Mat labels;
   cv::Mat stats;
   cv::Mat centres;
   const int count = cv::connectedComponentsWithStats(black, labels, stats, centres, 4, CV_32S);
-  const BlackRegions found = find_black_regions(picture, kContrast);
+  const BlackRegions found = find_black_regions(image, kContrast);
   ASSERT_GT(count, 20);
   ASSERT_EQ(static_cast<int>(found.regions.size()), count - 1);
   for (const BlackRun& run : found.runs) {
@@ -82,7 +82,7 @@ TEST(BlackRegions, AgreeWithTheDefinition) {
   }
 }
 
-TEST(BlackRegions, FlatAndTinyPicturesHaveNone) {
+TEST(BlackRegions, FlatAndTinyImagesHaveNone) {
   EXPECT_TRUE(find_black_regions(cv::Mat(40, 40, CV_8UC1, cv::Scalar(0)), 5).runs.empty());
   EXPECT_TRUE(find_black_regions(drawn({"#.", ".#"}), 5).runs.empty());
   // 160 grey levels of contrast, one less than asked for.

@@ -46,7 +46,7 @@ TEST(TagDetectorTest, FindsCornersToATenthOfAPixelAndThePose) {
     EXPECT_EQ(seen.family, "tag36h11");
     EXPECT_EQ(seen.id, 7);
     EXPECT_EQ(seen.camera, 3);
-    // The picture itself puts edges on twelfths of a pixel: 0.06 px at a corner.
+    // The image itself puts edges on twelfths of a pixel: 0.06 px at a corner.
     EXPECT_LT(worst_corner(seen, tag, camera(), truth), 0.1);
     // On a tag of 107 px that is a thousandth of its distance, and of its direction two hundredths
     // seen square-on, where it shows least.
@@ -57,9 +57,9 @@ TEST(TagDetectorTest, FindsCornersToATenthOfAPixelAndThePose) {
 
 TEST(TagDetectorTest, CornersAreAsGoodAsTheySay) {
   // Near, far and aslant, with little and much noise: the mean squared error in x and y is one in
-  // variances. Eight errors a picture, in pairs that share a side, are good to a factor of two; six
-  // pictures together to a half. No corner is said to be better than 0.02 px, though on a clean
-  // picture it is.
+  // variances. Eight errors an image, in pairs that share a side, are good to a factor of two; six
+  // images together to a half. No corner is said to be better than 0.02 px, though on a clean
+  // image it is.
   const SyntheticTag tag(7, kSize);
   TagDetector detector({}, {});
   std::vector<double> sigmas;
@@ -119,20 +119,20 @@ TEST(TagDetectorTest, ALensWithDistortionIsAllowedFor) {
 TEST(TagDetectorTest, ARegisteredTagHasItsOwnSize) {
   const SyntheticTag large(4, 0.3);
   const Pose truth = before_camera({0.3, 0, 0}, {0, 0, 1.0});
-  const cv::Mat picture = large.render(camera(), truth);
+  const cv::Mat image = large.render(camera(), truth);
   TagDetector knows({}, {RegisteredTag{"tag36h11", 4, 0.3, {}}});
-  EXPECT_NEAR(knows.detect(picture, camera(), 0).at(0).T_cam_tag.translation.z(), 1.0, 0.003);
+  EXPECT_NEAR(knows.detect(image, camera(), 0).at(0).T_cam_tag.translation.z(), 1.0, 0.003);
   TagDetector guesses({}, {RegisteredTag{"tag36h11", 5, 0.3, {}}});
-  EXPECT_NEAR(guesses.detect(picture, camera(), 0).at(0).T_cam_tag.translation.z(), 0.161 / 0.3,
+  EXPECT_NEAR(guesses.detect(image, camera(), 0).at(0).T_cam_tag.translation.z(), 0.161 / 0.3,
               0.003);
 }
 
 TEST(TagDetectorTest, SightingsAreInOrderOfTheirIds) {
-  cv::Mat picture =
+  cv::Mat image =
       SyntheticTag(9, kSize).render(camera(), before_camera({0, 0, 0}, {-0.25, 0, 0.6}));
-  SyntheticTag(2, kSize).draw(picture, camera(), before_camera({0, 0, 0}, {0.25, 0, 0.6}));
+  SyntheticTag(2, kSize).draw(image, camera(), before_camera({0, 0, 0}, {0.25, 0, 0.6}));
   TagDetector detector({}, {});
-  const auto sightings = detector.detect(picture, camera(), 0);
+  const auto sightings = detector.detect(image, camera(), 0);
   ASSERT_EQ(sightings.size(), 2u);
   EXPECT_EQ(sightings[0].id, 2);
   EXPECT_EQ(sightings[1].id, 9);
@@ -141,11 +141,11 @@ TEST(TagDetectorTest, SightingsAreInOrderOfTheirIds) {
 TEST(TagDetectorTest, TwoOfOneIdNearEachOtherAreBothSeenAndOnce) {
   // 60 px apart, 40 px wide: their surroundings overlap.
   const SyntheticTag tag(9, 0.06);
-  cv::Mat picture = tag.render(camera(), before_camera({0, 0, 0}, {-0.045, 0, 0.6}));
+  cv::Mat image = tag.render(camera(), before_camera({0, 0, 0}, {-0.045, 0, 0.6}));
   const cv::Mat other = tag.render(camera(), before_camera({0, 0, 0}, {0.045, 0, 0.6}));
-  other.copyTo(picture, other != 110);  // but the background
+  other.copyTo(image, other != 110);  // but the background
   TagDetector detector({}, {});
-  const auto sightings = detector.detect(picture, camera(), 0);
+  const auto sightings = detector.detect(image, camera(), 0);
   ASSERT_EQ(sightings.size(), 2u);
   EXPECT_LT(sightings[0].corners[0].x() + 50, sightings[1].corners[0].x());
 }
@@ -161,12 +161,12 @@ TEST(TagDetectorTest, AFaintTagIsNotBelieved) {
 }
 
 TEST(TagDetectorTest, OnlyTheChosenFamiliesAreLookedFor) {
-  const cv::Mat picture = SyntheticTag(1, kSize).render(camera(), before_camera({0.2, 0, 0}));
+  const cv::Mat image = SyntheticTag(1, kSize).render(camera(), before_camera({0.2, 0, 0}));
   TagDetectorConfig config;
   config.families = {"tag25h9"};
-  EXPECT_TRUE(TagDetector(config, {}).detect(picture, camera(), 0).empty());
+  EXPECT_TRUE(TagDetector(config, {}).detect(image, camera(), 0).empty());
   config.families = {"tag25h9", "tag36h11"};
-  EXPECT_EQ(TagDetector(config, {}).detect(picture, camera(), 0).size(), 1u);
+  EXPECT_EQ(TagDetector(config, {}).detect(image, camera(), 0).size(), 1u);
 }
 
 TEST(TagDetectorTest, AnUnknownFamilyIsAnErrorThatListsTheKnownOnes) {
@@ -178,12 +178,12 @@ TEST(TagDetectorTest, AnUnknownFamilyIsAnErrorThatListsTheKnownOnes) {
                   testing::HasSubstr("tag36h11"), testing::HasSubstr("tagStandard41h12"))));
 }
 
-TEST(TagDetectorTest, OnlyGreyPicturesAreRead) {
+TEST(TagDetectorTest, OnlyGreyImagesAreRead) {
   TagDetector detector({}, {});
   EXPECT_THAT([&] { detector.detect(cv::Mat(480, 640, CV_8UC3), camera(), 0); },
-              testing::ThrowsMessage<Error>(testing::HasSubstr("expected a grey picture")));
+              testing::ThrowsMessage<Error>(testing::HasSubstr("expected a grey image")));
   EXPECT_THAT([&] { detector.detect(cv::Mat(), camera(), 0); },
-              testing::ThrowsMessage<Error>(testing::HasSubstr("expected a grey picture")));
+              testing::ThrowsMessage<Error>(testing::HasSubstr("expected a grey image")));
   EXPECT_TRUE(detector.detect(cv::Mat(480, 640, CV_8UC1, cv::Scalar(90)), camera(), 0).empty());
 }
 

@@ -46,9 +46,9 @@ TEST_P(TagSearchTest, ATagLiesInACandidateSharpBlurredOrDim) {
     cv::GaussianBlur(sharp, blurred, {}, 1.0);
     cv::Mat dim;
     sharp.convertTo(dim, CV_8UC1, 0.3, 10);  // 76 grey levels between black and white
-    for (const cv::Mat& picture : {sharp, blurred, dim}) {
-      EXPECT_TRUE(in_a_candidate(find_tag_candidates(picture, 2), tag, pose)) << "tag " << id;
-      EXPECT_TRUE(in_a_candidate(find_tag_candidates(picture, 1), tag, pose)) << "tag " << id;
+    for (const cv::Mat& image : {sharp, blurred, dim}) {
+      EXPECT_TRUE(in_a_candidate(find_tag_candidates(image, 2), tag, pose)) << "tag " << id;
+      EXPECT_TRUE(in_a_candidate(find_tag_candidates(image, 1), tag, pose)) << "tag " << id;
     }
   }
 }
@@ -64,10 +64,10 @@ cv::Mat white() {
 }
 
 TEST(TagSearch, ABlackFrameIsACandidateAndItsSurroundingsAreWhole) {
-  cv::Mat picture = white();
-  cv::rectangle(picture, {100, 80, 64, 64}, 30, cv::FILLED);
-  cv::rectangle(picture, {116, 96, 32, 32}, 200, cv::FILLED);
-  const std::vector<cv::Rect> found = find_tag_candidates(picture, 2);
+  cv::Mat image = white();
+  cv::rectangle(image, {100, 80, 64, 64}, 30, cv::FILLED);
+  cv::rectangle(image, {116, 96, 32, 32}, 200, cv::FILLED);
+  const std::vector<cv::Rect> found = find_tag_candidates(image, 2);
   ASSERT_EQ(found.size(), 1u);
   // Two of the tiles of 8 px around, and a seventh of the frame.
   EXPECT_EQ(found[0] & cv::Rect(76, 56, 112, 112), cv::Rect(76, 56, 112, 112));
@@ -86,8 +86,8 @@ TEST(TagSearch, WhatIsNoFrameIsNoCandidate) {
   cv::rectangle(angle, {100, 80, 14, 64}, 30, cv::FILLED);
   cv::Mat cut = white();
   cv::rectangle(cut, {-20, 80, 64, 64}, 30, 16);
-  for (const cv::Mat& picture : {ring, angle, cut, white()}) {
-    EXPECT_TRUE(find_tag_candidates(picture, 2).empty());
+  for (const cv::Mat& image : {ring, angle, cut, white()}) {
+    EXPECT_TRUE(find_tag_candidates(image, 2).empty());
   }
   // Where contrast ends a large square's inside is neither black nor white: it looks like a frame.
   EXPECT_EQ(find_tag_candidates(solid, 2).size(), 1u);
@@ -95,10 +95,10 @@ TEST(TagSearch, WhatIsNoFrameIsNoCandidate) {
 }
 
 TEST(TagSearch, LittleOfATextureIsLeft) {
-  const cv::Mat picture = render_picture(640, 480, SyntheticTexture(3), 2, 1);
+  const cv::Mat image = render_image(640, 480, SyntheticTexture(3), 2, 1);
   int area = 0;
-  for (const cv::Rect& part : find_tag_candidates(picture, 2)) area += part.area();
-  EXPECT_LT(area, picture.rows * picture.cols / 3);
+  for (const cv::Rect& part : find_tag_candidates(image, 2)) area += part.area();
+  EXPECT_LT(area, image.rows * image.cols / 3);
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ TEST_F(RelocaliserTest, FindsNothingWithoutFeaturesOrWithoutAMap) {
   EXPECT_FALSE(relocate(Map(1.2), made_.rig, *aisle_.frame(100, truth_), {}));
 }
 
-/// Two stretches of a row that are the same to the last leaf: neither may be chosen.
+/// Two segments of a row that are the same to the last leaf: neither may be chosen.
 TEST_F(RelocaliserTest, FindsNothingWhereTwoPlacesLookTheSame) {
   Map map(OrbConfig{}.scale);
   for (const double shift : {0.0, 20.0}) {

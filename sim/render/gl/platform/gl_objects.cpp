@@ -189,7 +189,7 @@ GlTarget::GlTarget(int width, int height, bool truth) : width_(width), height_(h
   depth_ = GlRenderbuffer(generate(gl.GenRenderbuffers));
   attach(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F, depth_);
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    fail("renderer: OpenGL gives no picture of {} x {} pixels", width, height);
+    fail("renderer: OpenGL gives no image of {} x {} pixels", width, height);
   }
 }
 

@@ -91,7 +91,7 @@ class GlProgram {
   GlName<destroy_program> program_;
 };
 
-/// Where pictures are drawn: RGBA8 colour and 32-bit depth; for the truth also RGBA8 for who is
+/// Where images are drawn: RGBA8 colour and 32-bit depth; for the truth also RGBA8 for who is
 /// seen and two RGBA32F for normals and motion.
 class GlTarget {
  public:

@@ -98,7 +98,7 @@ cv::Mat LightMap::bake(const GpuScene& scene, const ShadowMap& shadows, MeshProg
   block.lens.y() = static_cast<float>(1 / kBrightest);
   view.set(block);
   bind_texture(kShadowUnit, shadows.texture());
-  gl.ActiveTexture(GL_TEXTURE0 + kPictureUnit);
+  gl.ActiveTexture(GL_TEXTURE0 + kImageUnit);
   std::vector<InstanceRow> rows;
   for (const GpuInstance& instance : scene.instances) {
     rows.push_back({instance.world_from_model.topRows<3>().cast<float>(), 0});

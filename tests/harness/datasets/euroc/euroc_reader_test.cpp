@@ -48,7 +48,7 @@ TEST_F(EurocReaderTest, ReadsCamerasAndFrames) {
   }
 }
 
-TEST_F(EurocReaderTest, GivesPicturesReadingsAndInterpolatedTruth) {
+TEST_F(EurocReaderTest, GivesImagesReadingsAndInterpolatedTruth) {
   const std::vector<Sample> samples = test::play_all(root_);
   ASSERT_EQ(samples.size(), 5u);
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -97,7 +97,7 @@ TEST_F(EurocReaderTest, StampsOutOfOrderAndTwiceAreMendedAndTold) {
   const std::vector<Sample> samples = test::play_all(root_);
   ASSERT_EQ(samples.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(test::grey_of(samples[i].frame.images[0]), int(i));
-  // cam1's fifth picture has no frame any more.
+  // cam1's fifth image has no frame any more.
   EXPECT_EQ(test::count_events(samples),
             (Counts{{"stamp_out_of_order", 1}, {"stamp_repeated", 1}, {"picture_unmatched", 1}}));
 }
@@ -131,14 +131,14 @@ TEST_F(EurocReaderTest, AGapIsTold) {
   EXPECT_THAT(samples[6].events[0].detail, HasSubstr("about 3 frames"));
 }
 
-TEST_F(EurocReaderTest, MissingAndDamagedPicturesAreBlindCameras) {
+TEST_F(EurocReaderTest, MissingAndDamagedImagesAreBlindCameras) {
   const std::vector<std::int64_t> stamps = test::regular_stamps(5);
-  const auto picture = [&](int camera, std::size_t i) {
+  const auto image = [&](int camera, std::size_t i) {
     return root_ / fmt::format("mav0/cam{}/data/{}.png", camera, stamps[i]);
   };
-  std::filesystem::remove(picture(0, 1));
-  test::write_text(picture(1, 2), "");
-  std::filesystem::resize_file(picture(0, 3), std::filesystem::file_size(picture(0, 3)) / 2);
+  std::filesystem::remove(image(0, 1));
+  test::write_text(image(1, 2), "");
+  std::filesystem::resize_file(image(0, 3), std::filesystem::file_size(image(0, 3)) / 2);
   const std::vector<Sample> samples = test::play_all(root_);
   ASSERT_EQ(samples.size(), 5u);
   EXPECT_TRUE(samples[1].frame.images[0].empty());
@@ -161,8 +161,7 @@ TEST_F(EurocReaderTest, FaultyCalibrationsAreErrors) {
   set_sensor("cam1", edited("radial-tangential", "equidistant"));
   expect_error("distortion_model: expected radial-tangential");
   set_sensor("cam1", edited("resolution: [32", "resolution: [64"));
-  expect_error(
-      "camera 'cam1': its calibration is for 64 x 24 pixels, its first picture has 32 x 24");
+  expect_error("camera 'cam1': its calibration is for 64 x 24 pixels, its first image has 32 x 24");
   set_sensor("cam1", "T_BS: [1, 2");
   expect_error("is not valid YAML");
   std::filesystem::remove(root_ / "mav0/cam1/sensor.yaml");
@@ -171,7 +170,7 @@ TEST_F(EurocReaderTest, FaultyCalibrationsAreErrors) {
 
 TEST_F(EurocReaderTest, FaultyFoldersAreErrors) {
   test::write_text(root_ / "mav0/cam1/data.csv", "#timestamp [ns],filename\n");
-  expect_error("cam1/data.csv: expected a line for each picture");
+  expect_error("cam1/data.csv: expected a line for each image");
   test::write_text(root_ / "mav0/cam1/data.csv", "12345\n");
   expect_error("cam1/data.csv:1: expected 2 columns");
   test::write_text(root_ / "mav0/cam1/data.csv", "1.5,1.png\n");
@@ -200,7 +199,7 @@ TEST_F(EurocReaderTest, ARigOfOnesOwnTakesTheCalibrationsPlace) {
     camera.position.y() = rig.cameras.empty() ? 0 : -0.3;
     rig.cameras.push_back(camera);
   }
-  rig.stereo_pairs = {{"eyes", "left", "right"}};
+  rig.stereo_pairs = {{"cameras", "left", "right"}};
   test::write_text(root_ / "own.yaml", format_yaml(rig));
   const Recording recording = open_recording(root_, {.rig = root_ / "own.yaml", .groundtruth = {}});
   EXPECT_EQ(recording.rig.cameras[1].name, "right");

@@ -43,13 +43,13 @@ RecordingNotes notes() {
   return notes;
 }
 
-cv::Mat noise_picture(std::int64_t index, std::size_t camera) {
+cv::Mat noise_image(std::int64_t index, std::size_t camera) {
   const RandomStream stream(7, "pictures", static_cast<std::uint64_t>(10 * index) + camera);
-  cv::Mat picture(test::kHeight, test::kWidth, CV_8UC3);
+  cv::Mat image(test::kHeight, test::kWidth, CV_8UC3);
   for (int i = 0; i < 3 * test::kWidth * test::kHeight; ++i) {
-    picture.data[i] = static_cast<std::uint8_t>(stream.bits(static_cast<std::uint64_t>(i)));
+    image.data[i] = static_cast<std::uint8_t>(stream.bits(static_cast<std::uint64_t>(i)));
   }
-  return picture;
+  return image;
 }
 
 /// Every value has many digits. The first camera misses frame 2.
@@ -59,7 +59,7 @@ Sample sample(std::int64_t index) {
   sample.frame.stamp = stamp_of_frame(index, 15);
   for (std::size_t camera = 0; camera < 3; ++camera) {
     const bool dropped = index == 2 && camera == 0;
-    sample.frame.images.push_back(dropped ? cv::Mat() : noise_picture(index, camera));
+    sample.frame.images.push_back(dropped ? cv::Mat() : noise_image(index, camera));
   }
   const double t = to_seconds(sample.frame.stamp);
   sample.frame.imu = {{sample.frame.stamp - 5, {t / 3, 1.0 / 3, -t}, {0.1, t / 7, 9.81}},
@@ -75,7 +75,7 @@ cv::Mat grey_of(const cv::Mat& rgb) {
   return grey;
 }
 
-bool same_picture(const cv::Mat& a, const cv::Mat& b) {
+bool same_image(const cv::Mat& a, const cv::Mat& b) {
   if (a.empty() || b.empty()) return a.empty() && b.empty();
   return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0;
 }
@@ -102,7 +102,7 @@ TEST_F(EurocWriterTest, WhatIsReadBackIsWhatTheSlamSystemSaw) {
     EXPECT_EQ(frame.index, i);
     EXPECT_EQ(frame.stamp, expected.stamp);
     for (std::size_t camera = 0; camera < 3; ++camera) {
-      EXPECT_TRUE(same_picture(frame.images[camera], grey_of(expected.images[camera])));
+      EXPECT_TRUE(same_image(frame.images[camera], grey_of(expected.images[camera])));
     }
     ASSERT_EQ(frame.imu.size(), 2u);
     for (std::size_t k = 0; k < 2; ++k) {
@@ -199,7 +199,7 @@ TEST_F(EurocWriterTest, AFolderThatHasSomethingIsAnError) {
 TEST_F(EurocWriterTest, ADiskThatTakesNoMoreIsOneError) {
   EurocWriter writer(root_, notes());
   writer.on_tick(sample(0), {});
-  // The pictures' folder goes away: what a full disk or a pulled one does to the next picture.
+  // The images' folder goes away: what a full disk or a pulled one does to the next image.
   const std::string error = error_of([&] {
     for (std::int64_t i = 1; i < 1000; ++i) {
       if (i == 3) std::filesystem::remove_all(root_ / "mav0/cam1");

@@ -78,11 +78,11 @@ TEST_F(KittiReaderTest, TimesAreThoseOfTheFile) {
   EXPECT_THAT(error_of([&] { open_recording(root_); }), HasSubstr("times.txt:4: expected a later"));
 }
 
-TEST_F(KittiReaderTest, AMissingPictureIsABlindCamera) {
+TEST_F(KittiReaderTest, AMissingImageIsABlindCamera) {
   std::filesystem::remove(root_ / "image_r/000004.png");  // fewer on the right
   std::filesystem::remove(root_ / "image_l/000001.png");
   std::filesystem::remove(root_ / "image_r/000001.png");  // no trace of frame 1
-  test::write_text(root_ / "image_l/000002.png", "no picture");
+  test::write_text(root_ / "image_l/000002.png", "no image");
   const std::vector<Sample> samples = test::play_all(root_);
   ASSERT_EQ(samples.size(), 5u);
   EXPECT_TRUE(samples[4].frame.images[1].empty());
@@ -95,7 +95,7 @@ TEST_F(KittiReaderTest, AMissingPictureIsABlindCamera) {
   EXPECT_THAT(samples[2].events.at(0).detail, HasSubstr("000002.png"));
 }
 
-TEST_F(KittiReaderTest, APictureOfAnotherSizeIsABlindCamera) {
+TEST_F(KittiReaderTest, AnImageOfAnotherSizeIsABlindCamera) {
   test::write_image(root_ / "image_r/000003.png", cv::Mat(8, 8, CV_8UC1, cv::Scalar(1)));
   const std::vector<Sample> samples = test::play_all(root_);
   EXPECT_TRUE(samples[3].frame.images[1].empty());
@@ -134,10 +134,10 @@ TEST_F(KittiReaderTest, FaultyPosesAreErrors) {
               HasSubstr("poses.txt:1: expected a rotation matrix"));
 }
 
-TEST_F(KittiReaderTest, FoldersWithoutPicturesAreErrors) {
+TEST_F(KittiReaderTest, FoldersWithoutImagesAreErrors) {
   std::filesystem::remove_all(root_ / "image_r");
   std::filesystem::create_directories(root_ / "image_r");
-  EXPECT_THAT(error_of([&] { open_recording(root_); }), HasSubstr("image_r: expected pictures"));
+  EXPECT_THAT(error_of([&] { open_recording(root_); }), HasSubstr("image_r: expected images"));
   std::filesystem::remove_all(root_ / "image_r");
   EXPECT_THAT(error_of([&] { open_recording(root_); }), HasSubstr("image_r: cannot be read"));
   std::filesystem::create_directories(folder_ / "empty");

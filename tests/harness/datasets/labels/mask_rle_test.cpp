@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Runs of a picture's pixels that are not 0, down the columns.
+/// Runs of an image's pixels that are not 0, down the columns.
 Runs runs_of(const cv::Mat& mask) {
   Runs runs;
   for (int x = 0; x < mask.cols; ++x) {
@@ -33,7 +33,7 @@ Runs runs_of(const cv::Mat& mask) {
 }
 
 TEST(RunLengthTest, CountsAreCompressedAsPycocotoolsDoes) {
-  // A picture of 3 rows and 4 columns with its second column set: 3 without, 3 with, 6 without.
+  // An image of 3 rows and 4 columns with its second column set: 3 without, 3 with, 6 without.
   // Each is one group of five bits: '3', '3', and for the third the count itself, '6'.
   EXPECT_EQ(compress({{3, 6}}, 12), "336");
   // 100 = 0b00011'00100: the low group 4 + 32 (more follow) = 36, '0' + 36 = 'T', then 3: '3'.

@@ -37,10 +37,10 @@ cv::Mat read_npy(const std::filesystem::path& file, const cv::Size& size) {
                   fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}), }}",
                               size.height, size.width),
                   header - 1));
-  cv::Mat picture(size, CV_32FC1);
-  EXPECT_EQ(bytes.size(), 10u + header + 4 * picture.total());
-  std::memcpy(picture.data, bytes.data() + 10 + header, 4 * picture.total());
-  return picture;
+  cv::Mat image(size, CV_32FC1);
+  EXPECT_EQ(bytes.size(), 10u + header + 4 * image.total());
+  std::memcpy(image.data, bytes.data() + 10 + header, 4 * image.total());
+  return image;
 }
 
 class RecordedLabelsTest : public test::SmallScenario {
@@ -49,7 +49,7 @@ class RecordedLabelsTest : public test::SmallScenario {
     return read_npy(request_.out / "depth32" / camera / fmt::format("{:06}.npy", number),
                     size_of(camera));
   }
-  cv::Mat picture(const std::string& format, const std::string& camera, int number) const {
+  cv::Mat image(const std::string& format, const std::string& camera, int number) const {
     const auto file = request_.out / format / camera / fmt::format("{:06}.png", number);
     return cv::imread(file.string(), cv::IMREAD_UNCHANGED);
   }
@@ -61,7 +61,7 @@ class RecordedLabelsTest : public test::SmallScenario {
   }
 };
 
-TEST_F(RecordedLabelsTest, DepthReprojectsIntoTheOtherEyeAtTheDisparity) {
+TEST_F(RecordedLabelsTest, DepthReprojectsIntoTheOtherCameraAtTheDisparity) {
   record({"depth32", "depth", "disparity"});
   const Rig rig = read_calibration(request_.out / "calibration.yaml");
   const Pose T_right_left = rig.cameras[1].T_body_cam.inverse() * rig.cameras[0].T_body_cam;
@@ -69,9 +69,9 @@ TEST_F(RecordedLabelsTest, DepthReprojectsIntoTheOtherEyeAtTheDisparity) {
   int same = 0;
   for (const int number : {0, 5}) {
     const cv::Mat z = depth("left", number);
-    const cv::Mat mm = picture("depth", "left", number);
+    const cv::Mat mm = image("depth", "left", number);
     const cv::Mat z_right = depth("right", number);
-    const cv::Mat codes = picture("disparity", "left", number);
+    const cv::Mat codes = image("disparity", "left", number);
     for (int y = 0; y < z.rows; ++y) {
       for (int x = 0; x < z.cols; ++x) {
         const double metres = z.at<float>(y, x);
@@ -84,7 +84,7 @@ TEST_F(RecordedLabelsTest, DepthReprojectsIntoTheOtherEyeAtTheDisparity) {
         const int column = static_cast<int>(std::lround(at.x()));
         if (column < 0) continue;
         ++seen;
-        // The other eye sees the same thing unless something hides it: most are seen.
+        // The other camera sees the same thing unless something hides it: most are seen.
         same += std::abs(z_right.at<float>(y, column) - metres) < 0.03 * metres ? 1 : 0;
       }
     }
@@ -102,8 +102,8 @@ TEST_F(RecordedLabelsTest, FlowLeadsToThePointInTheNextFrame) {
     const PinholeCamera& model = rig.cameras[camera == "left" ? 0 : 2].model;
     const Pose T_next_now = poses[5].pose.inverse() * poses[4].pose;
     const cv::Mat z = depth(camera, 4);
-    const cv::Mat code = picture("flow", camera, 4);
-    const cv::Mat semantic = picture("semantic", camera, 4);
+    const cv::Mat code = image("flow", camera, 4);
+    const cv::Mat semantic = image("semantic", camera, 4);
     const std::string flo = read_file(request_.out / "flo" / camera / "000004.flo");
     ASSERT_EQ(flo.size(), 12 + 8 * z.total());
     EXPECT_EQ(flo.substr(0, 4), "PIEH");
@@ -127,7 +127,7 @@ TEST_F(RecordedLabelsTest, FlowLeadsToThePointInTheNextFrame) {
   EXPECT_FALSE(std::filesystem::exists(request_.out / "flow/left/000005.png"));
 }
 
-// Small pictures show plants as from afar, without bunches of their own, unless asked for detail.
+// Small images show plants as from afar, without bunches of their own, unless asked for detail.
 TEST_F(RecordedLabelsTest, CocoCountsEveryPixelOnce) {
   request_.overrides.emplace_back("renderer.lod_scale", "20");
   record({"coco", "semantic", "instances"});
@@ -152,9 +152,9 @@ TEST_F(RecordedLabelsTest, CocoCountsEveryPixelOnce) {
     ++bunches;
     EXPECT_GE(annotation["visibility"], 0);
     EXPECT_LE(annotation["truncation"], 1);
-    // Its pixels are its own in the instance picture.
+    // Its pixels are its own in the instance image.
     const std::string camera = image["camera"];
-    const cv::Mat ids = picture("instances", camera, image["frame"]);
+    const cv::Mat ids = image("instances", camera, image["frame"]);
     const cv::Mat mine = mask_of(runs, ids.size());
     for (int y = 0; y < ids.rows; ++y) {
       for (int x = 0; x < ids.cols; ++x) {
@@ -166,7 +166,7 @@ TEST_F(RecordedLabelsTest, CocoCountsEveryPixelOnce) {
   }
   EXPECT_GT(bunches, 10);
   for (const auto& [id, image] : images) {
-    const cv::Mat semantic = picture("semantic", image["camera"], image["frame"]);
+    const cv::Mat semantic = image("semantic", image["camera"], image["frame"]);
     std::map<int, std::int64_t> pixels;
     for (int y = 0; y < semantic.rows; ++y) {
       for (int x = 0; x < semantic.cols; ++x) {
@@ -185,7 +185,7 @@ TEST_F(RecordedLabelsTest, AllOfThemPassTheCheck) {
   const DatasetReport report = check_dataset(request_.out);
   for (const DatasetFault& fault : report.faults) ADD_FAILURE() << fault.file << fault.problem;
   // Six frames of three cameras: depth, semantic, instances; disparity of one; five flows of three.
-  EXPECT_EQ(report.label_pictures, 6 * (3 * 3 + 1) + 5 * 3);
+  EXPECT_EQ(report.label_images, 6 * (3 * 3 + 1) + 5 * 3);
 }
 
 TEST_F(RecordedLabelsTest, LabelsChooseWhatInstancesAreOf) {

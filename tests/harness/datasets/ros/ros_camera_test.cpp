@@ -26,7 +26,7 @@ Eigen::Vector3d rotated(const RosCameraInfo& info, const Eigen::Vector3d& p_cam)
   return Eigen::Map<const RowMajor3>(info.R.data()) * p_cam;
 }
 
-TEST(RosCameraTest, ARectifiedPairHasItsBaselineInTheRightEye) {
+TEST(RosCameraTest, ARectifiedPairHasItsBaselineInTheRightCamera) {
   const Rig rig = Rig::stereo(kLens, 0.12);
   const std::vector<RosCamera> cameras = ros_cameras(rig);
   ASSERT_EQ(cameras.size(), 2u);
@@ -51,8 +51,8 @@ TEST(RosCameraTest, ALensWithDistortionIsRaw) {
   EXPECT_EQ(cameras[1].calibration.P[3], 0);  // of no pair
 }
 
-/// ROS: the right eye's P takes points of the left rectified view to the right picture, where they
-/// must be seen as its own eye, turned by R, sees them.
+/// ROS: the right camera's P takes points of the left rectified view to the right image, where they
+/// must be seen as its own camera, turned by R, sees them.
 TEST(RosCameraTest, RAndPRectifyAPairThatIsNot) {
   Rig rig = Rig::stereo(kLens, 0.12);
   Pose& T_body_right = rig.cameras[1].T_body_cam;

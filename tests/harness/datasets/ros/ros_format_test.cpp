@@ -35,10 +35,10 @@ TEST_F(RosFormatTest, WithoutRosItIsOneError) {
 }
 
 TEST_F(RosFormatTest, WhatABagCannotHaveIsAnError) {
-  request_.options.pictures = PictureKind::kWebp;
+  request_.options.images = ImageKind::kWebp;
   EXPECT_THAT(error_of([&] { record({"ros"}); }), HasSubstr("--image webp: expected png or jpg"));
   EXPECT_TRUE(fs::is_empty(request_.out));
-  request_.options.pictures.reset();
+  request_.options.images.reset();
   std::string rig = read_file(folder_ / "rig.yaml");
   for (std::size_t at; (at = rig.find("side")) != std::string::npos;) rig.replace(at, 4, "2nd");
   folder_.write("rig.yaml", rig);
@@ -57,13 +57,13 @@ TEST_F(RosFormatTest, AnInterruptedBagIsClosed) {
   EXPECT_GT(fs::file_size(bag()), of_three);
 }
 
-TEST_F(RosFormatTest, PicturesAndColourAreThoseAskedFor) {
+TEST_F(RosFormatTest, ImagesAndColourAreThoseAskedFor) {
   if (!has_rosbag()) GTEST_SKIP() << "built without rosbag";
   record({"ros"});
   const std::string raw = read_file(bag());
   EXPECT_THAT(raw, HasSubstr("mono8"));
   request_.out = folder_ / "png";
-  request_.options.pictures = PictureKind::kPng;
+  request_.options.images = ImageKind::kPng;
   record({"ros", "euroc"});
   const std::string compressed = read_file(bag());
   EXPECT_THAT(compressed, testing::Not(HasSubstr("mono8")));

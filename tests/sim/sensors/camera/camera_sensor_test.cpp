@@ -53,7 +53,8 @@ class EdgeTest : public testing::Test {
     pose.translation.x() += speed * to_seconds(stamp);
     return pose;
   }
-  Picture capture(const CameraSensorConfig& config, double speed = kSpeed, Stamp instant = 0) {
+  RenderedImage capture(const CameraSensorConfig& config, double speed = kSpeed,
+                        Stamp instant = 0) {
     CameraSensor sensor(config, camera(), 0, 1);
     CameraSensor::Shot shot;
     shot.instant = instant;
@@ -67,7 +68,7 @@ class EdgeTest : public testing::Test {
         });
   }
 
-  /// Mean and variance (px, px^2) of where light changes along some rows of a picture.
+  /// Mean and variance (px, px^2) of where light changes along some rows of an image.
   static std::pair<double, double> edge(const cv::Mat& rgb, int top, int rows) {
     const cv::Mat light = to_light(rgb);
     double sum = 0, first = 0, second = 0;
@@ -87,9 +88,9 @@ class EdgeTest : public testing::Test {
   Renderer renderer_;
 };
 
-TEST_F(EdgeTest, EverythingOffIsTheRenderedPicture) {
-  const Picture clean = renderer_.render(camera().model, pose_at(kSpeed, 0), {true, true});
-  const Picture taken = capture(off());
+TEST_F(EdgeTest, EverythingOffIsTheRenderedImage) {
+  const RenderedImage clean = renderer_.render(camera().model, pose_at(kSpeed, 0), {true, true});
+  const RenderedImage taken = capture(off());
   EXPECT_EQ(different_values(taken.rgb, clean.rgb), 0);
   EXPECT_EQ(different_values(taken.labels, clean.labels), 0);
   EXPECT_EQ(different_values(taken.depth, clean.depth), 0);
@@ -156,8 +157,8 @@ TEST_F(EdgeTest, LabelsAndDepthAreThoseOfTheMiddle) {
   CameraSensorConfig config = off();
   config.exposure.time = config.exposure.reference_time = 0.1;
   config.blur_subframes = 5;
-  const Picture blurred = capture(config);
-  const Picture clean = renderer_.render(camera().model, pose_at(kSpeed, 0), {true, true});
+  const RenderedImage blurred = capture(config);
+  const RenderedImage clean = renderer_.render(camera().model, pose_at(kSpeed, 0), {true, true});
   EXPECT_EQ(different_values(blurred.labels, clean.labels), 0);
   EXPECT_EQ(different_values(blurred.depth, clean.depth), 0);
 }
@@ -191,9 +192,9 @@ class WallTest : public testing::Test {
             shot, [](Stamp) { return Pose{}; },
             [&](const PinholeCamera& view, const Pose&, const Renderer::Request& request) {
               exposure_ = request.exposure;
-              Picture picture;
-              picture.rgb = cv::Mat(view.height, view.width, CV_8UC3, wall_);
-              return picture;
+              RenderedImage image;
+              image.rgb = cv::Mat(view.height, view.width, CV_8UC3, wall_);
+              return image;
             })
         .rgb;
   }
@@ -290,7 +291,7 @@ TEST_F(WallTest, HotPixelsLeakInProportionToTheTime) {
   EXPECT_NEAR((lit(0.0004) - wall) / little, 4, 0.4);
 }
 
-TEST_F(WallTest, PixelResponseIsTheSameInEveryPicture) {
+TEST_F(WallTest, PixelResponseIsTheSameInEveryImage) {
   CameraSensorConfig config = off();
   config.fixed_pattern.response = 0.05;
   const cv::Mat first = capture(config, 0);
@@ -326,8 +327,8 @@ TEST_F(WallTest, NoiseOfAMosaicIsCorrelatedBetweenPixels) {
 /// Chessboard through a lens.
 class LensTest : public testing::Test {
  protected:
-  Picture capture(const PinholeCamera& model, const Pose& T_world_cam,
-                  const CameraSensorConfig& config = off()) {
+  RenderedImage capture(const PinholeCamera& model, const Pose& T_world_cam,
+                        const CameraSensorConfig& config = off()) {
     CameraSensor sensor(config, {"camera", model, {}}, 0, 1);
     CameraSensor::Shot shot;
     shot.exposure = {config.exposure.time, 0};
@@ -360,7 +361,7 @@ TEST_F(LensTest, PointsAreWhereTheCameraProjectsThem) {
   }
 }
 
-TEST_F(LensTest, LabelsAreBentWithThePicture) {
+TEST_F(LensTest, LabelsAreBentWithTheImage) {
   const PinholeCamera camera = lens(-0.12, 0.02, 0.001, -0.002);
   const Pose pose = look_at({0.02, -0.21, 0.03}, {0.01, 0, 0}, 0.05);
   const cv::Mat labels = capture(camera, pose).labels;
@@ -397,7 +398,7 @@ TEST_F(LensTest, ALensThatFoldsOverIsRefused) {
   EXPECT_THROW(make_lens_bands(lens(std::nan(""), 0, 0, 0), 1), Error);
 }
 
-TEST_F(LensTest, TheViewCoversThePictureAndKeepsItsDetail) {
+TEST_F(LensTest, TheViewCoversTheImageAndKeepsItsDetail) {
   for (const PinholeCamera& camera : {lens(-0.1, 0.01, 0, 0), lens(0.05, 0, 0, 0)}) {
     const PinholeCamera view = make_lens_bands(camera, 1).front().view;
     EXPECT_GE(view.fx, camera.fx);

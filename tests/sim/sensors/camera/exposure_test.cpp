@@ -20,8 +20,8 @@ Rig pair_and_side() {
   return rig;
 }
 
-/// Pictures of even walls of that light under that exposure.
-cv::Mat picture(double light, const Exposure& exposure, const ExposureConfig& config) {
+/// Images of even walls of that light under that exposure.
+cv::Mat image(double light, const Exposure& exposure, const ExposureConfig& config) {
   const double code = code_of_light(light * exposure.factor(config.reference_time));
   return {48, 64, CV_8UC3, cv::Scalar::all(std::round(code))};
 }
@@ -37,9 +37,9 @@ std::vector<double> brightness_over(ExposureControl& control, const ExposureConf
                                     double light, int frames) {
   std::vector<double> brightness;
   for (int i = 0; i < frames; ++i) {
-    const cv::Mat left = picture(light, control.of(0), config);
+    const cv::Mat left = image(light, control.of(0), config);
     brightness.push_back(mean_brightness(left));
-    control.observe({left, left, picture(light, control.of(2), config)});
+    control.observe({left, left, image(light, control.of(2), config)});
   }
   return brightness;
 }

@@ -35,14 +35,14 @@ TEST_F(GlareTest, SaturatesAtTheSunAndFallsOffWithTheAngle) {
   EXPECT_NEAR(far, 90, 1);
 }
 
-TEST_F(GlareTest, ACoveredSunOrOneOutOfThePictureChangesNothing) {
+TEST_F(GlareTest, ACoveredSunOrOneOutOfTheImageChangesNothing) {
   const cv::Mat clean = rgb_.clone();
   labels_.setTo(static_cast<int>(Label::kLeaf));
   add_glare(rgb_, labels_, camera_, ahead_, light_, 1);
   EXPECT_EQ(cv::norm(clean, rgb_, cv::NORM_INF), 0);
   labels_.setTo(static_cast<int>(Label::kSky));
   add_glare(rgb_, labels_, camera_, -ahead_, light_, 1);
-  add_glare(rgb_, labels_, camera_, Eigen::Vector3d(0, -1, 0.3), light_, 1);  // above the picture
+  add_glare(rgb_, labels_, camera_, Eigen::Vector3d(0, -1, 0.3), light_, 1);  // above the image
   light_.glare = 0;
   add_glare(rgb_, labels_, camera_, ahead_, light_, 1);
   EXPECT_EQ(cv::norm(clean, rgb_, cv::NORM_INF), 0);

@@ -81,12 +81,12 @@ TEST(PhotonTransferTest, MeanKeepsTheLight) {
 }
 
 TEST(PhotonTransferTest, DefaultIsAboutOneAndAHalfGreyLevelsAtMidGrey) {
-  const PhotonTransfer sensor({}, kPictureGamma);
+  const PhotonTransfer sensor({}, kImageGamma);
   EXPECT_NEAR(std::sqrt(noisy_moments(sensor, 128).variance), 1.5, 0.1);
 }
 
 TEST(PhotonTransferTest, WhiteSaturates) {
-  const PhotonTransfer sensor({true, 1000, 10}, kPictureGamma);
+  const PhotonTransfer sensor({true, 1000, 10}, kImageGamma);
   cv::Mat image(300, 300, CV_8UC3, cv::Scalar::all(255));
   sensor.apply(image, RandomStream(1, "test"));
   // Half of the draws are above white and clipped to it.
@@ -94,9 +94,9 @@ TEST(PhotonTransferTest, WhiteSaturates) {
 }
 
 TEST(PhotonTransferTest, OffLeavesEveryCode) {
-  const PhotonTransfer off({false, 1000, 10}, kPictureGamma);
+  const PhotonTransfer off({false, 1000, 10}, kImageGamma);
   EXPECT_TRUE(off.is_identity());
-  EXPECT_FALSE(PhotonTransfer({}, kPictureGamma).is_identity());
+  EXPECT_FALSE(PhotonTransfer({}, kImageGamma).is_identity());
   cv::Mat image(1, 256, CV_8UC1);
   for (int i = 0; i < 256; ++i) image.at<std::uint8_t>(i) = static_cast<std::uint8_t>(i);
   const cv::Mat before = image.clone();
@@ -113,7 +113,7 @@ TEST(PhotonTransferTest, LinearResponseWithoutNoise) {
 }
 
 TEST(PhotonTransferTest, ADrawDependsOnItsPlaceAlone) {
-  const PhotonTransfer sensor({}, kPictureGamma);
+  const PhotonTransfer sensor({}, kImageGamma);
   cv::Mat one(40, 61, CV_8UC3, cv::Scalar::all(100));  // 183 values a row: no multiple of 8
   cv::Mat other = one.clone();
   other.at<cv::Vec3b>(7, 9) = {1, 2, 3};

@@ -30,7 +30,7 @@ WorldConfig small_world() {
 
 class GlBackendTest : public testing::Test {
  protected:
-  Picture picture(GlBackend backend) const {
+  RenderedImage image(GlBackend backend) const {
     RendererConfig config;
     config.backend = backend;
     config.shadow_map_size = 512;
@@ -52,10 +52,10 @@ class GlBackendTest : public testing::Test {
   Scene scene_ = world_with_rover();
 };
 
-TEST_F(GlBackendTest, OsmesaAndEglGiveTheSamePicture) {
+TEST_F(GlBackendTest, OsmesaAndEglGiveTheSameImage) {
   if (!has_osmesa() || !has_egl()) GTEST_SKIP() << "this build has one platform only";
-  const Picture osmesa = picture(GlBackend::kOsmesa);
-  const Picture egl = picture(GlBackend::kEgl);
+  const RenderedImage osmesa = image(GlBackend::kOsmesa);
+  const RenderedImage egl = image(GlBackend::kEgl);
   cv::Mat difference;
   cv::absdiff(osmesa.rgb, egl.rgb, difference);
   cv::Mat far_off;
@@ -64,7 +64,7 @@ TEST_F(GlBackendTest, OsmesaAndEglGiveTheSamePicture) {
   EXPECT_GE(cv::countNonZero(far_off), 0.999 * static_cast<double>(far_off.total()));
   EXPECT_LE(cv::countNonZero(osmesa.instances != egl.instances),
             0.001 * static_cast<double>(far_off.total()));
-  EXPECT_GT(cv::mean(osmesa.rgb)[1], 20);  // something is in the picture
+  EXPECT_GT(cv::mean(osmesa.rgb)[1], 20);  // something is in the image
 }
 
 TEST_F(GlBackendTest, BothMayLiveSideBySide) {
