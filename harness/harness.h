@@ -7,8 +7,8 @@
 /// simulation and SLAM meet.
 
 #include "harness/experiment/scenario.h"
+#include "harness/jobs/run_scenario.h"
 #include "harness/judge/evaluation.h"
 #include "harness/replay.h"
 #include "harness/report/run_folder.h"
 #include "harness/run/lockstep.h"
-#include "harness/run_scenario.h"

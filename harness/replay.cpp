@@ -7,9 +7,8 @@
 #include "core/util/error.h"
 #include "core/util/files.h"
 #include "harness/report/run_folder.h"
-#include "harness/run_scenario.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr std::string_view kSection = "slam.";
@@ -22,40 +21,33 @@ std::string key_of_section(const std::string& key) {
   return key.substr(kSection.size());
 }
 
-/// What the judge and the plot ask of an experiment; a recording has no world and expects nothing.
-ScenarioConfig as_experiment(const Recording& recording, const SlamConfig& slam) {
-  ScenarioConfig experiment;
-  experiment.name = recording.name;
-  experiment.seed = 0;
-  experiment.slam = {slam, {}, {}};
-  return experiment;
-}
-
 std::string millimetres(const Json& metres) {
   return metres.is_null() ? "unknown" : fmt::format("{:.1f} mm", 1e3 * metres.get<double>());
 }
 
 }  // namespace
 
-SlamConfig replay_settings(const Recording& recording, const std::filesystem::path& file,
-                           const std::vector<Override>& overrides) {
+slam::SlamConfig replay_settings(const Recording& recording, const std::filesystem::path& file,
+                                 const std::vector<Override>& overrides) {
   const std::filesystem::path& settings = file.empty() ? recording.settings : file;
   YamlDocument document = settings.empty() ? YamlDocument() : YamlDocument::load(settings);
   for (const auto& [key, value] : overrides) document.set(key_of_section(key), value);
-  return document.read<SlamConfig>();
+  return document.read<slam::SlamConfig>();
 }
 
-void prepare_replay_folder(const std::filesystem::path& folder, const SlamConfig& slam) {
+void prepare_replay_folder(const std::filesystem::path& folder, const slam::SlamConfig& slam) {
   prepare_run_folder(folder, "slam.resolved.yaml", format_yaml(slam));
 }
 
-RunOutcome run_replay(Recording recording, const SlamConfig& slam, int threads,
+RunOutcome run_replay(Recording recording, const slam::SlamConfig& slam, int threads,
                       const RunOptions& options) {
   WorkerPool pool(threads);
-  const ScenarioConfig experiment = as_experiment(recording, slam);
-  const auto system = make_slam(slam, recording.rig, recording.tags, pool);
+  // A recording has no site and expects nothing.
+  Trial trial;
+  trial.name = recording.name;
+  const auto system = slam::make_slam(slam, recording.rig, recording.tags, pool);
   const auto source = play(std::move(recording), pool);
-  return run_mapping_system(experiment, *source, *system, options);
+  return run_mapping_system(trial, *source, *system, options);
 }
 
 std::string format_replay(const Json& metrics) {
@@ -77,4 +69,4 @@ std::string format_replay(const Json& metrics) {
   return text;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

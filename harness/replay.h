@@ -5,26 +5,27 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/config/override.h"
 #include "harness/datasets/reading/dataset_reader.h"
 #include "harness/run.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Settings of the SLAM core for a replay: those of `file`, else the recording's own, else the
 /// defaults; then the overrides, "slam.KEY=VALUE". The file has the keys of a scenario's `slam`.
 /// Throws Error that names file, line and key.
-SlamConfig replay_settings(const Recording& recording, const std::filesystem::path& file,
-                           const std::vector<Override>& overrides);
+slam::SlamConfig replay_settings(const Recording& recording, const std::filesystem::path& file,
+                                 const std::vector<Override>& overrides);
 
 /// Makes the run's folder, with slam.resolved.yaml in it.
-void prepare_replay_folder(const std::filesystem::path& folder, const SlamConfig& slam);
+void prepare_replay_folder(const std::filesystem::path& folder, const slam::SlamConfig& slam);
 
 /// Runs the SLAM core on the recording's frames and judges it by the recording's ground truth,
 /// where there is one; writes the same files as a scenario's run.
-RunOutcome run_replay(Recording recording, const SlamConfig& slam, int threads,
+RunOutcome run_replay(Recording recording, const slam::SlamConfig& slam, int threads,
                       const RunOptions& options);
 
 /// Figures and faults of a replay for people, a line each.
 std::string format_replay(const Json& metrics);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/run.h"
 
+#include "core/util/error.h"
 #include "harness/report/run_folder.h"
 #include "harness/run/frame_images.h"
 #include "harness/run/lockstep.h"
@@ -9,13 +10,13 @@
 #include "harness/run/run_hash.h"
 #include "vinebench/version.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 /// The sinks of one run.
 struct Sinks {
-  Sinks(const ScenarioConfig& scenario, const FrameSource& source, const RunOptions& options)
-      : recorder(source.rig(), scenario.simulation.world.tags) {
+  Sinks(const Trial& trial, const FrameSource& source, const RunOptions& options)
+      : recorder(source.rig(), trial.site.tags) {
     if (!options.folder.empty()) {
       images.emplace(options.folder / "frames", source.rig(), source.size(), options.images);
     }
@@ -53,22 +54,29 @@ Json complete_metrics(const Json& results, const FrameSource& source, const Slam
   return metrics;
 }
 
+void expect_folder(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+    fail("{}: there is no folder {}", file.string(), folder.string());
+  }
+}
+
 }  // namespace
 
-RunOutcome run_lockstep_and_judge(const ScenarioConfig& scenario, FrameSource& source,
-                                  SlamSystem& slam, const RunOptions& options) {
-  if (const auto& blind = scenario.expectations.blind) find_cameras(source.rig(), blind->cameras);
-  Sinks sinks(scenario, source, options);
+RunOutcome run_lockstep_and_judge(const Trial& trial, FrameSource& source, SlamSystem& slam,
+                                  const RunOptions& options) {
+  if (const auto& blind = trial.expectations.blind) find_cameras(source.rig(), blind->cameras);
+  Sinks sinks(trial, source, options);
   std::vector<Sink*> all = sinks.list();
   all.insert(all.end(), options.sinks.begin(), options.sinks.end());
   run_lockstep(source, slam, all, options.stopped);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - options.started;
 
   const RunRecord& record = sinks.recorder.record();
-  const RunResults results = measure(record, scenario);
-  const std::vector<DegradedSegment> segments = diagnose(record, results, scenario);
+  const RunResults results = measure(record, trial);
+  const std::vector<DegradedSegment> segments = diagnose(record, results, trial);
   if (!options.folder.empty()) {
-    write_run_files(options.folder, scenario, record, results, segments);
+    write_run_files(options.folder, trial, record, results, segments);
   }
   RunOutcome outcome;
   outcome.summary = format_diagnosis(record, segments);
@@ -78,14 +86,29 @@ RunOutcome run_lockstep_and_judge(const ScenarioConfig& scenario, FrameSource& s
   outcome.interrupted = options.stopped && options.stopped() && !whole;
   if (outcome.interrupted) return outcome;
 
-  const Json figures = result_metrics(scenario, record, results);
+  const Json figures = result_metrics(trial, record, results);
   sinks.hash.add(figures.dump());
   outcome.hash = sinks.hash.digits();
-  outcome.checks = check_expectations(scenario.expectations, results);
+  outcome.checks = check_expectations(trial.expectations, results);
   outcome.metrics = complete_metrics(figures, source, slam, wall.count(), outcome.hash);
   outcome.metrics["expectations"] = checks_json(outcome.checks);
   if (!options.folder.empty()) write_metrics(options.folder, outcome.metrics);
   return outcome;
 }
 
-}  // namespace vinebench
+void check_map_folders(const MapFiles& maps) {
+  expect_folder(maps.save);
+  expect_folder(maps.cloud);
+}
+
+RunOutcome run_mapping_system(const Trial& trial, FrameSource& source, slam::MappingSystem& slam,
+                              const RunOptions& options) {
+  check_map_folders(options.maps);
+  if (!options.maps.load.empty()) slam.load_map(options.maps.load);
+  const RunOutcome outcome = run_lockstep_and_judge(trial, source, slam, options);
+  if (!options.maps.save.empty()) slam.save_map(options.maps.save);
+  if (!options.maps.cloud.empty()) slam.save_cloud(options.maps.cloud);
+  return outcome;
+}
+
+}  // namespace vinebench::harness

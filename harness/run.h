@@ -10,8 +10,9 @@
 
 #include "harness/judge/metrics.h"
 #include "harness/judge/verdict.h"
+#include "slam/slam.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Maps that a run begins with and leaves. None where empty.
 struct MapFiles {
@@ -43,7 +44,16 @@ struct RunOutcome {
 
 /// Runs a SLAM system on a source in lockstep, judges it and writes the run's files. The folder
 /// must have been prepared.
-RunOutcome run_lockstep_and_judge(const ScenarioConfig& scenario, FrameSource& source,
-                                  SlamSystem& slam, const RunOptions& options);
+RunOutcome run_lockstep_and_judge(const Trial& trial, FrameSource& source, SlamSystem& slam,
+                                  const RunOptions& options);
 
-}  // namespace vinebench
+/// Throws Error where a map is to be written into a folder that is not there: better before a long
+/// run than after it.
+void check_map_folders(const MapFiles& maps);
+
+/// Runs a SLAM system on a source and judges it, with the maps of the options loaded before and
+/// saved after.
+RunOutcome run_mapping_system(const Trial& trial, FrameSource& source, slam::MappingSystem& slam,
+                              const RunOptions& options);
+
+}  // namespace vinebench::harness

@@ -21,7 +21,7 @@
 #include "harness/datasets/labels/label_formats.h"
 #include "harness/datasets/labels/label_table.h"
 #include "harness/datasets/labels/mask_rle.h"
-#include "harness/frame_stream.h"
+#include "harness/jobs/frame_stream.h"
 #include "vinebench/version.h"
 
 namespace py = pybind11;
@@ -59,12 +59,12 @@ py::array to_array(const cv::Mat& mat) {
 
 /// What a Python program holds of a run: the stream, and the frame's place in it.
 struct Scenario {
-  std::shared_ptr<FrameStream> stream;
+  std::shared_ptr<harness::FrameStream> stream;
 };
 
 struct PyFrame {
-  std::shared_ptr<FrameStream> stream;
-  std::shared_ptr<const DatasetFrame> frame;
+  std::shared_ptr<harness::FrameStream> stream;
+  std::shared_ptr<const harness::DatasetFrame> frame;
 
   std::size_t camera(const std::string& name) const {
     const int index = stream->rig().find_camera(name);
@@ -121,16 +121,16 @@ Eigen::MatrixXd wheel_readings(const PyFrame& self) {
 
 py::list things_of(const PyFrame& self, const std::string& name) {
   const std::size_t camera = self.camera(name);
-  const ImageLabels labels = self.stream->things(*self.frame, camera);
+  const harness::ImageLabels labels = self.stream->things(*self.frame, camera);
   const cv::Size size = labels.segments.size();
   py::list things;
-  for (const ThingLabel& thing : labels.things) {
-    const cv::Rect box = box_of(thing.mask, size.height);
+  for (const harness::ThingLabel& thing : labels.things) {
+    const cv::Rect box = harness::box_of(thing.mask, size.height);
     py::dict entry;
-    entry["category"] = category_name(thing.category);
+    entry["category"] = harness::category_name(thing.category);
     entry["number"] = thing.number;
     entry["box"] = py::make_tuple(box.x, box.y, box.width, box.height);
-    entry["mask"] = to_array(mask_of(thing.mask, size)).attr("astype")(py::dtype("bool"));
+    entry["mask"] = to_array(harness::mask_of(thing.mask, size)).attr("astype")(py::dtype("bool"));
     entry["visibility"] = thing.visibility;
     entry["truncation"] = thing.truncation;
     things.append(entry);
@@ -156,7 +156,7 @@ struct Arguments {
 };
 
 Scenario open_scenario(const Arguments& arguments) {
-  StreamRequest request;
+  harness::StreamRequest request;
   request.scenario = arguments.scenario;
   request.seed = arguments.seed;
   for (const auto& [key, value] : arguments.overrides) {
@@ -171,11 +171,11 @@ Scenario open_scenario(const Arguments& arguments) {
   request.every = arguments.every;
   request.threads = arguments.threads;
   const py::gil_scoped_release others_may_run;
-  return {std::make_shared<FrameStream>(request)};
+  return {std::make_shared<harness::FrameStream>(request)};
 }
 
 PyFrame next_frame(const Scenario& self) {
-  std::shared_ptr<const DatasetFrame> frame;
+  std::shared_ptr<const harness::DatasetFrame> frame;
   {
     const py::gil_scoped_release others_may_run;
     frame = self.stream->next();
@@ -186,7 +186,8 @@ PyFrame next_frame(const Scenario& self) {
 
 py::dict label_names() {
   py::dict names;
-  for (std::size_t i = 0; i < kLabels; ++i) names[py::int_(i)] = label_name(static_cast<Label>(i));
+  for (std::size_t i = 0; i < harness::kLabels; ++i)
+    names[py::int_(i)] = harness::label_name(static_cast<Label>(i));
   return names;
 }
 

@@ -4,7 +4,7 @@
 
 #include "core/config/yaml.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 WorldConfig load_world(const std::filesystem::path& file,
                        const std::vector<std::pair<std::string, std::string>>& overrides) {
@@ -17,4 +17,4 @@ RoverConfig load_rover(const std::filesystem::path& file) {
   return YamlDocument::load(file).read<RoverConfig>();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

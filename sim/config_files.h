@@ -10,7 +10,7 @@
 #include "sim/rover/rover.h"
 #include "sim/world/world.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Reads a vineyard's YAML file and sets dotted keys ("sun.elevation_deg") to the YAML values
 /// given. Throws Error that lists every violation with its line.
@@ -20,4 +20,4 @@ WorldConfig load_world(const std::filesystem::path& file,
 /// Reads a rover's YAML file. Throws Error that lists every violation with its line.
 RoverConfig load_rover(const std::filesystem::path& file);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

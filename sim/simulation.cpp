@@ -10,9 +10,10 @@
 #include "core/config/validate.h"
 #include "sim/rover/driven_rover.h"
 #include "sim/rover/rover_asset.h"
+#include "sim/scene/scene_naming.h"
 #include "sim/truth/truth.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 Rig checked_rig(const SimulationConfig& config) {
@@ -29,7 +30,7 @@ class Simulation : public SimulatedSource {
         pool_(pool),
         plan_(plan),
         nominal_rig_(checked_rig(config)),
-        rig_(vinebench::true_rig(nominal_rig_, config.sensors.calibration, seed)),
+        rig_(sim::true_rig(nominal_rig_, config.sensors.calibration, seed)),
         rover_(config.rover, config.world, config.route, seed),
         timing_(config.sensors.timing, config.sensors.drops, rig_, seed),
         exposure_(config.sensors.camera.exposure, rig_),
@@ -41,7 +42,7 @@ class Simulation : public SimulatedSource {
     window_ = from_seconds(config.sensors.camera.half_window()) + timing_.longest_delay();
     Scene scene = build_scene(config.world, seed, cache);
     add_rover(scene, config.rover.model);
-    index_of_scene_ = SceneIndex(scene);
+    index_of_scene_ = index_of(scene);
     for (int i = 0; i < pool.threads(); ++i) renderers_.emplace_back(scene, config.renderer);
     const double route_seconds = to_seconds(rover_.route().duration());
     const double seconds = std::min(config.duration.value_or(route_seconds), route_seconds);
@@ -244,4 +245,4 @@ std::unique_ptr<SimulatedSource> make_simulation(const SimulationConfig& config,
   return std::make_unique<Simulation>(config, seed, cache, pool, plan);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

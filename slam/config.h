@@ -12,7 +12,7 @@
 #include "slam/stereo/stereo_matcher.h"
 #include "slam/tags/tag_detector.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 struct TrackingConfig {
   double radius = 10;             ///< px, of the first search around a landmark's projection
@@ -173,4 +173,4 @@ struct SlamConfig {
   }
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -8,7 +8,7 @@
 #include "core/util/error.h"
 #include "slam/camera/rectification.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -126,4 +126,4 @@ std::shared_ptr<FrameFeatures> FrontEnd::process(const Frame& frame, StageTimes&
   return features;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

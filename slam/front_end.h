@@ -13,7 +13,7 @@
 #include "slam/map/map.h"
 #include "slam/odometry/wheel_odometry.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Boils a frame's images down to features with stereo matches, and tags.
 class FrontEnd {
@@ -41,4 +41,4 @@ class FrontEnd {
   std::vector<std::vector<TagSighting>> sightings_;   ///< of each tag camera
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -9,7 +9,7 @@
 #include "slam/calibration/stereo_calibration.h"
 #include "slam/tracking/keyframe_selector.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// A map begins with at least this many stereo points.
@@ -316,4 +316,4 @@ Estimate Pipeline::report(const TrackedFrame& tracked) const {
   return estimate;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -17,7 +17,7 @@
 #include "slam/tracking/relocaliser.h"
 #include "slam/tracking/tracker.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// The paper's Fig. 4 from features on: tracking, keyframes, local mapping and loop closing, one
 /// after the other for each frame. Knows no images, so that it can be tested without any.
@@ -80,4 +80,4 @@ class Pipeline {
   bool tags_since_adjustment_ = false;  ///< tags were seen after the last global adjustment
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

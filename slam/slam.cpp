@@ -8,7 +8,7 @@
 #include "slam/map/point_cloud.h"
 #include "slam/pipeline.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// Images to features to poses, in lockstep.
@@ -27,10 +27,10 @@ class MulticameraSlam : public MappingSystem {
   const StageTimes& times() const override { return pipeline_.times(); }
 
   void load_map(const std::filesystem::path& file) override {
-    pipeline_.continue_from(vinebench::load_map(file, pipeline_.rig()));
+    pipeline_.continue_from(slam::load_map(file, pipeline_.rig()));
   }
   void save_map(const std::filesystem::path& file) const override {
-    vinebench::save_map(pipeline_.map(), pipeline_.rig(), file);
+    slam::save_map(pipeline_.map(), pipeline_.rig(), file);
   }
   void save_cloud(const std::filesystem::path& file) const override {
     save_point_cloud(pipeline_.map(), min_observations_, file);
@@ -51,4 +51,4 @@ std::unique_ptr<MappingSystem> make_slam(const SlamConfig& config, const Rig& ri
                                            pool);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

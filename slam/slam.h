@@ -17,7 +17,7 @@
 #include "core/util/worker_pool.h"
 #include "slam/config.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// A SLAM system whose map outlives it.
 class MappingSystem : public SlamSystem {
@@ -41,4 +41,4 @@ class MappingSystem : public SlamSystem {
 std::unique_ptr<MappingSystem> make_slam(const SlamConfig& config, const Rig& rig,
                                          std::vector<RegisteredTag> tags, WorkerPool& pool);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -16,7 +16,7 @@
 #include "sim/config_files.h"
 #include "tools/commands.h"
 
-namespace vinebench {
+namespace vinebench::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -35,12 +35,12 @@ constexpr const char* kSmallWorld = "worlds/csl-vineyard.yaml";
 constexpr const char* kLargeWorld = "worlds/typical-vineyard.yaml";
 constexpr int kManyRows = 40;
 
-RenderBenchmark benchmark_of(const BenchArguments& arguments, const std::string& file) {
-  RenderBenchmark benchmark;
-  benchmark.world = load_world(file);
+harness::RenderBenchmark benchmark_of(const BenchArguments& arguments, const std::string& file) {
+  harness::RenderBenchmark benchmark;
+  benchmark.world = sim::load_world(file);
   benchmark.name = benchmark.world.name;
   benchmark.rig = load_rig(arguments.rig);
-  benchmark.route = aisle_route(benchmark.world, arguments.frames);
+  benchmark.route = harness::aisle_route(benchmark.world, arguments.frames);
   benchmark.threads = arguments.threads;
   benchmark.mujoco = !arguments.no_mujoco && benchmark.name == "csl-vineyard";
   benchmark.images = arguments.images;
@@ -48,16 +48,16 @@ RenderBenchmark benchmark_of(const BenchArguments& arguments, const std::string&
 }
 
 /// The large world with many rows more, of which as much is to be seen.
-RenderBenchmark with_many_rows(RenderBenchmark benchmark) {
+harness::RenderBenchmark with_many_rows(harness::RenderBenchmark benchmark) {
   const Override rows = parse_override(fmt::format("block.rows={}", kManyRows));
-  benchmark.world = load_world(kLargeWorld, {rows});
+  benchmark.world = sim::load_world(kLargeWorld, {rows});
   benchmark.name += fmt::format(", {} rows", kManyRows);
-  benchmark.route = aisle_route(benchmark.world, static_cast<int>(benchmark.route.size()));
+  benchmark.route = harness::aisle_route(benchmark.world, static_cast<int>(benchmark.route.size()));
   return benchmark;
 }
 
-std::vector<RenderBenchmark> benchmarks_of(const BenchArguments& arguments) {
-  std::vector<RenderBenchmark> benchmarks;
+std::vector<harness::RenderBenchmark> benchmarks_of(const BenchArguments& arguments) {
+  std::vector<harness::RenderBenchmark> benchmarks;
   for (const std::string& file : arguments.worlds) {
     benchmarks.push_back(benchmark_of(arguments, file));
   }
@@ -81,14 +81,14 @@ double frame_cpu(const Json& world) {
 
 /// How much more a frame costs where there are many more rows, percent.
 double growth_percent(const Json& few, const Json& many) {
-  return rounded(100 * (frame_cpu(many) / frame_cpu(few) - 1));
+  return harness::rounded(100 * (frame_cpu(many) / frame_cpu(few) - 1));
 }
 
 int bench_render(const BenchArguments& arguments) {
   Json results{{"frames", arguments.frames}, {"threads", arguments.threads}};
-  for (const RenderBenchmark& benchmark : benchmarks_of(arguments)) {
-    results["worlds"].push_back(measure_rendering(benchmark));
-    fmt::print("{}\n", render_table(results["worlds"].back()));
+  for (const harness::RenderBenchmark& benchmark : benchmarks_of(arguments)) {
+    results["worlds"].push_back(harness::measure_rendering(benchmark));
+    fmt::print("{}\n", harness::render_table(results["worlds"].back()));
     std::fflush(stdout);
   }
   if (arguments.worlds.empty()) {
@@ -137,4 +137,4 @@ void add_bench_command(CLI::App& app, Command& chosen) {
   add_bench_record(*bench, chosen);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::tools

@@ -14,7 +14,7 @@
 #include "tools/commands.h"
 #include "tools/interactive.h"
 
-namespace vinebench {
+namespace vinebench::tools {
 namespace {
 
 constexpr const char* kDefaultScenario = "scenarios/occluded-camera.yaml";
@@ -33,18 +33,18 @@ int bench_record(const BenchRecordArguments& arguments) {
   if (!std::filesystem::exists(file)) {
     fail("bench record: no {} here; run it in the project's folder, or name a --scenario", file);
   }
-  RecordBenchmark benchmark;
-  benchmark.scenario = load_scenario(file, parse_overrides(arguments.overrides));
+  harness::RecordBenchmark benchmark;
+  benchmark.scenario = harness::load_scenario(file, parse_overrides(arguments.overrides));
   benchmark.frames = arguments.frames;
   benchmark.threads = arguments.threads;
   const std::filesystem::path parent = arguments.folder.empty()
                                            ? std::filesystem::temp_directory_path()
                                            : std::filesystem::path(arguments.folder);
   benchmark.folder = parent / fmt::format("vinebench-bench-{}", getpid());
-  const auto result = measure_recording(benchmark);
+  const auto result = harness::measure_recording(benchmark);
   std::error_code ignored;
   std::filesystem::remove_all(benchmark.folder, ignored);
-  fmt::print("{}", record_table(result));
+  fmt::print("{}", harness::record_table(result));
   if (!arguments.json.empty()) write_file_atomically(arguments.json, result.dump(2) + "\n");
   return 0;
 }
@@ -76,4 +76,4 @@ void add_bench_record(CLI::App& bench, Command& chosen) {
       [&chosen, arguments] { chosen = [arguments] { return bench_record(*arguments); }; });
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::tools

@@ -10,12 +10,12 @@
 #include "core/util/error.h"
 #include "core/util/files.h"
 #include "harness/benchmarks/slam_benchmark.h"
+#include "harness/jobs/run_scenario.h"
 #include "harness/replay.h"
-#include "harness/run_scenario.h"
 #include "tools/commands.h"
 #include "tools/interactive.h"
 
-namespace vinebench {
+namespace vinebench::tools {
 namespace {
 
 constexpr const char* kDefaultScenario = "scenarios/quick-loop.yaml";
@@ -29,45 +29,47 @@ struct BenchSlamArguments {
   int frames = 150;
 };
 
-void load_recording(const BenchSlamArguments& arguments, SlamBenchmark& benchmark) {
-  Recording recording = open_recording(arguments.dataset);
+void load_recording(const BenchSlamArguments& arguments, harness::SlamBenchmark& benchmark) {
+  harness::Recording recording = harness::open_recording(arguments.dataset);
   benchmark.name = recording.name;
   benchmark.rig = recording.rig;
   benchmark.tags = recording.tags;
-  benchmark.slam = replay_settings(recording, "", parse_overrides(arguments.overrides));
+  benchmark.slam = harness::replay_settings(recording, "", parse_overrides(arguments.overrides));
   WorkerPool pool(arguments.threads);
-  benchmark.frames = preload(*play(std::move(recording), pool), arguments.frames);
+  benchmark.frames = harness::preload(*harness::play(std::move(recording), pool), arguments.frames);
 }
 
-void record_simulation(const BenchSlamArguments& arguments, SlamBenchmark& benchmark) {
+void record_simulation(const BenchSlamArguments& arguments, harness::SlamBenchmark& benchmark) {
   const std::string file = arguments.scenario.empty() ? kDefaultScenario : arguments.scenario;
   if (arguments.scenario.empty() && !std::filesystem::exists(file)) {
     fail(
         "bench slam: no {} here; run it in the project's folder, or name a DATASET or a --scenario",
         file);
   }
-  const ScenarioConfig scenario = load_scenario(file, parse_overrides(arguments.overrides));
+  const harness::ScenarioConfig scenario =
+      harness::load_scenario(file, parse_overrides(arguments.overrides));
   fmt::print(stderr, "simulating at most {} frames of {} …\n", arguments.frames, scenario.name);
   WorkerPool pool(arguments.threads);
-  const auto source = make_simulation(
-      scenario.simulation, static_cast<std::uint64_t>(scenario.seed), default_cache(), pool);
+  const auto source =
+      sim::make_simulation(scenario.simulation, static_cast<std::uint64_t>(scenario.seed),
+                           harness::default_cache(), pool);
   benchmark.name = scenario.name;
   benchmark.rig = source->rig();
-  benchmark.tags = registered_tags(scenario.simulation.world);
+  benchmark.tags = sim::registered_tags(scenario.simulation.world);
   benchmark.slam = scenario.slam;
-  benchmark.frames = preload(*source, arguments.frames);
+  benchmark.frames = harness::preload(*source, arguments.frames);
 }
 
 int bench_slam(const BenchSlamArguments& arguments) {
-  SlamBenchmark benchmark;
+  harness::SlamBenchmark benchmark;
   benchmark.threads = arguments.threads;
   if (arguments.dataset.empty()) {
     record_simulation(arguments, benchmark);
   } else {
     load_recording(arguments, benchmark);
   }
-  const auto result = measure_slam(benchmark);
-  fmt::print("{}", slam_table(result));
+  const auto result = harness::measure_slam(benchmark);
+  fmt::print("{}", harness::slam_table(result));
   if (!arguments.json.empty()) write_file_atomically(arguments.json, result.dump(2) + "\n");
   return 0;
 }
@@ -98,4 +100,4 @@ void add_bench_slam(CLI::App& bench, Command& chosen) {
   slam->callback([&chosen, arguments] { chosen = [arguments] { return bench_slam(*arguments); }; });
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::tools

@@ -8,13 +8,13 @@
 #include "harness/datasets/dataset_check.h"
 #include "tools/commands.h"
 
-namespace vinebench {
+namespace vinebench::tools {
 namespace {
 
 constexpr std::size_t kShown = 20;
 
 int check(const std::string& folder) {
-  const DatasetReport report = check_dataset(folder);
+  const harness::DatasetReport report = harness::check_dataset(folder);
   for (const std::string& note : report.notes) fmt::print("note: {}\n", note);
   for (std::size_t i = 0; i < std::min(kShown, report.faults.size()); ++i) {
     fmt::print("{}: {}\n", report.faults[i].file, report.faults[i].problem);
@@ -39,4 +39,4 @@ void add_check_command(CLI::App& app, Command& chosen) {
   command->callback([&chosen, folder] { chosen = [folder] { return check(*folder); }; });
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::tools

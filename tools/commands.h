@@ -8,7 +8,7 @@ namespace CLI {
 class App;
 }
 
-namespace vinebench {
+namespace vinebench::tools {
 
 inline constexpr int kExpectationFailed = 1;
 inline constexpr int kBadInput = 2;
@@ -32,4 +32,4 @@ void add_world_command(CLI::App& app, Command& chosen);
 void add_bench_slam(CLI::App& bench, Command& chosen);
 void add_bench_record(CLI::App& bench, Command& chosen);
 
-}  // namespace vinebench
+}  // namespace vinebench::tools

@@ -9,7 +9,7 @@
 #include "harness/judge/compare.h"
 #include "tools/commands.h"
 
-namespace vinebench {
+namespace vinebench::tools {
 namespace {
 
 struct CompareArguments {
@@ -19,11 +19,12 @@ struct CompareArguments {
 };
 
 int compare(const CompareArguments& arguments) {
-  const PairedRuns runs = pair_runs(arguments.before, arguments.after);
+  const harness::PairedRuns runs = harness::pair_runs(arguments.before, arguments.after);
   if (!arguments.json.empty()) {
-    write_file_atomically(arguments.json, comparison_json(runs).dump(2) + "\n");
+    write_file_atomically(arguments.json, harness::comparison_json(runs).dump(2) + "\n");
   }
-  fmt::print("A is {}, B is {}\n{}", arguments.before, arguments.after, format_comparison(runs));
+  fmt::print("A is {}, B is {}\n{}", arguments.before, arguments.after,
+             harness::format_comparison(runs));
   return 0;
 }
 
@@ -42,4 +43,4 @@ void add_compare_command(CLI::App& app, Command& chosen) {
   command->callback([&chosen, arguments] { chosen = [arguments] { return compare(*arguments); }; });
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::tools

@@ -9,13 +9,13 @@
 #include "harness/harness.h"
 #include "tools/commands.h"
 
-namespace vinebench {
+namespace vinebench::tools {
 namespace {
 
 int eval(const std::string& truth_file, const std::string& estimate_file) {
   const Trajectory truth = read_tum(truth_file);
   const Trajectory estimate = read_tum(estimate_file);
-  const std::optional<Evaluation> evaluation = evaluate(truth, estimate);
+  const std::optional<harness::Evaluation> evaluation = harness::evaluate(truth, estimate);
   if (!evaluation) {
     fail("{}: fewer than three of its {} poses are within 0.01 s of one of {}", estimate_file,
          estimate.size(), truth_file);
@@ -44,4 +44,4 @@ void add_eval_command(CLI::App& app, Command& chosen) {
       [&chosen, files] { chosen = [files] { return eval(files->first, files->second); }; });
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::tools

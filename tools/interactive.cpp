@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <iostream>
 
-namespace vinebench {
+namespace vinebench::tools {
 namespace {
 
 constexpr int kSignalBase = 128;  // a shell's convention for a program that a signal ended
@@ -31,8 +31,8 @@ bool interrupted() {
   return g_signal != 0;
 }
 
-RunOptions interactive_options(const std::string& title) {
-  RunOptions options;
+harness::RunOptions interactive_options(const std::string& title) {
+  harness::RunOptions options;
   options.progress = &std::cerr;
   options.terminal = isatty(STDERR_FILENO) == 1;
   options.title = title;
@@ -44,7 +44,7 @@ int interruption_code() {
   return kSignalBase + g_signal;
 }
 
-int report_interruption(const RunOutcome& outcome, const std::filesystem::path& folder) {
+int report_interruption(const harness::RunOutcome& outcome, const std::filesystem::path& folder) {
   fmt::print(stderr, "vinebench: stopped after {} frames; what there is of them is in {}\n",
              outcome.frames, folder.string());
   return interruption_code();
@@ -56,7 +56,7 @@ std::vector<Override> parse_overrides(const std::vector<std::string>& texts) {
   return overrides;
 }
 
-void add_map_options(CLI::App& command, MapFiles& maps) {
+void add_map_options(CLI::App& command, harness::MapFiles& maps) {
   command.add_option("--load-map", maps.load, "Map of an earlier run to go on with")
       ->type_name("FILE")
       ->check(CLI::ExistingFile);
@@ -64,4 +64,4 @@ void add_map_options(CLI::App& command, MapFiles& maps) {
   command.add_option("--save-cloud", maps.cloud, "File for its landmarks (PLY)")->type_name("FILE");
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::tools

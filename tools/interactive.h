@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "core/config/override.h"
 #include "harness/run.h"
 
 namespace CLI {
 class App;
 }
 
-namespace vinebench {
+namespace vinebench::tools {
 
 // What commands that run a SLAM system while a person watches have in common.
 
@@ -23,18 +24,18 @@ void catch_interrupts();
 bool interrupted();
 
 /// Options of a run that tells its progress on standard error and stops at ^C.
-RunOptions interactive_options(const std::string& title);
+harness::RunOptions interactive_options(const std::string& title);
 
 /// Exit code of a program that the caught signal ended.
 int interruption_code();
 
 /// Says what there is, and returns the exit code.
-int report_interruption(const RunOutcome& outcome, const std::filesystem::path& folder);
+int report_interruption(const harness::RunOutcome& outcome, const std::filesystem::path& folder);
 
 /// --load-map, --save-map, --save-cloud.
-void add_map_options(CLI::App& command, MapFiles& maps);
+void add_map_options(CLI::App& command, harness::MapFiles& maps);
 
 /// Each of the texts as KEY=VALUE. Throws Error.
 std::vector<Override> parse_overrides(const std::vector<std::string>& texts);
 
-}  // namespace vinebench
+}  // namespace vinebench::tools

@@ -7,16 +7,16 @@
 #include <memory>
 #include <thread>
 
-#include "harness/record.h"
+#include "harness/jobs/record.h"
 #include "harness/run.h"
 #include "tools/commands.h"
 #include "tools/interactive.h"
 
-namespace vinebench {
+namespace vinebench::tools {
 namespace {
 
 struct RecordArguments {
-  RecordRequest request;
+  harness::RecordRequest request;
   std::vector<std::string> overrides;
   std::vector<std::string> formats;
   std::vector<std::string> labels;
@@ -25,30 +25,30 @@ struct RecordArguments {
   std::string images;
 };
 
-RecordRequest request_of(const RecordArguments& arguments) {
-  RecordRequest request = arguments.request;
+harness::RecordRequest request_of(const RecordArguments& arguments) {
+  harness::RecordRequest request = arguments.request;
   request.overrides = parse_overrides(arguments.overrides);
-  request.options.formats = parse_formats(arguments.formats);
-  request.options.categories = parse_categories(arguments.labels);
-  if (!arguments.seeds.empty()) request.seeds = parse_span(arguments.seeds, "--seeds");
+  request.options.formats = harness::parse_formats(arguments.formats);
+  request.options.categories = harness::parse_categories(arguments.labels);
+  if (!arguments.seeds.empty()) request.seeds = harness::parse_span(arguments.seeds, "--seeds");
   if (!arguments.frames.empty()) {
     std::tie(request.options.first, request.options.last) =
-        parse_span(arguments.frames, "--frames");
+        harness::parse_span(arguments.frames, "--frames");
   }
-  const std::vector<std::string> kinds = yaml_names(ImageKind{});
+  const std::vector<std::string> kinds = yaml_names(harness::ImageKind{});
   if (!arguments.images.empty()) {
     request.options.images =
-        static_cast<ImageKind>(std::ranges::find(kinds, arguments.images) - kinds.begin());
+        static_cast<harness::ImageKind>(std::ranges::find(kinds, arguments.images) - kinds.begin());
   }
   return request;
 }
 
 int record(const RecordArguments& arguments) {
-  const RecordRequest request = request_of(arguments);
+  const harness::RecordRequest request = request_of(arguments);
   catch_interrupts();
-  const RunOptions watch = interactive_options("record");
-  const RecordOutcome outcome =
-      record_dataset(request, {watch.progress, watch.terminal, watch.stopped});
+  const harness::RunOptions watch = interactive_options("record");
+  const harness::RecordOutcome outcome =
+      harness::record_dataset(request, {watch.progress, watch.terminal, watch.stopped});
   const std::string there =
       fmt::format("{} frames, {:.1f} MB", outcome.frames, static_cast<double>(outcome.bytes) / 1e6);
   if (outcome.interrupted) {
@@ -65,7 +65,7 @@ int record(const RecordArguments& arguments) {
 }
 
 void add_what(CLI::App& command, RecordArguments& arguments) {
-  RecordOptions& options = arguments.request.options;
+  harness::RecordOptions& options = arguments.request.options;
   command
       .add_option("--format", arguments.formats,
                   "Some of euroc, kitti, tum, dcvslam, rgb, depth, depth32, disparity, flow, flo, "
@@ -86,7 +86,7 @@ void add_what(CLI::App& command, RecordArguments& arguments) {
   command
       .add_option("--image", arguments.images,
                   "Images of rgb, coco and ros: png, jpg, webp (default: png; ros's are raw)")
-      ->check(CLI::IsMember(yaml_names(ImageKind{})));
+      ->check(CLI::IsMember(yaml_names(harness::ImageKind{})));
   command.add_flag("--colour", options.colour,
                    "Images of euroc, dcvslam and ros in colour; kitti's also in colour");
 }
@@ -95,7 +95,7 @@ void add_what(CLI::App& command, RecordArguments& arguments) {
 
 void add_record_command(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<RecordArguments>();
-  RecordRequest& request = arguments->request;
+  harness::RecordRequest& request = arguments->request;
   request.options.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   CLI::App* command =
       app.add_subcommand("record", "Simulate a scenario, without SLAM, into a data set");
@@ -123,4 +123,4 @@ void add_record_command(CLI::App& app, Command& chosen) {
   command->callback([&chosen, arguments] { chosen = [arguments] { return record(*arguments); }; });
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::tools

@@ -7,18 +7,18 @@
 #include <memory>
 
 #include "core/geometry/rig.h"
+#include "core/truth/truth_images.h"
 #include "core/util/error.h"
 #include "harness/datasets/labels/truth_colours.h"
-#include "harness/run_scenario.h"
-#include "harness/snapshot.h"
+#include "harness/jobs/run_scenario.h"
+#include "harness/jobs/snapshot.h"
 #include "sim/config_files.h"
 #include "sim/render/renderer.h"
 #include "sim/rover/rover.h"
 #include "sim/rover/rover_asset.h"
-#include "sim/truth/truth_images.h"
 #include "tools/commands.h"
 
-namespace vinebench {
+namespace vinebench::tools {
 namespace {
 
 struct RenderArguments {
@@ -48,7 +48,7 @@ struct RenderArguments {
 RigCamera camera_of(const RenderArguments& arguments) {
   if (arguments.rig.empty()) {
     const std::string text = arguments.camera.empty() ? "752x480@263.2786" : arguments.camera;
-    return {"camera", parse_camera(text), Rig::mount({0, 0, 0}, {0, 0, 0})};
+    return {"camera", harness::parse_camera(text), Rig::mount({0, 0, 0}, {0, 0, 0})};
   }
   const Rig rig = load_rig(arguments.rig);
   const int index = arguments.camera.empty() ? 0 : rig.find_camera(arguments.camera);
@@ -56,61 +56,64 @@ RigCamera camera_of(const RenderArguments& arguments) {
   return rig.cameras[static_cast<std::size_t>(index)];
 }
 
-Renderer::Request request_of(const RenderArguments& arguments) {
+sim::Renderer::Request request_of(const RenderArguments& arguments) {
   const bool flows = !arguments.flow.empty() || !arguments.flow_visible.empty();
   const bool warps = flows || !arguments.disparity.empty();
-  Renderer::Request request;
+  sim::Renderer::Request request;
   request.labels = !arguments.labels.empty();
   request.depth = !arguments.depth.empty() || warps;
   request.instances = !arguments.instances.empty();
   request.normals = !arguments.normals.empty() || warps;
-  if (!arguments.rover.empty()) request.T_world_rover = parse_view(arguments.rover);
+  if (!arguments.rover.empty()) request.T_world_rover = harness::parse_view(arguments.rover);
   if (!arguments.rover_to.empty()) {
-    request.T_world_rover_other = parse_view(arguments.rover_to);
+    request.T_world_rover_other = harness::parse_view(arguments.rover_to);
     request.motion = flows;
   }
   return request;
 }
 
 void write_images(const RenderArguments& arguments, const RenderedImage& image) {
-  write_image(arguments.out, image.rgb);
+  harness::write_image(arguments.out, image.rgb);
   const auto write = [](const std::string& file, const auto& colours) {
-    if (!file.empty()) write_image(file, colours());
+    if (!file.empty()) harness::write_image(file, colours());
   };
-  write(arguments.labels, [&] { return colour_labels(image.labels); });
+  write(arguments.labels, [&] { return harness::colour_labels(image.labels); });
   write(arguments.depth, [&] { return image.depth; });
-  write(arguments.instances, [&] { return colour_instances(image.instances); });
-  write(arguments.normals, [&] { return colour_normals(image.normals); });
+  write(arguments.instances, [&] { return harness::colour_instances(image.instances); });
+  write(arguments.normals, [&] { return harness::colour_normals(image.normals); });
 }
 
 /// What takes a second view: flow and disparity.
-void write_warps(const RenderArguments& arguments, Renderer& renderer, const TruthView& view,
+void write_warps(const RenderArguments& arguments, sim::Renderer& renderer, const TruthView& view,
                  const RigCamera& camera) {
-  const Renderer::Request request = request_of(arguments);
-  const auto view_from = [&](const Pose& T_world_cam, const Renderer::Request& asked) {
+  const sim::Renderer::Request request = request_of(arguments);
+  const auto view_from = [&](const Pose& T_world_cam, const sim::Renderer::Request& asked) {
     return TruthView{camera.model, T_world_cam, renderer.render(camera.model, T_world_cam, asked)};
   };
   if (!arguments.flow_to.empty()) {
-    Renderer::Request later = request;
+    sim::Renderer::Request later = request;
     if (later.T_world_rover_other) later.T_world_rover = later.T_world_rover_other;
-    const Pose there = parse_view(arguments.flow_to) * camera.T_body_cam;
+    const Pose there = harness::parse_view(arguments.flow_to) * camera.T_body_cam;
     const FlowTruth truth = optical_flow(view, view_from(there, later));
-    if (!arguments.flow.empty()) write_flow(arguments.flow, truth.flow);
-    if (!arguments.flow_visible.empty()) write_image(arguments.flow_visible, truth.visible);
+    if (!arguments.flow.empty()) harness::write_flow(arguments.flow, truth.flow);
+    if (!arguments.flow_visible.empty())
+      harness::write_image(arguments.flow_visible, truth.visible);
   }
   if (!arguments.disparity.empty()) {
     const Pose T_left_right{Eigen::Quaterniond::Identity(), {arguments.baseline, 0, 0}};
     const TruthView right = view_from(view.T_world_cam * T_left_right, request);
-    write_image(arguments.disparity, kitti_disparity(disparity(view, right).disparity));
+    harness::write_image(arguments.disparity,
+                         harness::kitti_disparity(disparity(view, right).disparity));
   }
 }
 
 /// The world, and the rover in it where one is asked for.
-Scene scene_of(const RenderArguments& arguments, const WorldConfig& world) {
-  Scene scene = build_scene(world, static_cast<std::uint64_t>(arguments.seed), default_cache());
+sim::Scene scene_of(const RenderArguments& arguments, const sim::WorldConfig& world) {
+  sim::Scene scene =
+      sim::build_scene(world, static_cast<std::uint64_t>(arguments.seed), harness::default_cache());
   if (arguments.rover.empty()) return scene;
-  const auto rover = load_rover(arguments.rover_file);
-  add_rover(scene, rover.model);
+  const auto rover = sim::load_rover(arguments.rover_file);
+  sim::add_rover(scene, rover.model);
   return scene;
 }
 
@@ -128,16 +131,16 @@ void check(const RenderArguments& arguments) {
 int render(const RenderArguments& arguments) {
   std::vector<Override> overrides;
   for (const std::string& text : arguments.overrides) overrides.push_back(parse_override(text));
-  const WorldConfig world = load_world(arguments.world, overrides);
+  const sim::WorldConfig world = sim::load_world(arguments.world, overrides);
   const RigCamera camera = camera_of(arguments);
   if (arguments.turntable) {
     const auto seed = static_cast<std::uint64_t>(arguments.seed);
-    write_image(arguments.out, turntable(world, seed, camera.model));
+    harness::write_image(arguments.out, harness::turntable(world, seed, camera.model));
     return 0;
   }
   check(arguments);
-  const Pose T_world_cam = parse_view(arguments.pose) * camera.T_body_cam;
-  Renderer renderer(scene_of(arguments, world), {});
+  const Pose T_world_cam = harness::parse_view(arguments.pose) * camera.T_body_cam;
+  sim::Renderer renderer(scene_of(arguments, world), {});
   const TruthView view{camera.model, T_world_cam,
                        renderer.render(camera.model, T_world_cam, request_of(arguments))};
   write_images(arguments, view.image);
@@ -202,4 +205,4 @@ void add_render_command(CLI::App& app, Command& chosen) {
   command->callback([&chosen, arguments] { chosen = [arguments] { return render(*arguments); }; });
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::tools

@@ -10,7 +10,7 @@
 #include "tools/commands.h"
 #include "tools/interactive.h"
 
-namespace vinebench {
+namespace vinebench::tools {
 namespace {
 
 struct ReplayArguments {
@@ -20,29 +20,30 @@ struct ReplayArguments {
   std::string groundtruth;
   std::string out;
   std::vector<std::string> overrides;
-  MapFiles maps;
+  harness::MapFiles maps;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
 
 int replay(const ReplayArguments& arguments) {
-  Recording recording = open_recording(
+  harness::Recording recording = harness::open_recording(
       arguments.dataset, {.rig = arguments.rig, .groundtruth = arguments.groundtruth});
-  const SlamConfig slam =
-      replay_settings(recording, arguments.slam, parse_overrides(arguments.overrides));
+  const slam::SlamConfig slam =
+      harness::replay_settings(recording, arguments.slam, parse_overrides(arguments.overrides));
   const std::string name = recording.name;
   const std::string format = recording.format;
   const std::filesystem::path folder = arguments.out.empty() ? std::filesystem::path("out") / name
                                                              : std::filesystem::path(arguments.out);
-  prepare_replay_folder(folder, slam);
+  harness::prepare_replay_folder(folder, slam);
   catch_interrupts();
-  RunOptions options = interactive_options(name);
+  harness::RunOptions options = interactive_options(name);
   options.folder = folder;
   options.maps = arguments.maps;
-  const RunOutcome outcome = run_replay(std::move(recording), slam, arguments.threads, options);
+  const harness::RunOutcome outcome =
+      harness::run_replay(std::move(recording), slam, arguments.threads, options);
   if (outcome.interrupted) return report_interruption(outcome, folder);
   fmt::print("\n{} ({}): {} frames in {:.0f} s, hash {}\n{}results: {}\n", name, format,
              outcome.frames, outcome.metrics["wall_seconds"].get<double>(), outcome.hash,
-             format_replay(outcome.metrics), std::filesystem::absolute(folder).string());
+             harness::format_replay(outcome.metrics), std::filesystem::absolute(folder).string());
   return 0;
 }
 
@@ -74,4 +75,4 @@ void add_replay_command(CLI::App& app, Command& chosen) {
   command->callback([&chosen, arguments] { chosen = [arguments] { return replay(*arguments); }; });
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::tools

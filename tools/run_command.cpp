@@ -15,7 +15,7 @@
 #include "tools/interactive.h"
 #include "tools/run_many.h"
 
-namespace vinebench {
+namespace vinebench::tools {
 namespace {
 
 struct RunArguments {
@@ -31,42 +31,42 @@ struct RunArguments {
   std::vector<std::string> overrides;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   bool verify_determinism = false;
-  MapFiles maps;
+  harness::MapFiles maps;
 };
 
-std::vector<ScenarioConfig> scenarios_of(const RunArguments& arguments) {
+std::vector<harness::ScenarioConfig> scenarios_of(const RunArguments& arguments) {
   const std::vector<Override> overrides = parse_overrides(arguments.overrides);
-  std::vector<ScenarioConfig> scenarios;
+  std::vector<harness::ScenarioConfig> scenarios;
   for (const std::string& file : arguments.scenarios) {
-    scenarios.push_back(load_scenario(file, overrides));
+    scenarios.push_back(harness::load_scenario(file, overrides));
     if (arguments.seed) scenarios.back().seed = *arguments.seed;
   }
   return scenarios;
 }
 
-std::optional<RunRecording> recording_of(const RunArguments& arguments) {
+std::optional<harness::RunRecording> recording_of(const RunArguments& arguments) {
   if (arguments.record.empty()) return std::nullopt;
-  RunRecording recording{arguments.record, {}};
-  recording.options.formats = parse_formats(arguments.record_formats);
+  harness::RunRecording recording{arguments.record, {}};
+  recording.options.formats = harness::parse_formats(arguments.record_formats);
   recording.options.threads = arguments.threads;
   return recording;
 }
 
-void print_verdict(const ScenarioConfig& scenario, const RunOutcome& outcome,
+void print_verdict(const harness::ScenarioConfig& scenario, const harness::RunOutcome& outcome,
                    const std::filesystem::path& folder) {
   fmt::print("\n{}: {} ({} frames in {:.0f} s, hash {})\n{}{}results: {}\n", scenario.name,
-             all_hold(outcome.checks) ? "PASSED" : "FAILED", outcome.frames,
+             harness::all_hold(outcome.checks) ? "PASSED" : "FAILED", outcome.frames,
              outcome.metrics["wall_seconds"].get<double>(), outcome.hash,
-             format_checks(outcome.checks), outcome.summary,
+             harness::format_checks(outcome.checks), outcome.summary,
              std::filesystem::absolute(folder).string());
 }
 
 /// Runs once more, without files, and compares.
-int verify_determinism(const ScenarioConfig& scenario, const RunArguments& arguments,
+int verify_determinism(const harness::ScenarioConfig& scenario, const RunArguments& arguments,
                        const std::string& first) {
-  RunOptions options = interactive_options(scenario.name + " (again)");
+  harness::RunOptions options = interactive_options(scenario.name + " (again)");
   options.maps.load = arguments.maps.load;
-  const RunOutcome again = run_scenario(scenario, arguments.threads, options);
+  const harness::RunOutcome again = harness::run_scenario(scenario, arguments.threads, options);
   if (again.interrupted) {
     fmt::print(stderr, "vinebench: stopped in the second run; determinism is not verified\n");
     return interruption_code();
@@ -81,7 +81,7 @@ int verify_determinism(const ScenarioConfig& scenario, const RunArguments& argum
 
 /// A recording, a map and a second run belong to one run alone.
 int run_set(const RunArguments& arguments) {
-  const MapFiles& maps = arguments.maps;
+  const harness::MapFiles& maps = arguments.maps;
   for (const auto& [option, given] :
        {std::pair("--record", !arguments.record.empty()),
         std::pair("--verify-determinism", arguments.verify_determinism),
@@ -91,7 +91,7 @@ int run_set(const RunArguments& arguments) {
   }
   return run_many({.scenarios = scenarios_of(arguments),
                    .seeds = arguments.seeds.empty() ? std::vector<std::int64_t>()
-                                                    : parse_seeds(arguments.seeds),
+                                                    : harness::parse_seeds(arguments.seeds),
                    .out = arguments.out.empty() ? "out" : arguments.out,
                    .junit = arguments.junit,
                    .jobs = arguments.jobs,
@@ -100,23 +100,23 @@ int run_set(const RunArguments& arguments) {
 }
 
 int run_one(const RunArguments& arguments) {
-  const ScenarioConfig scenario = scenarios_of(arguments).front();
+  const harness::ScenarioConfig scenario = scenarios_of(arguments).front();
   const std::filesystem::path folder = arguments.out.empty()
                                            ? std::filesystem::path("out") / scenario.name
                                            : std::filesystem::path(arguments.out);
-  prepare_run_folder(folder, scenario);
+  harness::prepare_scenario_folder(folder, scenario);
   catch_interrupts();
-  RunOptions options = interactive_options(scenario.name);
+  harness::RunOptions options = interactive_options(scenario.name);
   options.folder = folder;
   options.maps = arguments.maps;
-  const RunOutcome outcome =
-      run_scenario(scenario, arguments.threads, options, recording_of(arguments));
+  const harness::RunOutcome outcome =
+      harness::run_scenario(scenario, arguments.threads, options, recording_of(arguments));
   if (outcome.interrupted) return report_interruption(outcome, folder);
   print_verdict(scenario, outcome, folder);
   std::fflush(stdout);
   const int repeated =
       arguments.verify_determinism ? verify_determinism(scenario, arguments, outcome.hash) : 0;
-  return repeated != 0 ? repeated : all_hold(outcome.checks) ? 0 : kExpectationFailed;
+  return repeated != 0 ? repeated : harness::all_hold(outcome.checks) ? 0 : kExpectationFailed;
 }
 
 int run(const RunArguments& arguments) {
@@ -175,8 +175,7 @@ void add_run_command(CLI::App& app, Command& chosen) {
       "Exit code: 0 when the scenario's expectations hold, 1 when they do not (or two runs "
       "differ), "
       "2 for bad input, 130 when interrupted.");
-  run->callback(
-      [&chosen, arguments] { chosen = [arguments] { return vinebench::run(*arguments); }; });
+  run->callback([&chosen, arguments] { chosen = [arguments] { return tools::run(*arguments); }; });
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::tools

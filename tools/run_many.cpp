@@ -10,13 +10,13 @@
 
 #include "core/util/error.h"
 #include "core/util/files.h"
-#include "harness/run_scenario.h"
+#include "harness/jobs/run_scenario.h"
 #include "harness/sets/junit.h"
 #include "harness/sets/set_report.h"
 #include "tools/commands.h"
 #include "tools/interactive.h"
 
-namespace vinebench {
+namespace vinebench::tools {
 namespace {
 
 namespace fs = std::filesystem;
@@ -30,45 +30,48 @@ void prepare(const ManyRuns& many) {
   if (!many.junit.empty()) write_file_atomically(many.junit, "");
 }
 
-int report(const ManyRuns& many, const std::vector<SeedsSummary>& scenarios) {
-  const std::string table = format_table(scenarios);
+int report(const ManyRuns& many, const std::vector<harness::SeedsSummary>& scenarios) {
+  const std::string table = harness::format_table(scenarios);
   write_file_atomically(many.out / "table.md", table);
-  write_file_atomically(many.out / "summary.json", summary_json(scenarios).dump(2) + "\n");
-  if (!many.junit.empty()) write_file_atomically(many.junit, format_junit(scenarios));
-  fmt::print("\n{}\n{}results: {}\n", table, format_failures(scenarios),
+  write_file_atomically(many.out / "summary.json", harness::summary_json(scenarios).dump(2) + "\n");
+  if (!many.junit.empty()) write_file_atomically(many.junit, harness::format_junit(scenarios));
+  fmt::print("\n{}\n{}results: {}\n", table, harness::format_failures(scenarios),
              fs::absolute(many.out).string());
-  const bool errors = std::ranges::any_of(scenarios, [](const SeedsSummary& summary) {
-    return std::ranges::any_of(summary.runs, [](const SetRun& run) { return !run.error.empty(); });
+  const bool errors = std::ranges::any_of(scenarios, [](const harness::SeedsSummary& summary) {
+    return std::ranges::any_of(summary.runs,
+                               [](const harness::SetRun& run) { return !run.error.empty(); });
   });
   if (errors) return kBadInput;
-  return std::ranges::all_of(scenarios, &SeedsSummary::passed) ? 0 : kExpectationFailed;
+  return std::ranges::all_of(scenarios, &harness::SeedsSummary::passed) ? 0 : kExpectationFailed;
 }
 
 }  // namespace
 
 int run_many(const ManyRuns& many) {
-  const std::vector<PlannedRun> plan = plan_set(many.scenarios, many.seeds, many.out);
+  const std::vector<harness::PlannedRun> plan =
+      harness::plan_set(many.scenarios, many.seeds, many.out);
   prepare(many);
   catch_interrupts();
-  SetOptions options;
+  harness::SetOptions options;
   options.jobs = many.jobs;
   options.threads = many.threads;
   options.force = many.force;
-  options.run = [](const ScenarioConfig& scenario, int threads, const RunOptions& run) {
-    return run_scenario(scenario, threads, run);
+  options.run = [](const harness::ScenarioConfig& scenario, int threads,
+                   const harness::RunOptions& run) {
+    return harness::run_scenario(scenario, threads, run);
   };
   options.stopped = interrupted;
   options.progress = &std::cerr;
-  const SetOutcome outcome = run_set(plan, options);
+  const harness::SetOutcome outcome = harness::run_set(plan, options);
   if (outcome.interrupted) {
     const auto whole = std::ranges::count_if(
-        outcome.runs, [](const SetRun& run) { return !run.metrics.is_null(); });
+        outcome.runs, [](const harness::SetRun& run) { return !run.metrics.is_null(); });
     fmt::print(stderr,
                "vinebench: stopped; {} of {} runs are whole in {}, and the same command goes on\n",
                whole, plan.size(), many.out.string());
     return interruption_code();
   }
-  return report(many, summarise(plan, outcome));
+  return report(many, harness::summarise(plan, outcome));
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::tools

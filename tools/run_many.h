@@ -8,11 +8,11 @@
 
 #include "harness/experiment/scenario.h"
 
-namespace vinebench {
+namespace vinebench::tools {
 
 /// `run` with several scenarios or seeds.
 struct ManyRuns {
-  std::vector<ScenarioConfig> scenarios;
+  std::vector<harness::ScenarioConfig> scenarios;
   std::vector<std::int64_t> seeds;  ///< each scenario's own where empty
   std::filesystem::path out;
   std::filesystem::path junit;  ///< none where empty
@@ -24,4 +24,4 @@ struct ManyRuns {
 /// Runs them, prints and writes the table, and returns the exit code.
 int run_many(const ManyRuns& many);
 
-}  // namespace vinebench
+}  // namespace vinebench::tools

@@ -14,7 +14,7 @@
 #include "sim/render/gl/platform/gl_context.h"
 #include "vinebench/version.h"
 
-namespace vinebench {
+namespace vinebench::tools {
 
 std::string versions_text() {
   std::string text = fmt::format("vinebench {}\n", kVersion);
@@ -27,7 +27,7 @@ std::string versions_text() {
       fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));
   add("Ceres", CERES_VERSION_STRING);
   add("AprilTag", VINEBENCH_APRILTAG_VERSION);
-  add("OpenGL", gl_version());
+  add("OpenGL", sim::gl_version());
   add("CLI11", CLI11_VERSION);
   add("fmt",
       fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100));
@@ -36,4 +36,4 @@ std::string versions_text() {
   return text;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::tools

@@ -4,9 +4,9 @@
 
 #include <string>
 
-namespace vinebench {
+namespace vinebench::tools {
 
 /// The program's version and those of the libraries it runs with, a line each.
 std::string versions_text();
 
-}  // namespace vinebench
+}  // namespace vinebench::tools

@@ -9,7 +9,7 @@
 #include "tools/commands.h"
 #include "tools/versions.h"
 
-namespace vinebench {
+namespace vinebench::tools {
 namespace {
 
 int dispatch(int argc, char** argv) {
@@ -36,16 +36,16 @@ int dispatch(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::tools
 
 int main(int argc, char** argv) {
   try {
-    return vinebench::dispatch(argc, argv);
+    return vinebench::tools::dispatch(argc, argv);
   } catch (const vinebench::Error& error) {
     fmt::print(stderr, "vinebench: {}\n", error.what());
-    return vinebench::kBadInput;
+    return vinebench::tools::kBadInput;
   } catch (const std::exception& error) {
     fmt::print(stderr, "vinebench: internal error: {}\n", error.what());
-    return vinebench::kInternalError;
+    return vinebench::tools::kInternalError;
   }
 }

@@ -13,11 +13,11 @@
 #include "sim/world/world_generator.h"
 #include "tools/commands.h"
 
-namespace vinebench {
+namespace vinebench::tools {
 namespace {
 
 struct WorldArguments {
-  WorldRecipe recipe;
+  sim::WorldRecipe recipe;
   std::string out;
   bool force = false;
 };
@@ -25,15 +25,16 @@ struct WorldArguments {
 int write_world(const WorldArguments& arguments) {
   const std::filesystem::path file =
       arguments.out.empty() ? arguments.recipe.name + ".yaml" : arguments.out;
-  const std::string text = format_world(arguments.recipe);
+  const std::string text = sim::format_world(arguments.recipe);
   std::error_code problem;
   if (!arguments.force && std::filesystem::exists(file, problem)) {
     fail("{} exists; give --force to overwrite it", file.string());
   }
   write_file_atomically(file, text);
-  const WorldConfig world = load_world(file);
+  const sim::WorldConfig world = sim::load_world(file);
   fmt::print("{}: {} rows, {} vines, {} posts, {} tags\n", file.string(), world.rows.size(),
-             vine_positions(world).size(), post_positions(world).size(), world.tags.size());
+             sim::vine_positions(world).size(), sim::post_positions(world).size(),
+             world.tags.size());
   return 0;
 }
 
@@ -52,7 +53,7 @@ void add_choice(CLI::App& command, const char* option, Enum& value, const char* 
       ->default_str(names.at(static_cast<std::size_t>(value)));
 }
 
-void add_layout(CLI::App& command, WorldRecipe& recipe) {
+void add_layout(CLI::App& command, sim::WorldRecipe& recipe) {
   command.add_option("--rows", recipe.rows, "Rows")->capture_default_str();
   command.add_option("--length", recipe.length, "Length of a row, m")->capture_default_str();
   command.add_option("--row-spacing", recipe.row_spacing, "Between rows, m")->capture_default_str();
@@ -65,7 +66,7 @@ void add_layout(CLI::App& command, WorldRecipe& recipe) {
       ->capture_default_str();
 }
 
-void add_content(CLI::App& command, WorldRecipe& recipe) {
+void add_content(CLI::App& command, sim::WorldRecipe& recipe) {
   command.add_option("--bbch", recipe.bbch, "Growth stage: 0, 9, 65, 75, 83, 89 or 95")
       ->capture_default_str();
   command.add_option("--templates", recipe.templates, "Different plants")->capture_default_str();
@@ -95,4 +96,4 @@ void add_world_command(CLI::App& app, Command& chosen) {
       [&chosen, arguments] { chosen = [arguments] { return write_world(*arguments); }; });
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::tools

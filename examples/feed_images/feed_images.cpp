@@ -14,7 +14,7 @@ int main(int argc, char** argv) try {
   const PinholeCamera lens{640, 400, 400, 400, 319.5, 199.5};  // width, height, fx, fy, cx, cy, px
   const Rig rig = Rig::stereo(lens, 0.12);  // rectified, the cameras 0.12 m apart
   WorkerPool threads(2);                    // more or fewer change no result
-  const auto slam = make_slam(SlamConfig{}, rig, {}, threads);
+  const auto slam = slam::make_slam(slam::SlamConfig{}, rig, {}, threads);
 
   Frame frame;
   for (;; ++frame.index) {

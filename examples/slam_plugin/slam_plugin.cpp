@@ -53,9 +53,9 @@ std::vector<RegisteredTag> tags_of(const vinebench_setup& setup) {
 }
 
 /// The settings' file has the keys of a scenario's `slam`.
-SlamConfig config_of(const vinebench_setup& setup) {
-  SlamConfig config;
-  if (*setup.settings != '\0') config = YamlDocument::load(setup.settings).read<SlamConfig>();
+slam::SlamConfig config_of(const vinebench_setup& setup) {
+  slam::SlamConfig config;
+  if (*setup.settings != '\0') config = YamlDocument::load(setup.settings).read<slam::SlamConfig>();
   if (!config.dead_reckoning.wheels && setup.wheel_radius > 0) {
     config.dead_reckoning.wheels = {setup.wheel_radius, setup.half_track, setup.half_wheelbase};
   }
@@ -68,11 +68,11 @@ Frame frame_of(const vinebench_frame& given, std::size_t cameras) {
   frame.index = given.index;
   frame.stamp = given.stamp;
   for (std::size_t i = 0; i < cameras; ++i) {
-    const vinebench_image& image = given.images[i];
+    const vinebench_image& view = given.images[i];
     cv::Mat& image = frame.images.emplace_back();
-    if (image.data == nullptr) continue;
-    image = cv::Mat(image.height, image.width, CV_8UC(image.channels),
-                    const_cast<std::uint8_t*>(image.data), image.stride);
+    if (view.data == nullptr) continue;
+    image = cv::Mat(view.height, view.width, CV_8UC(view.channels),
+                    const_cast<std::uint8_t*>(view.data), view.stride);
   }
   for (std::size_t i = 0; i < given.imu_count; ++i) {
     const vinebench_imu_sample& s = given.imu[i];
@@ -111,7 +111,7 @@ struct System {
   explicit System(const vinebench_setup& setup)
       : threads(setup.threads),
         cameras(setup.camera_count),
-        slam(make_slam(config_of(setup), rig_of(setup), tags_of(setup), threads)) {}
+        slam(slam::make_slam(config_of(setup), rig_of(setup), tags_of(setup), threads)) {}
 
   static std::vector<vinebench_stamped_pose> poses_of(const Trajectory& trajectory) {
     std::vector<vinebench_stamped_pose> poses;
@@ -121,7 +121,7 @@ struct System {
 
   WorkerPool threads;
   std::size_t cameras;
-  std::unique_ptr<MappingSystem> slam;
+  std::unique_ptr<slam::MappingSystem> slam;
   std::vector<vinebench_stamped_pose> trajectory;
   std::vector<vinebench_stamped_pose> keyframes;
 };

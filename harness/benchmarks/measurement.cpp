@@ -13,7 +13,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 double wall_ms() {
@@ -68,4 +68,4 @@ double peak_memory_mib() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// What a piece of work took. For benchmarks only: no result of a run depends on it.
 struct Timing {
@@ -31,4 +31,4 @@ double peak_memory_mib();
 /// where the system has no such thing.
 void reset_peak_memory();
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -6,11 +6,11 @@
 #include <array>
 
 #include "harness/benchmarks/measurement.h"
-#include "harness/run_scenario.h"
-#include "harness/snapshot.h"
+#include "harness/jobs/run_scenario.h"
+#include "harness/jobs/snapshot.h"
 #include "sim/render/mujoco/mujoco_renderer.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 struct Variant {
@@ -36,14 +36,14 @@ std::vector<RigCamera> one_of_each_size(const Rig& rig) {
   return chosen;
 }
 
-nlohmann::ordered_json measure_variant(const RenderBenchmark& benchmark, const Scene& scene,
+nlohmann::ordered_json measure_variant(const RenderBenchmark& benchmark, const sim::Scene& scene,
                                        const RigCamera& camera, const Variant& variant) {
-  MujocoRendererConfig config;
+  sim::MujocoRendererConfig config;
   config.width = camera.model.width;
   config.height = camera.model.height;
-  config.level_distance = variant.distance * kLevelFocalLength / camera.model.fx;
+  config.level_distance = variant.distance * sim::kLevelFocalLength / camera.model.fx;
   config.shadows = variant.shadows;
-  MujocoRenderer renderer(scene, config);
+  sim::MujocoRenderer renderer(scene, config);
   const Pose& first = benchmark.route.front();
   const cv::Mat image = renderer.render(camera.model, first * camera.T_body_cam);  // warm up
   if (!benchmark.images.empty()) {
@@ -67,8 +67,8 @@ nlohmann::ordered_json measure_variant(const RenderBenchmark& benchmark, const S
 }  // namespace
 
 nlohmann::ordered_json measure_mujoco(const RenderBenchmark& benchmark) {
-  const Scene scene = build_scene(benchmark.world, benchmark.seed, default_cache());
-  nlohmann::ordered_json result{{"platform", MujocoRenderer::platform()}};
+  const sim::Scene scene = sim::build_scene(benchmark.world, benchmark.seed, default_cache());
+  nlohmann::ordered_json result{{"platform", sim::MujocoRenderer::platform()}};
   for (const RigCamera& camera : one_of_each_size(benchmark.rig)) {
     for (const Variant& variant : kVariants) {
       result["images"].push_back(measure_variant(benchmark, scene, camera, variant));
@@ -87,4 +87,4 @@ void compare_with_mujoco(nlohmann::ordered_json& mujoco, const nlohmann::ordered
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

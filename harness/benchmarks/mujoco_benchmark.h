@@ -4,7 +4,7 @@
 
 #include "harness/benchmarks/render_benchmark.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// MuJoCo's own renderer on the same scene from the same places, on the same software rasteriser:
 /// medians of `cpu_ms` and `wall_ms` for the first camera of each size. MuJoCo knows no levels of
@@ -19,4 +19,4 @@ nlohmann::ordered_json measure_mujoco(const RenderBenchmark& benchmark);
 /// `cameras` as measure_rendering() gives them.
 void compare_with_mujoco(nlohmann::ordered_json& mujoco, const nlohmann::ordered_json& cameras);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -10,11 +10,11 @@
 #include "core/util/error.h"
 #include "harness/benchmarks/measurement.h"
 #include "harness/datasets/dataset_writer.h"
+#include "harness/jobs/run_scenario.h"
 #include "harness/run/lockstep.h"
 #include "harness/run/prefetch.h"
-#include "harness/run_scenario.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -64,8 +64,9 @@ void drive(FrameSource& source, const std::vector<Sink*>& sinks) {
 void drive_and_estimate(const RecordBenchmark& benchmark, FrameSource& source,
                         const std::vector<Sink*>& sinks) {
   WorkerPool estimating(benchmark.threads);
-  const auto slam = make_slam(benchmark.scenario.slam, source.rig(),
-                              registered_tags(benchmark.scenario.simulation.world), estimating);
+  const auto slam =
+      slam::make_slam(benchmark.scenario.slam, source.rig(),
+                      sim::registered_tags(benchmark.scenario.simulation.world), estimating);
   Prefetch ahead(source);
   run_lockstep(ahead, *slam, sinks);
 }
@@ -77,11 +78,11 @@ Measured measure_kind(const RecordBenchmark& benchmark, const Kind& kind) {
   options.formats.clear();
   if (!kind.formats.empty()) options.formats = parse_formats(kind.formats);
   options.cameras = kind.cameras;
-  const SimulationConfig& simulation = benchmark.scenario.simulation;
+  const sim::SimulationConfig& simulation = benchmark.scenario.simulation;
   WorkerPool pool(benchmark.threads);
   const auto source =
-      make_simulation(simulation, static_cast<std::uint64_t>(benchmark.scenario.seed),
-                      default_cache(), pool, plan_of(options, load_rig(simulation.rover.rig)));
+      sim::make_simulation(simulation, static_cast<std::uint64_t>(benchmark.scenario.seed),
+                           default_cache(), pool, plan_of(options, load_rig(simulation.rover.rig)));
   const fs::path folder = benchmark.folder / "recording";
   std::error_code ignored;
   fs::remove_all(folder, ignored);
@@ -89,7 +90,7 @@ Measured measure_kind(const RecordBenchmark& benchmark, const Kind& kind) {
   std::vector<Sink*> sinks{&count};
   std::optional<DatasetWriter> writer;
   if (!kind.formats.empty()) {
-    writer.emplace(folder, benchmark.scenario, *source, options, source->size());
+    writer.emplace(folder, notes_of(benchmark.scenario), *source, options, source->size());
     sinks.push_back(&*writer);
   }
   Measured measured;
@@ -162,4 +163,4 @@ std::string record_table(const Json& result) {
   return text;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

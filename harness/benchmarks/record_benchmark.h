@@ -8,7 +8,7 @@
 
 #include "harness/experiment/scenario.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// What `vinebench bench record` measures: what recording costs beside the simulation.
 struct RecordBenchmark {
@@ -28,4 +28,4 @@ nlohmann::ordered_json measure_recording(const RecordBenchmark& benchmark);
 /// The result as a table for people.
 std::string record_table(const nlohmann::ordered_json& result);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

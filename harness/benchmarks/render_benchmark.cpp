@@ -11,13 +11,13 @@
 #include "core/util/worker_pool.h"
 #include "harness/benchmarks/measurement.h"
 #include "harness/benchmarks/mujoco_benchmark.h"
-#include "harness/run_scenario.h"
+#include "harness/jobs/run_scenario.h"
+#include "harness/jobs/snapshot.h"
 #include "harness/sets/child_process.h"
-#include "harness/snapshot.h"
 #include "sim/render/renderer.h"
 #include "sim/world/terrain.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -31,7 +31,8 @@ void prepare_software_rendering(int threads) {
   setenv("LP_NUM_THREADS", std::to_string(threads == 1 ? 0 : threads).c_str(), 1);
 }
 
-Json measure_camera(Renderer& renderer, const RigCamera& camera, const RenderBenchmark& benchmark) {
+Json measure_camera(sim::Renderer& renderer, const RigCamera& camera,
+                    const RenderBenchmark& benchmark) {
   const Pose& first = benchmark.route.front();
   const RenderedImage image =
       renderer.render(camera.model, first * camera.T_body_cam, {});  // warm up
@@ -50,7 +51,7 @@ Json measure_camera(Renderer& renderer, const RigCamera& camera, const RenderBen
           {"wall_ms", rounded(typical.wall_ms)}};
 }
 
-void render_frame(WorkerPool& pool, std::vector<Renderer>& renderers, const Rig& rig,
+void render_frame(WorkerPool& pool, std::vector<sim::Renderer>& renderers, const Rig& rig,
                   const Pose& T_world_body) {
   std::atomic<std::size_t> next{0};
   pool.for_each(renderers.size(), [&](std::size_t lane) {
@@ -61,7 +62,7 @@ void render_frame(WorkerPool& pool, std::vector<Renderer>& renderers, const Rig&
   });
 }
 
-double measure_frames(std::vector<Renderer>& renderers, const RenderBenchmark& benchmark) {
+double measure_frames(std::vector<sim::Renderer>& renderers, const RenderBenchmark& benchmark) {
   WorkerPool pool(static_cast<int>(renderers.size()));
   render_frame(pool, renderers, benchmark.rig, benchmark.route.front());  // warm up
   std::vector<double> wall;
@@ -76,19 +77,19 @@ double measure_frames(std::vector<Renderer>& renderers, const RenderBenchmark& b
 /// In a process of its own.
 Json measure_with_threads(const RenderBenchmark& benchmark, int threads) {
   prepare_software_rendering(threads);
-  std::optional<Scene> scene;
+  std::optional<sim::Scene> scene;
   const Timing built =
-      measure([&] { scene = build_scene(benchmark.world, benchmark.seed, default_cache()); });
-  std::vector<Renderer> renderers;
+      measure([&] { scene = sim::build_scene(benchmark.world, benchmark.seed, default_cache()); });
+  std::vector<sim::Renderer> renderers;
   const Timing uploaded = measure([&] {
-    for (int i = 0; i < threads; ++i) renderers.emplace_back(*scene, RendererConfig{});
+    for (int i = 0; i < threads; ++i) renderers.emplace_back(*scene, sim::RendererConfig{});
   });
   Json result;
   for (const RigCamera& camera : benchmark.rig.cameras) {
     if (threads > 1) break;
     result["cameras"].push_back(measure_camera(renderers[0], camera, benchmark));
   }
-  result["plants"] = vine_positions(benchmark.world).size();
+  result["plants"] = sim::vine_positions(benchmark.world).size();
   result["frame_wall_ms"] = measure_frames(renderers, benchmark);
   result["build_s"] = rounded(built.wall_ms / 1e3);
   result["upload_s"] = rounded(uploaded.wall_ms / 1e3);
@@ -102,19 +103,19 @@ Json in_child(const RenderBenchmark& benchmark, const std::function<Json()>& job
 
 }  // namespace
 
-std::vector<Pose> aisle_route(const WorldConfig& world, int count) {
-  WorldConfig placed = world;
+std::vector<Pose> aisle_route(const sim::WorldConfig& world, int count) {
+  sim::WorldConfig placed = world;
   if (placed.block) placed.place();
   const std::size_t middle = placed.rows.size() / 2;
-  const WorldConfig::Row& last = placed.rows.at(middle);
-  WorldConfig::Row first = placed.rows.at(middle == 0 ? 0 : middle - 1);
+  const sim::WorldConfig::Row& last = placed.rows.at(middle);
+  sim::WorldConfig::Row first = placed.rows.at(middle == 0 ? 0 : middle - 1);
   const Eigen::Vector2d direction = (last.end - last.start).normalized();
   if ((first.end - first.start).dot(direction) < 0) std::swap(first.start, first.end);
   Eigen::Vector2d start = (first.start + last.start) / 2;
   const Eigen::Vector2d along = (first.end + last.end) / 2 - start;
   if (middle == 0) start += kBeside * Eigen::Vector2d(direction.y(), -direction.x());
   const double heading = std::atan2(along.y(), along.x());
-  const Terrain terrain(placed);
+  const sim::Terrain terrain(placed);
   std::vector<Pose> route;
   for (int i = 0; i < count; ++i) {
     const double yaw = heading + (i % 2 == 1 ? std::numbers::pi : 0);
@@ -147,4 +148,4 @@ Json measure_rendering(const RenderBenchmark& benchmark) {
   return result;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

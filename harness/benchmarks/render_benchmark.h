@@ -11,12 +11,12 @@
 #include "core/geometry/rig.h"
 #include "sim/world/world.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// What `vinebench bench render` measures of one world.
 struct RenderBenchmark {
   std::string name;
-  WorldConfig world;
+  sim::WorldConfig world;
   Rig rig;
   std::vector<Pose> route;  ///< T_world_body of each frame
   std::uint64_t seed = 1;
@@ -27,7 +27,7 @@ struct RenderBenchmark {
 
 /// Poses of a rover in the middle aisle (in the order of `rows`), which sees the most of a world:
 /// `count` places from one end to the other, by turns looking ahead and back.
-std::vector<Pose> aisle_route(const WorldConfig& world, int count);
+std::vector<Pose> aisle_route(const sim::WorldConfig& world, int count);
 
 /// Measures in processes of their own, so that memory is the world's. Returns medians over the
 /// frames: for each camera `cpu_ms` (all threads of the process) and `wall_ms` of an image with
@@ -35,4 +35,4 @@ std::vector<Pose> aisle_route(const WorldConfig& world, int count);
 /// `scaling`; and `memory_mib` of the process with `threads` threads. Throws Error.
 nlohmann::ordered_json measure_rendering(const RenderBenchmark& benchmark);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

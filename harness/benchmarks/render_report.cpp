@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -65,4 +65,4 @@ std::string render_table(const Json& world) {
   return table;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

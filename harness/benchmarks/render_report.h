@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// What measure_rendering() found of one world, as a table for people.
 std::string render_table(const nlohmann::ordered_json& world);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

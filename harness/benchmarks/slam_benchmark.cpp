@@ -14,7 +14,7 @@
 #include "slam/features/orb_extractor.h"
 #include "slam/tags/tag_detector.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr std::size_t kImages = 40;  // of which ORB and tags are measured, at most
@@ -51,12 +51,12 @@ Json rounded_stages(const StageTimes& times) {
 /// One run over all frames with some of the cameras.
 Json measure_cameras(const SlamBenchmark& benchmark, const std::string& name,
                      const std::vector<std::string>& cameras) {
-  SlamConfig config = benchmark.slam;
+  slam::SlamConfig config = benchmark.slam;
   config.cameras = cameras;
   reset_peak_memory();
   const double before = peak_memory_mib();
   WorkerPool pool(benchmark.threads);
-  const auto slam = make_slam(config, benchmark.rig, benchmark.tags, pool);
+  const auto slam = slam::make_slam(config, benchmark.rig, benchmark.tags, pool);
   std::vector<double> cpu;
   std::vector<double> wall;
   int tracked = 0;
@@ -153,12 +153,12 @@ Json measure_slam(const SlamBenchmark& benchmark) {
   if (pairs.size() > 1) {
     result["runs"].push_back(measure_cameras(benchmark, pairs.front(), {pairs.front()}));
   }
-  const OrbExtractor extractor(benchmark.slam.features);
+  const slam::OrbExtractor extractor(benchmark.slam.features);
   result["orb_cpu_ms"] = measure_images(benchmark, rig.stereo_pairs.front().left,
                                         [&](const cv::Mat& image) { extractor.extract(image); });
   if (rig.tag_cameras.empty()) return result;
   const int camera = rig.tag_cameras.front();
-  TagDetector detector(benchmark.slam.tags, benchmark.tags);
+  slam::TagDetector detector(benchmark.slam.tags, benchmark.tags);
   result["tags_cpu_ms"] = measure_images(benchmark, camera, [&](const cv::Mat& image) {
     detector.detect(image, rig.cameras[static_cast<std::size_t>(camera)].model, camera);
   });
@@ -176,4 +176,4 @@ std::string slam_table(const Json& result) {
   return text;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

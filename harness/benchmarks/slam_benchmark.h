@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "sim/simulation.h"
+#include "core/truth/frame_source.h"
 #include "slam/slam.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// What `vinebench bench slam` measures: the SLAM core on frames that are in memory already, so
 /// that neither rendering nor decoding is in the figures.
@@ -17,7 +17,7 @@ struct SlamBenchmark {
   std::string name;
   Rig rig;
   std::vector<RegisteredTag> tags;
-  SlamConfig slam;
+  slam::SlamConfig slam;
   std::vector<Frame> frames;
   int threads = 2;
   int warm_up = 10;  ///< frames at the beginning that do not count
@@ -36,4 +36,4 @@ nlohmann::ordered_json measure_slam(const SlamBenchmark& benchmark);
 /// The result as a table for people.
 std::string slam_table(const nlohmann::ordered_json& result);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

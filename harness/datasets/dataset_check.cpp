@@ -17,7 +17,7 @@
 #include "harness/datasets/format/dataset_card.h"
 #include "harness/datasets/labels/label_check.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -173,4 +173,4 @@ DatasetReport check_dataset(const fs::path& folder) {
   return report;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

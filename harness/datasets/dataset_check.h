@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// What a check found wrong: a file, relative to the data set, and what is the matter with it.
 struct DatasetFault {
@@ -29,4 +29,4 @@ struct DatasetReport {
 /// interrupted one, what there is. Throws Error for a folder that is no such data set.
 DatasetReport check_dataset(const std::filesystem::path& folder);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "core/config/yaml_writer.h"
 #include "core/util/error.h"
 #include "core/util/files.h"
 #include "harness/datasets/coco/coco_format.h"
@@ -18,7 +17,7 @@
 #include "harness/datasets/tum/tum_format.h"
 #include "vinebench/version.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -54,52 +53,51 @@ std::vector<std::size_t> chosen_cameras(const CapturePlan& plan, const Rig& rig)
   return cameras;
 }
 
-DatasetCard card_of(const ScenarioConfig& scenario, const RecordOptions& options, const Rig& rig,
+DatasetCard card_of(const RecordingNotes& notes, const RecordOptions& options, const Rig& rig,
                     std::int64_t planned) {
   DatasetCard card;
-  card.name = scenario.name;
+  card.name = notes.scenario;
   card.made_by = fmt::format("Vinebench {}", kVersion);
-  card.scenario = scenario.name;
-  card.world = scenario.simulation.world.name;
-  card.seed = scenario.seed;
+  card.scenario = notes.scenario;
+  card.world = notes.world;
+  card.seed = notes.seed;
   card.planned_frames = planned;
   for (const RecordFormat format : options.formats) card.formats.push_back(name_of(format));
   for (const std::size_t camera : chosen_cameras(plan_of(options, rig), rig)) {
     card.cameras.push_back(rig.cameras[camera].name);
   }
-  card.settings_xxh128 = settings_hash(scenario, options);
+  card.settings_xxh128 = settings_hash(notes, options);
   return card;
 }
 
 }  // namespace
 
-std::string settings_hash(const ScenarioConfig& scenario, const RecordOptions& options) {
-  return xxh128(format_yaml(scenario) + options.text() + kVersion);
+std::string settings_hash(const RecordingNotes& notes, const RecordOptions& options) {
+  return xxh128(notes.settings + options.text() + kVersion);
 }
 
-DatasetWriter::DatasetWriter(const fs::path& folder, const ScenarioConfig& scenario,
+DatasetWriter::DatasetWriter(const fs::path& folder, const RecordingNotes& notes,
                              const SimulatedSource& source, const RecordOptions& options,
                              std::int64_t planned)
     : folder_(folder),
       options_(options),
       plan_(plan_of(options, source.rig())),
       cameras_(chosen_cameras(plan_, source.rig())),
-      card_(card_of(scenario, options, source.rig(), planned)) {
-  const RecordingNotes notes = with_cameras(notes_of(scenario), options.cameras);
+      card_(card_of(notes, options, source.rig(), planned)) {
+  const RecordingNotes chosen = with_cameras(notes, options.cameras);
   claim_folder(folder);
   try {
-    begin(scenario, notes, source.scene());
+    begin(chosen, source.scene());
   } catch (const Error&) {  // a format that does not go with the rig: the folder stays as it was
     clear_folder(folder);
     throw;
   }
 }
 
-void DatasetWriter::begin(const ScenarioConfig& scenario, const RecordingNotes& notes,
-                          const SceneIndex& scene) {
+void DatasetWriter::begin(const RecordingNotes& notes, const SceneIndex& scene) {
   DatasetEncoder::Formats formats = make_formats(notes, scene);
   write_card(folder_, card_);
-  write_file_atomically(folder_ / "scenario.resolved.yaml", format_yaml(scenario));
+  write_file_atomically(folder_ / "scenario.resolved.yaml", notes.settings);
   Rig rig = notes.rig.make();
   rig.cameras = notes.true_cameras;
   write_file_atomically(folder_ / "calibration.yaml", format_calibration(rig));
@@ -180,4 +178,4 @@ void DatasetWriter::on_finish(const SlamSummary&) {
   write_card(folder_, card_);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

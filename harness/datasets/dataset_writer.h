@@ -9,7 +9,7 @@
 #include "harness/datasets/format/record_options.h"
 #include "harness/run/sink.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Records a run of a scenario as one sequence: the formats side by side, each in a folder of its
 /// name; beside them frames.csv (number, frame of the run, stamp and true pose), calibration.yaml
@@ -19,7 +19,7 @@ class DatasetWriter : public Sink {
   /// Throws Error for a folder that is not empty or cannot be written to, a camera that is none,
   /// and formats that do not go with the rig. The source must outlive the writer; so many of its
   /// frames are planned.
-  DatasetWriter(const std::filesystem::path& folder, const ScenarioConfig& scenario,
+  DatasetWriter(const std::filesystem::path& folder, const RecordingNotes& notes,
                 const SimulatedSource& source, const RecordOptions& options, std::int64_t planned);
 
   /// Frames that the options leave out are passed over. Throws when the disk is full; what is there
@@ -32,7 +32,7 @@ class DatasetWriter : public Sink {
   std::uint64_t bytes() const { return encoder_->bytes(); }
 
  private:
-  void begin(const ScenarioConfig& scenario, const RecordingNotes& notes, const SceneIndex& scene);
+  void begin(const RecordingNotes& notes, const SceneIndex& scene);
   DatasetEncoder::Formats make_formats(const RecordingNotes& notes, const SceneIndex& scene) const;
   DatasetFrame frame_of(const Sample& sample) const;
 
@@ -47,6 +47,6 @@ class DatasetWriter : public Sink {
 };
 
 /// Hash of all that makes a recording what it is.
-std::string settings_hash(const ScenarioConfig& scenario, const RecordOptions& options);
+std::string settings_hash(const RecordingNotes& notes, const RecordOptions& options);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -9,7 +9,7 @@
 #include "core/config/yaml.h"
 #include "core/util/random.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 struct RandomisationConfig {
@@ -133,4 +133,4 @@ ScenarioConfig load_drawn_scenario(const std::filesystem::path& file,
   return scenario;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -9,7 +9,7 @@
 
 #include "harness/experiment/scenario.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Draws the keys of a scenario that a file of distributions names, for one seed:
 ///
@@ -31,4 +31,4 @@ ScenarioConfig load_drawn_scenario(const std::filesystem::path& file,
                                    const std::filesystem::path& randomisation,
                                    std::optional<std::int64_t> seed);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

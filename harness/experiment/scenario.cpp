@@ -5,11 +5,12 @@
 #include <algorithm>
 
 #include "core/config/yaml.h"
+#include "core/config/yaml_writer.h"
 #include "core/util/error.h"
 #include "harness/judge/occlusion.h"
 #include "harness/systems/external_slam.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 /// A file that stands in for a part of the scenario is looked for from where the user is.
@@ -20,7 +21,7 @@ std::string part_value(const std::string& value) {
 }
 
 /// What a robot knows of its own wheels.
-MecanumWheels wheels_of(const RoverConfig& rover) {
+slam::MecanumWheels wheels_of(const sim::RoverConfig& rover) {
   return {rover.wheel_radius, rover.half_track, rover.half_wheelbase};
 }
 
@@ -31,14 +32,6 @@ void move_into(std::vector<T>& from, std::vector<T>& to) {
 }
 
 }  // namespace
-
-Override parse_override(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) {
-    fail("--set {}: expected KEY=VALUE, such as world.sun.elevation_deg=20", text);
-  }
-  return {text.substr(0, equals), text.substr(equals + 1)};
-}
 
 ScenarioConfig load_scenario(const std::filesystem::path& file,
                              const std::vector<Override>& overrides) {
@@ -55,11 +48,11 @@ ScenarioConfig load_scenario(const std::filesystem::path& file,
   }
   auto scenario = document.read<ScenarioConfig>();
   const Rig rig = load_rig(scenario.simulation.rover.rig);
-  check_sensors(scenario.simulation.sensors, rig);
+  sim::check_sensors(scenario.simulation.sensors, rig);
   if (const auto& blind = scenario.expectations.blind) find_cameras(rig, blind->cameras);
   if (const auto& external = scenario.slam.external) {
     check_external_slam(*external, rig);
-    if (scenario.simulation.route.steering == Steering::kEstimate) {
+    if (scenario.simulation.route.steering == sim::Steering::kEstimate) {
       fail(
           "{}: route.steering: estimate: expected a SLAM system that answers at each frame; "
           "slam.external answers in the end",
@@ -69,9 +62,41 @@ ScenarioConfig load_scenario(const std::filesystem::path& file,
   move_into(scenario.boxes, scenario.simulation.world.boxes);
   move_into(scenario.tags, scenario.simulation.world.tags);
   scenario.simulation.world.place();
-  std::optional<MecanumWheels>& wheels = scenario.slam.dead_reckoning.wheels;
+  std::optional<slam::MecanumWheels>& wheels = scenario.slam.dead_reckoning.wheels;
   if (!wheels) wheels = wheels_of(scenario.simulation.rover);
   return scenario;
 }
 
-}  // namespace vinebench
+Trial trial_of(const ScenarioConfig& scenario) {
+  Trial trial;
+  trial.name = scenario.name;
+  trial.seed = scenario.seed;
+  trial.expectations = scenario.expectations;
+  trial.site = sim::site_of(scenario.simulation.world);
+  const auto& waypoints = scenario.simulation.route.waypoints;
+  if (!waypoints.empty()) trial.route_end = waypoints.back().position;
+  trial.miscalibrated = scenario.simulation.sensors.calibration.any();
+  return trial;
+}
+
+RecordingNotes notes_of(const ScenarioConfig& scenario) {
+  RecordingNotes notes;
+  notes.rig = YamlDocument::load(scenario.simulation.rover.rig).read<RigConfig>();
+  notes.tags = sim::registered_tags(scenario.simulation.world);
+  notes.slam = scenario.slam;
+  notes.imu_rate_hz = scenario.simulation.rover.imu_rate_hz;
+  const sim::InertialSensorConfig& imu = scenario.simulation.sensors.inertial;
+  notes.imu = {{imu.gyroscope.noise_density, imu.gyroscope.bias_random_walk},
+               {imu.accelerometer.noise_density, imu.accelerometer.bias_random_walk}};
+  notes.scenario = scenario.name;
+  notes.world = scenario.simulation.world.name;
+  notes.seed = scenario.seed;
+  notes.settings = format_yaml(scenario);
+  notes.world_tags = sim::world_tags(scenario.simulation.world);
+  notes.true_cameras = sim::true_rig(notes.rig.make(), scenario.simulation.sensors.calibration,
+                                     static_cast<std::uint64_t>(scenario.seed))
+                           .cameras;
+  return notes;
+}
+
+}  // namespace vinebench::harness

@@ -10,75 +10,24 @@
 #include <vector>
 
 #include "core/config/config_field.h"
+#include "core/config/override.h"
+#include "harness/datasets/format/recording_notes.h"
+#include "harness/judge/expectations.h"
+#include "harness/judge/trial.h"
 #include "harness/systems/slam_choice.h"
 #include "sim/simulation.h"
 #include "slam/slam.h"
 
-namespace vinebench {
-
-/// Fewer seeds than this have no median worth the name.
-inline constexpr std::size_t kSeedsForMedian = 3;
-
-/// What a scenario asks of its run. An absent one is not asked.
-struct Expectations {
-  /// Some cameras see almost nothing but carton while the rover moves, and the estimate goes on.
-  struct Blind {
-    std::vector<std::string> cameras;    ///< names of the rig
-    double box_share = 0.8;              ///< of each one's pixels
-    double seconds = 3;                  ///< s at least, without a break, in motion
-    std::optional<double> inliers_drop;  ///< share by which their inliers fall at least, 0 to 1
-    template <class Archive>
-    void serialize(Archive& archive) {
-      archive("cameras", cameras);
-      archive("box_share", box_share, Range::between(0.01, 1));
-      archive("seconds", seconds, Range::positive());
-      archive("inliers_drop", inliers_drop, Range::between(0, 1));
-      archive.require(!cameras.empty(), "cameras", "expected at least one camera of the rig");
-    }
-  };
-  /// Of the median over the runs of a set, where it has kSeedsForMedian seeds.
-  struct Median {
-    std::optional<double> ate_rmse_max;         ///< m, SE(3)-aligned
-    std::optional<double> ate_origin_rmse_max;  ///< m, aligned by the first pose
-    template <class Archive>
-    void serialize(Archive& archive) {
-      archive("ate_rmse_max", ate_rmse_max, Range::positive());
-      archive("ate_origin_rmse_max", ate_origin_rmse_max, Range::positive());
-    }
-  };
-  std::optional<double> coverage_min;         ///< share of frames with a pose, 0 to 1
-  std::optional<int> losses_max;              ///< times that tracking was lost
-  std::optional<double> ate_rmse_max;         ///< m, SE(3)-aligned
-  std::optional<double> ate_origin_rmse_max;  ///< m, aligned by the first pose
-  std::optional<double> end_error_max;        ///< m, from the route's end to the true place
-  std::optional<int> loop_closures_correct_min;
-  std::optional<int> loop_closures_wrong_max;
-  std::optional<int> loop_closures_missed_max;
-  std::optional<Blind> blind;
-  std::optional<Median> median;
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive("coverage_min", coverage_min, Range::between(0, 1));
-    archive("losses_max", losses_max, Range::non_negative());
-    archive("ate_rmse_max", ate_rmse_max, Range::positive());
-    archive("ate_origin_rmse_max", ate_origin_rmse_max, Range::positive());
-    archive("end_error_max", end_error_max, Range::positive());
-    archive("loop_closures_correct_min", loop_closures_correct_min, Range::non_negative());
-    archive("loop_closures_wrong_max", loop_closures_wrong_max, Range::non_negative());
-    archive("loop_closures_missed_max", loop_closures_missed_max, Range::non_negative());
-    archive("blind", blind);
-    archive("median", median);
-  }
-};
+namespace vinebench::harness {
 
 /// One experiment: a world, a rover, its route, a SLAM system and what is expected of the run.
 struct ScenarioConfig {
   std::string name;
   std::string description;
   std::int64_t seed = 1;
-  SimulationConfig simulation;          ///< its fields stand at the top level of the file
-  std::vector<WorldConfig::Box> boxes;  ///< put into the world beside its own
-  std::vector<WorldConfig::Tag> tags;   ///< likewise
+  sim::SimulationConfig simulation;          ///< its fields stand at the top level of the file
+  std::vector<sim::WorldConfig::Box> boxes;  ///< put into the world beside its own
+  std::vector<sim::WorldConfig::Tag> tags;   ///< likewise
   SlamChoice slam;
   Expectations expectations;
   template <class Archive>
@@ -96,12 +45,6 @@ struct ScenarioConfig {
   }
 };
 
-/// A dotted key and the YAML value it takes: "slam.cameras", "front".
-using Override = std::pair<std::string, std::string>;
-
-/// Splits "KEY=VALUE". Throws Error when there is no '=' or no key.
-Override parse_override(const std::string& text);
-
 /// Reads a scenario. `base` names another one whose keys hold where this one is silent. `world` and
 /// `rover` may be maps or names of files beside the scenario; overrides apply after those are read
 /// in, so that "world.sun.elevation_deg" works. Boxes and tags of the scenario are moved into its
@@ -110,4 +53,10 @@ Override parse_override(const std::string& text);
 ScenarioConfig load_scenario(const std::filesystem::path& file,
                              const std::vector<Override>& overrides = {});
 
-}  // namespace vinebench
+/// What the judge needs to know of a scenario.
+Trial trial_of(const ScenarioConfig& scenario);
+
+/// The notes of a scenario's run. Throws Error when the rig's file cannot be read.
+RecordingNotes notes_of(const ScenarioConfig& scenario);
+
+}  // namespace vinebench::harness

@@ -14,7 +14,7 @@
 #include "core/util/error.h"
 #include "core/util/files.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -239,4 +239,4 @@ double student_t_95(std::size_t degrees_of_freedom) {
   return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -9,7 +9,7 @@
 
 #include "harness/judge/metric_table.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Two runs of one scenario and seed.
 struct RunPair {
@@ -65,4 +65,4 @@ Json comparison_json(const PairedRuns& runs);
 /// 26.7.5). Needs one degree at least.
 double student_t_95(std::size_t degrees_of_freedom);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

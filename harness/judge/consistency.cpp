@@ -5,7 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 /// 95 % of the chi-square distribution with six degrees of freedom.
@@ -16,7 +16,7 @@ bool begins_in_the_world(const RunRecord& record) {
       record.ticks, [](const Tick& tick) { return tick.estimate.T_map_body.has_value(); });
   if (first == record.ticks.end()) return false;
   return std::ranges::any_of(first->estimate.tags, [&](const TagSighting& seen) {
-    return std::ranges::any_of(record.tags, [&](const WorldConfig::Tag& tag) {
+    return std::ranges::any_of(record.tags, [&](const WorldTag& tag) {
       return tag.registered && tag.id == seen.id && tag.family == seen.family;
     });
   });
@@ -52,4 +52,4 @@ std::optional<Consistency> check_consistency(const RunRecord& record) {
   return found;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -6,7 +6,7 @@
 
 #include "harness/run/run_record.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Whether an estimator is as sure as it may be: the normalised estimation error squared (NEES,
 /// Bar-Shalom, Li and Kirubarajan 2001, Sect. 5.4) of the poses as they were known at their own
@@ -21,4 +21,4 @@ struct Consistency {
 /// tag in view: only then is the estimator's map where the world is.
 std::optional<Consistency> check_consistency(const RunRecord& record);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

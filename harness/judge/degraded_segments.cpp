@@ -6,7 +6,7 @@
 
 #include "harness/judge/metrics.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr double kWeak = 1.0 / 3;                  // of the run's median of inliers
@@ -153,4 +153,4 @@ std::vector<DegradedSegment> degraded_segments(const RunRecord& record, const Ru
   return segments;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

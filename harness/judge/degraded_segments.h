@@ -7,7 +7,7 @@
 
 #include "harness/judge/diagnosis.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// How fast the body truly moves at a tick.
 struct TrueMotion {
@@ -27,4 +27,4 @@ std::optional<Eigen::Vector3d> error_growth(const RunRecord& record, std::size_t
 /// Where the estimate suffered, as diagnose() defines it; without causes.
 std::vector<DegradedSegment> degraded_segments(const RunRecord& record, const RunResults& results);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

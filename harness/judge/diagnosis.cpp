@@ -11,7 +11,7 @@
 #include "harness/judge/degraded_segments.h"
 #include "harness/judge/metrics.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr double kShown = 1.0 / 3;         // of a segment's ticks, for a cause to be named
@@ -27,8 +27,8 @@ constexpr double kSpacingTolerance = 0.2;  // of the plants' spacing
 /// What shows in the ticks of a segment.
 class CauseFinder {
  public:
-  CauseFinder(const RunRecord& record, const RunResults& results, const ScenarioConfig& scenario)
-      : record_(record), results_(results), scenario_(scenario) {
+  CauseFinder(const RunRecord& record, const RunResults& results, const Trial& trial)
+      : record_(record), results_(results), trial_(trial) {
     for (const StereoPair& pair : record.rig.stereo_pairs) {
       cameras_.push_back(static_cast<std::size_t>(pair.left));
     }
@@ -55,8 +55,8 @@ class CauseFinder {
     if (jumped_by_plants(segment)) add_share(found, segment, Cause::kRepeatedPattern, 1);
     std::ranges::stable_sort(found, std::greater(), &DegradedSegment::share);
     if (found.empty()) {
-      add_share(found, segment, is_miscalibrated() ? Cause::kCalibrationError : Cause::kUnexplained,
-                1);
+      add_share(found, segment,
+                trial_.miscalibrated ? Cause::kCalibrationError : Cause::kUnexplained, 1);
     }
     return found;
   }
@@ -150,7 +150,7 @@ class CauseFinder {
     if (!reads_tags_) return 0;
     return share_of(segment, [&](std::size_t i) {
       return std::ranges::any_of(tick(i).truth.visible_tags, [&](int visible) {
-        const WorldConfig::Tag& tag = record_.tags[static_cast<std::size_t>(visible)];
+        const WorldTag& tag = record_.tags[static_cast<std::size_t>(visible)];
         return std::ranges::none_of(tick(i).estimate.tags, [&](const TagSighting& sighting) {
           return sighting.id == tag.id && sighting.family == tag.family;
         });
@@ -160,14 +160,14 @@ class CauseFinder {
 
   /// Along a row, by once or several times the plants' spacing, while tracking looked well.
   bool jumped_by_plants(const DegradedSegment& segment) const {
-    const WorldConfig& world = scenario_.simulation.world;
+    const Site& site = trial_.site;
     const auto error = error_growth(record_, segment.first, segment.last);
-    if (world.rows.empty() || !error || segment.untracked > 0 ||
+    if (site.rows.empty() || !error || segment.untracked > 0 ||
         segment.inliers < kHealthyInliers * segment.usual_inliers) {
       return false;
     }
-    const double spacing = world.vines.spacing;
-    return std::ranges::any_of(world.rows, [&](const WorldConfig::Row& row) {
+    const double spacing = site.vine_spacing;
+    return std::ranges::any_of(site.rows, [&](const Site::Row& row) {
       const Eigen::Vector2d along = (row.end - row.start).normalized();
       const double ahead = std::abs(along.dot(error->head<2>()));
       const double aside =
@@ -179,15 +179,9 @@ class CauseFinder {
     });
   }
 
-  bool is_miscalibrated() const {
-    const CalibrationErrorConfig& error = scenario_.simulation.sensors.calibration;
-    return error.position > 0 || error.rotation_deg > 0 || error.focal_px > 0 ||
-           error.principal_point_px > 0 || !error.cameras.empty();
-  }
-
   const RunRecord& record_;
   const RunResults& results_;
-  const ScenarioConfig& scenario_;
+  const Trial& trial_;
   std::vector<std::size_t>
       cameras_;  ///< left cameras: a right camera's features are found from theirs
   std::vector<double> usual_features_;
@@ -243,8 +237,8 @@ const char* name_of(Cause cause) {
 }
 
 std::vector<DegradedSegment> diagnose(const RunRecord& record, const RunResults& results,
-                                      const ScenarioConfig& scenario) {
-  const CauseFinder finder(record, results, scenario);
+                                      const Trial& trial) {
+  const CauseFinder finder(record, results, trial);
   std::vector<DegradedSegment> segments;
   for (const DegradedSegment& segment : degraded_segments(record, results)) {
     const std::vector<DegradedSegment> causes = finder.causes_of(segment);
@@ -263,4 +257,4 @@ std::string format_diagnosis(const RunRecord& record,
   return text;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

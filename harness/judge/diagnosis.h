@@ -7,7 +7,7 @@
 
 #include "harness/judge/results.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// What the truth says was amiss while an estimate suffered.
 enum class Cause {
@@ -44,9 +44,9 @@ struct DegradedSegment {
 /// a second, make a segment; a cause is named when it shows in a third of it, the strongest first.
 /// Empty where the truth is not known.
 std::vector<DegradedSegment> diagnose(const RunRecord& record, const RunResults& results,
-                                      const ScenarioConfig& scenario);
+                                      const Trial& trial);
 
 /// For people: a line a segment and cause; one line when there is none.
 std::string format_diagnosis(const RunRecord& record, const std::vector<DegradedSegment>& segments);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -8,7 +8,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 /// The segment's end: of the poses after `from` the first whose way is nearest to `target`.
@@ -121,4 +121,4 @@ std::optional<Evaluation> evaluate(const Trajectory& truth, const Trajectory& es
   return evaluation;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

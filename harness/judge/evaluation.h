@@ -7,7 +7,7 @@
 
 #include "core/trajectory.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Truth and estimate of one instant.
 struct PosePair {
@@ -59,4 +59,4 @@ struct Evaluation {
 /// Nothing when fewer than three poses have a partner: any shape can be aligned with that.
 std::optional<Evaluation> evaluate(const Trajectory& truth, const Trajectory& estimate);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

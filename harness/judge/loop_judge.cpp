@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 const Tick* find_tick(const RunRecord& record, Stamp stamp) {
@@ -121,4 +121,4 @@ LoopVerdict judge_loop_closures(const RunRecord& record) {
   return verdict;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -6,7 +6,7 @@
 
 #include "harness/run/run_record.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// A closure agrees with the truth within these, or it is wrong.
 inline constexpr double kLoopClosureMetres = 0.10;
@@ -50,4 +50,4 @@ std::vector<TagVisit> tag_visits(const RunRecord& record);
 
 LoopVerdict judge_loop_closures(const RunRecord& record);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

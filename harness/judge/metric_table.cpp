@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 /// The dash counts as one place, whatever its bytes.
@@ -74,4 +74,4 @@ std::string markdown_table(const std::vector<std::vector<std::string>>& rows, st
   return text;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

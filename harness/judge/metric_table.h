@@ -8,7 +8,7 @@
 
 #include "harness/judge/metrics.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// A figure of metrics.json that runs are put side by side by.
 struct Metric {
@@ -33,4 +33,4 @@ std::string format_value(const Metric& figure, const std::optional<double>& valu
 /// `left` columns are aligned to the left, the others to the right.
 std::string markdown_table(const std::vector<std::vector<std::string>>& rows, std::size_t left);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

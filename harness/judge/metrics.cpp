@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 template <class T>
@@ -58,11 +58,10 @@ Json blind_metrics(const OcclusionSegment& blind) {
 
 }  // namespace
 
-Json result_metrics(const ScenarioConfig& scenario, const RunRecord& record,
-                    const RunResults& results) {
+Json result_metrics(const Trial& trial, const RunRecord& record, const RunResults& results) {
   Json metrics;
-  metrics["scenario"] = scenario.name;
-  metrics["seed"] = scenario.seed;
+  metrics["scenario"] = trial.name;
+  metrics["seed"] = trial.seed;
   metrics["frames"] = record.ticks.size();
   metrics["coverage"] = results.coverage;
   metrics["lost_frames"] = results.lost_frames;
@@ -143,4 +142,4 @@ std::vector<Check> checks_of(const Json& list) {
   return checks;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -8,14 +8,13 @@
 #include "harness/judge/results.h"
 #include "harness/judge/verdict.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 using Json = nlohmann::ordered_json;
 
 /// The part of metrics.json that is a function of scenario, seed and build. What could not be
 /// measured is null.
-Json result_metrics(const ScenarioConfig& scenario, const RunRecord& record,
-                    const RunResults& results);
+Json result_metrics(const Trial& trial, const RunRecord& record, const RunResults& results);
 
 /// Mean, median and 95th percentile of each stage, ms a call.
 Json timing_metrics(const StageTimes& times);
@@ -34,4 +33,4 @@ double cpu_seconds();
 Json checks_json(const std::vector<Check>& checks);
 std::vector<Check> checks_of(const Json& list);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -6,7 +6,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 bool each_share(const Tick& tick, const std::vector<int>& cameras, auto&& condition) {
@@ -92,4 +92,4 @@ std::optional<OcclusionSegment> longest_occlusion(const RunRecord& record,
   return longest;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -7,7 +7,7 @@
 
 #include "harness/run/run_record.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Slower than this (m/s) a body stands.
 inline constexpr double kMovingSpeed = 0.05;
@@ -36,4 +36,4 @@ std::optional<OcclusionSegment> longest_occlusion(const RunRecord& record,
                                                   const std::vector<int>& cameras,
                                                   double box_share);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

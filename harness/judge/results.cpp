@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/judge/results.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 void count_losses(const RunRecord& record, RunResults& results) {
@@ -20,29 +20,30 @@ void count_losses(const RunRecord& record, RunResults& results) {
   }
 }
 
-std::optional<double> end_error(const RunRecord& record, const RouteConfig& route) {
+std::optional<double> end_error(const RunRecord& record,
+                                const std::optional<Eigen::Vector2d>& route_end) {
   if (record.ticks.empty() || !record.ticks.back().truth.known) return std::nullopt;
-  if (route.waypoints.empty()) return std::nullopt;
+  if (!route_end) return std::nullopt;
   const Eigen::Vector3d& end = record.ticks.back().truth.T_world_body.translation;
-  return (end.head<2>() - route.waypoints.back().position).norm();
+  return (end.head<2>() - *route_end).norm();
 }
 
 }  // namespace
 
-RunResults measure(const RunRecord& record, const ScenarioConfig& scenario) {
+RunResults measure(const RunRecord& record, const Trial& trial) {
   RunResults results;
   count_losses(record, results);
   const Trajectory truth = true_trajectory(record);
   results.corrected = evaluate(truth, record.summary.trajectory);
   results.live = evaluate(truth, live_trajectory(record));
   results.consistency = check_consistency(record);
-  results.end_error = end_error(record, scenario.simulation.route);
+  results.end_error = end_error(record, trial.route_end);
   results.loops = judge_loop_closures(record);
-  if (const auto& blind = scenario.expectations.blind) {
+  if (const auto& blind = trial.expectations.blind) {
     results.blind =
         longest_occlusion(record, find_cameras(record.rig, blind->cameras), blind->box_share);
   }
   return results;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

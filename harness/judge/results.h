@@ -4,14 +4,14 @@
 
 #include <optional>
 
-#include "harness/experiment/scenario.h"
 #include "harness/judge/consistency.h"
 #include "harness/judge/evaluation.h"
 #include "harness/judge/loop_judge.h"
 #include "harness/judge/occlusion.h"
+#include "harness/judge/trial.h"
 #include "harness/run/run_record.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// What the judge found. A function of the record alone: no wall-clock figure.
 struct RunResults {
@@ -27,6 +27,6 @@ struct RunResults {
 };
 
 /// Throws Error when an expectation names a camera that the rig has not.
-RunResults measure(const RunRecord& record, const ScenarioConfig& scenario);
+RunResults measure(const RunRecord& record, const Trial& trial);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 std::string text_of(double value, const char* unit) {
@@ -103,4 +103,4 @@ std::string format_checks(const std::vector<Check>& checks) {
   return text;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

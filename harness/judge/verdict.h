@@ -7,7 +7,7 @@
 
 #include "harness/judge/results.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// One expectation against what was measured.
 struct Check {
@@ -27,4 +27,4 @@ std::vector<Check> failed_of(const std::vector<Check>& checks);
 /// A table for people, a line a check; empty when there is none.
 std::string format_checks(const std::vector<Check>& checks);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -223,4 +223,4 @@ std::string format_events(const RunRecord& record, const RunResults& results,
   return EventLog(record, results, segments, box_share).take();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -7,7 +7,7 @@
 
 #include "harness/judge/diagnosis.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// The run's log, a JSON object a line in order of time: keyframes, occlusions by the truth (a
 /// camera whose share of carton is at least `box_share`), tag sightings and those that were not
@@ -16,4 +16,4 @@ namespace vinebench {
 std::string format_events(const RunRecord& record, const RunResults& results,
                           const std::vector<DegradedSegment>& segments, double box_share);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

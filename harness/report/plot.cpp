@@ -12,7 +12,7 @@
 
 #include "core/util/xml_text.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr double kMargin = 0.6;                                      // m around everything
@@ -86,13 +86,15 @@ class Drawing {
 
 /// Everything that is true; an estimate that ran away must not shrink it to a dot. Where nothing is
 /// known to be true, the estimate.
-Eigen::AlignedBox2d bounds_of(const WorldConfig& world, const RunRecord& record) {
+Eigen::AlignedBox2d bounds_of(const Site& site, const RunRecord& record) {
   Eigen::AlignedBox2d bounds;
-  for (const auto& row : world.rows) bounds.extend(row.start).extend(row.end);
-  for (const auto& tag : world.tags) bounds.extend(tag.position.head<2>().eval());
-  for (const auto& box : world.boxes) {
-    const Eigen::Vector2d half = Eigen::Vector2d::Constant(box.size.head<2>().norm() / 2);
-    bounds.extend((box.position - half).eval()).extend((box.position + half).eval());
+  for (const auto& row : site.rows) bounds.extend(row.start).extend(row.end);
+  for (const WorldTag& tag : site.tags) {
+    bounds.extend(tag.T_world_tag.translation.head<2>().eval());
+  }
+  for (const Site::Object& object : site.objects) {
+    const Eigen::Vector2d half = Eigen::Vector2d::Constant(object.size.norm() / 2);
+    bounds.extend((object.centre - half).eval()).extend((object.centre + half).eval());
   }
   for (const Tick& tick : record.ticks) {
     if (tick.truth.known) bounds.extend(tick.truth.T_world_body.translation.head<2>().eval());
@@ -129,22 +131,23 @@ void draw_axes(Drawing& drawing) {
       fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 16 {:.1f})\"", middle).c_str());
 }
 
-void draw_box(Drawing& drawing, const WorldConfig::Box& box) {
-  const Eigen::Vector3d c = 255 * box.colour;
+void draw_object(Drawing& drawing, const Site::Object& object) {
+  const Eigen::Vector3d c = 255 * object.colour;
   drawing.add(
       fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" "
                   "transform=\"rotate({:.3f} {:.2f} {:.2f})\" fill=\"rgb({:.0f},{:.0f},{:.0f})\"/>",
-                  drawing.x(box.position.x() - box.size.x() / 2),
-                  drawing.y(box.position.y() + box.size.y() / 2), drawing.pixels(box.size.x()),
-                  drawing.pixels(box.size.y()), -box.yaw_deg, drawing.x(box.position.x()),
-                  drawing.y(box.position.y()), c.x(), c.y(), c.z()));
+                  drawing.x(object.centre.x() - object.size.x() / 2),
+                  drawing.y(object.centre.y() + object.size.y() / 2),
+                  drawing.pixels(object.size.x()), drawing.pixels(object.size.y()), -object.yaw_deg,
+                  drawing.x(object.centre.x()), drawing.y(object.centre.y()), c.x(), c.y(), c.z()));
 }
 
-void draw_tag(Drawing& drawing, const WorldConfig::Tag& tag) {
-  const double heading = tag.facing_deg * std::numbers::pi / 180;
-  const Eigen::Vector2d face(std::cos(heading), std::sin(heading));
+void draw_tag(Drawing& drawing, const WorldTag& tag) {
+  // The printed face looks against the tag's z axis.
+  const Eigen::Vector2d face =
+      -(tag.T_world_tag.rotation * Eigen::Vector3d::UnitZ()).head<2>().normalized();
   const Eigen::Vector2d along(-face.y(), face.x());
-  const Eigen::Vector2d centre = tag.position.head<2>();
+  const Eigen::Vector2d centre = tag.T_world_tag.translation.head<2>();
   drawing.line(centre - along * tag.size / 2, centre + along * tag.size / 2,
                "stroke=\"#d62728\" stroke-width=\"6\"");
   drawing.line(centre, centre + 0.15 * face, "stroke=\"#d62728\" stroke-width=\"2\"");
@@ -152,21 +155,20 @@ void draw_tag(Drawing& drawing, const WorldConfig::Tag& tag) {
                "fill=\"#d62728\"");
 }
 
-void draw_world(Drawing& drawing, const WorldConfig& world) {
-  for (const auto& row : world.rows) {
+void draw_site(Drawing& drawing, const Site& site) {
+  for (const auto& row : site.rows) {
     drawing.line(row.start, row.end,
                  fmt::format("stroke=\"#c5dfb3\" stroke-width=\"{:.2f}\"",
-                             drawing.pixels(world.vines.canopy_depth)));
+                             drawing.pixels(site.canopy_depth)));
   }
-  for (const Eigen::Vector2d& vine : vine_positions(world)) {
+  for (const Eigen::Vector2d& vine : site.vines) {
     drawing.circle(vine, 3, "fill=\"#4c8c2b\"");
   }
-  for (const Eigen::Vector2d& post : post_positions(world)) {
-    drawing.circle(post, std::max(2.5, drawing.pixels(world.trellis.post_radius)),
-                   "fill=\"#7f6a4f\"");
+  for (const Eigen::Vector2d& post : site.posts) {
+    drawing.circle(post, std::max(2.5, drawing.pixels(site.post_radius)), "fill=\"#7f6a4f\"");
   }
-  for (const auto& box : world.boxes) draw_box(drawing, box);
-  for (const auto& tag : world.tags) draw_tag(drawing, tag);
+  for (const Site::Object& object : site.objects) draw_object(drawing, object);
+  for (const auto& tag : site.tags) draw_tag(drawing, tag);
 }
 
 const char* colour_of(double error, double top) {
@@ -265,21 +267,20 @@ class Legend {
   double y_ = kTop + 12;
 };
 
-void explain_world(Legend& legend, const WorldConfig& world) {
-  if (!world.rows.empty()) {
+void describe_site(Legend& legend, const Site& site) {
+  if (!site.rows.empty()) {
     legend.entry("vine row", "#c5dfb3", 12);
     legend.mark("vine", 3, "fill=\"#4c8c2b\"");
     legend.mark("post", 3, "fill=\"#7f6a4f\"");
   }
-  if (!world.tags.empty()) legend.entry("tag and where it faces", "#d62728", 6);
+  if (!site.tags.empty()) legend.entry("tag and where it faces", "#d62728", 6);
 }
 
-void draw_legend(Drawing& drawing, const WorldConfig& world, const RunResults& results,
-                 double top) {
+void draw_legend(Drawing& drawing, const Site& site, const RunResults& results, double top) {
   Legend legend(drawing);
   legend.entry("truth", "#bbbbbb", 8);
   if (results.blind) legend.entry("truth, cameras blind", "#555555", 8);
-  explain_world(legend, world);
+  describe_site(legend, site);
   legend.mark("start", 5, "fill=\"white\" stroke=\"black\" stroke-width=\"2\"");
   legend.mark("end", 3, "fill=\"black\"");
   if (!results.loops.closures.empty()) {
@@ -294,9 +295,9 @@ void draw_legend(Drawing& drawing, const WorldConfig& world, const RunResults& r
   }
 }
 
-std::string title_of(const ScenarioConfig& scenario, const RunResults& results) {
-  std::string title = scenario.name;
-  if (!scenario.simulation.world.rows.empty()) title += fmt::format(", seed {}", scenario.seed);
+std::string title_of(const Trial& trial, const RunResults& results) {
+  std::string title = trial.name;
+  if (!trial.site.rows.empty()) title += fmt::format(", seed {}", trial.seed);
   if (results.corrected) {
     title += fmt::format(": ATE {:.1f} mm SE(3)-aligned, {:.1f} mm first pose aligned",
                          1000 * results.corrected->ate.rmse, 1000 * results.corrected->origin.rmse);
@@ -306,22 +307,21 @@ std::string title_of(const ScenarioConfig& scenario, const RunResults& results) 
 
 }  // namespace
 
-std::string plot_svg(const ScenarioConfig& scenario, const RunRecord& record,
-                     const RunResults& results) {
-  Drawing drawing(bounds_of(scenario.simulation.world, record));
+std::string plot_svg(const Trial& trial, const RunRecord& record, const RunResults& results) {
+  Drawing drawing(bounds_of(trial.site, record));
   const double top = results.corrected ? results.corrected->ate.max : 0;
-  drawing.title(title_of(scenario, results));
+  drawing.title(title_of(trial, results));
   draw_axes(drawing);
   drawing.add("<g clip-path=\"url(#map)\">");
-  draw_world(drawing, scenario.simulation.world);
+  draw_site(drawing, trial.site);
   draw_truth(drawing, record, results);
   if (results.corrected) draw_estimate(drawing, record, results, top);
   if (true_trajectory(record).empty()) draw_estimate_alone(drawing, record);
   draw_closures(drawing, record, results);
   draw_ends(drawing, record);
   drawing.add("</g>");
-  draw_legend(drawing, scenario.simulation.world, results, top);
+  draw_legend(drawing, trial.site, results, top);
   return drawing.document();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

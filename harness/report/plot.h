@@ -6,11 +6,10 @@
 
 #include "harness/judge/results.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Top view of the run as SVG: rows, posts, boxes and tags of the world, the true way, and the
 /// corrected estimate (SE(3)-aligned) coloured by its distance from the truth.
-std::string plot_svg(const ScenarioConfig& scenario, const RunRecord& record,
-                     const RunResults& results);
+std::string plot_svg(const Trial& trial, const RunRecord& record, const RunResults& results);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

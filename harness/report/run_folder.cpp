@@ -11,7 +11,7 @@
 #include "harness/report/events.h"
 #include "harness/report/plot.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 void make_folder(const std::filesystem::path& folder) {
@@ -32,10 +32,6 @@ void remove_old_images(const std::filesystem::path& folder) {
 
 }  // namespace
 
-void prepare_run_folder(const std::filesystem::path& folder, const ScenarioConfig& scenario) {
-  prepare_run_folder(folder, "scenario.resolved.yaml", format_yaml(scenario));
-}
-
 void prepare_run_folder(const std::filesystem::path& folder, const std::string& name,
                         const std::string& settings) {
   make_folder(folder / "frames");
@@ -51,10 +47,10 @@ void prepare_run_folder(const std::filesystem::path& folder, const std::string& 
   remove_old_images(folder / "frames");
 }
 
-void write_run_files(const std::filesystem::path& folder, const ScenarioConfig& scenario,
+void write_run_files(const std::filesystem::path& folder, const Trial& trial,
                      const RunRecord& record, const RunResults& results,
                      const std::vector<DegradedSegment>& segments) {
-  const auto& blind = scenario.expectations.blind;
+  const auto& blind = trial.expectations.blind;
   const double box_share = blind ? blind->box_share : Expectations::Blind{}.box_share;
   write_tum(true_trajectory(record), folder / "groundtruth.tum");
   write_tum(live_trajectory(record), folder / "estimate_live.tum");
@@ -63,11 +59,11 @@ void write_run_files(const std::filesystem::path& folder, const ScenarioConfig& 
   write_file_atomically(folder / "events.jsonl",
                         format_events(record, results, segments, box_share));
   write_file_atomically(folder / "summary.txt", format_diagnosis(record, segments));
-  write_file_atomically(folder / "plot.svg", plot_svg(scenario, record, results));
+  write_file_atomically(folder / "plot.svg", plot_svg(trial, record, results));
 }
 
 void write_metrics(const std::filesystem::path& folder, const Json& metrics) {
   write_file_atomically(folder / "metrics.json", metrics.dump(2) + "\n");
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

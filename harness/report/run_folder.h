@@ -8,7 +8,7 @@
 #include "harness/judge/diagnosis.h"
 #include "harness/judge/metrics.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// In the folder of a set's run: the fingerprint of its inputs (run_inputs.h).
 inline constexpr const char* kInputsFile = "inputs.txt";
@@ -19,14 +19,11 @@ inline constexpr const char* kInputsFile = "inputs.txt";
 void prepare_run_folder(const std::filesystem::path& folder, const std::string& name,
                         const std::string& settings);
 
-/// The same with scenario.resolved.yaml.
-void prepare_run_folder(const std::filesystem::path& folder, const ScenarioConfig& scenario);
-
 /// Trajectories, events, plot and summary: all but the metrics, which only a whole run has.
-void write_run_files(const std::filesystem::path& folder, const ScenarioConfig& scenario,
+void write_run_files(const std::filesystem::path& folder, const Trial& trial,
                      const RunRecord& record, const RunResults& results,
                      const std::vector<DegradedSegment>& segments);
 
 void write_metrics(const std::filesystem::path& folder, const Json& metrics);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

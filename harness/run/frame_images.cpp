@@ -8,7 +8,7 @@
 #include "core/util/files.h"
 #include "harness/datasets/files/image_codec.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 FrameImages::FrameImages(std::filesystem::path folder, const Rig& rig, std::int64_t total,
                          int count)
@@ -28,4 +28,4 @@ void FrameImages::on_tick(const Sample& sample, const Estimate&) {
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

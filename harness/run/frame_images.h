@@ -7,7 +7,7 @@
 
 #include "harness/run/sink.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Writes all cameras' images of a few frames, evenly spread over the run, as
 /// frames/000123_front_left.png.
@@ -23,4 +23,4 @@ class FrameImages : public Sink {
   std::set<std::int64_t> chosen_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/run/lockstep.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 SlamSummary run_lockstep(FrameSource& source, SlamSystem& slam, const std::vector<Sink*>& sinks,
                          const std::function<bool()>& stopped) {
@@ -18,4 +18,4 @@ SlamSummary run_lockstep(FrameSource& source, SlamSystem& slam, const std::vecto
   return summary;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

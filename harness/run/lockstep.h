@@ -7,7 +7,7 @@
 
 #include "harness/run/sink.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// The loop of the test bench: each frame of the source goes to the SLAM system, and what it
 /// answers goes with the truth to the sinks. The SLAM system is given the frame alone.
@@ -16,4 +16,4 @@ namespace vinebench {
 SlamSummary run_lockstep(FrameSource& source, SlamSystem& slam, const std::vector<Sink*>& sinks,
                          const std::function<bool()>& stopped = {});
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/run/prefetch.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 Prefetch::Prefetch(FrameSource& source) : source_(source) {
   begin();
@@ -24,4 +24,4 @@ const StageTimes& Prefetch::times() const {
   return source_.times();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

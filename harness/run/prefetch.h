@@ -4,9 +4,9 @@
 
 #include <future>
 
-#include "sim/simulation.h"
+#include "core/truth/frame_source.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Makes the next sample of a source on another thread while the one before is worked on. The
 /// samples are the source's own, in its order; what it throws is thrown by the next() that would
@@ -29,4 +29,4 @@ class Prefetch : public FrameSource {
   std::future<std::optional<Sample>> coming_;  ///< its destructor waits
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

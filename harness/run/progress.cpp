@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr int kBarWidth = 30;
@@ -77,4 +77,4 @@ void Progress::on_finish(const SlamSummary&) {
   if (terminal_ && done_ > 0) out_ << "\n" << std::flush;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

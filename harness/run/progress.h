@@ -9,7 +9,7 @@
 
 #include "harness/run/sink.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Tells a person how far a run is: one line that renews itself on a terminal, plain lines (one
 /// every 5 %) elsewhere.
@@ -37,4 +37,4 @@ class Progress : public Sink {
   Clock::time_point drawn_{};
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -7,7 +7,7 @@
 
 #include <type_traits>
 
-namespace vinebench {
+namespace vinebench::harness {
 
 struct RunHash::State {
   State() : xxh(XXH3_createState()) { XXH3_128bits_reset(xxh); }
@@ -115,4 +115,4 @@ std::string RunHash::digits() const {
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -8,7 +8,7 @@
 
 #include "harness/run/sink.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Fingerprint of a run: XXH3, 128 bits, over every image, sensor sample, true pose, estimate and
 /// result, in order. No wall-clock figure enters it, so that two runs of the same scenario with the
@@ -32,4 +32,4 @@ class RunHash : public Sink {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace vinebench {
+namespace vinebench::harness {
 
 Trajectory true_trajectory(const RunRecord& record) {
   Trajectory trajectory;
@@ -56,7 +56,7 @@ void take_poses(const Trajectory& trajectory, std::vector<Tick>& ticks) {
 
 }  // namespace
 
-RunRecorder::RunRecorder(Rig rig, std::vector<WorldConfig::Tag> tags) {
+RunRecorder::RunRecorder(Rig rig, std::vector<WorldTag> tags) {
   record_.rig = std::move(rig);
   record_.tags = std::move(tags);
 }
@@ -76,4 +76,4 @@ void RunRecorder::on_finish(const SlamSummary& summary) {
   if (!any) take_poses(summary.trajectory, record_.ticks);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -4,9 +4,10 @@
 
 #include <vector>
 
+#include "core/truth/site.h"
 #include "harness/run/sink.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// What one tick leaves behind once its images are gone.
 struct Tick {
@@ -21,7 +22,7 @@ struct Tick {
 /// A whole run, or as much of it as there was: the one input of judge, log, plot and metrics.
 struct RunRecord {
   Rig rig;
-  std::vector<WorldConfig::Tag> tags;  ///< of the world, in its order
+  std::vector<WorldTag> tags;  ///< of the world, in its order
   std::vector<Tick> ticks;
   SlamSummary summary;
 };
@@ -46,7 +47,7 @@ std::vector<double> true_path_lengths(const RunRecord& record);
 /// without a pose are lost.
 class RunRecorder : public Sink {
  public:
-  RunRecorder(Rig rig, std::vector<WorldConfig::Tag> tags);
+  RunRecorder(Rig rig, std::vector<WorldTag> tags);
   void on_tick(const Sample& sample, const Estimate& estimate) override;
   void on_finish(const SlamSummary& summary) override;
   const RunRecord& record() const { return record_; }
@@ -55,4 +56,4 @@ class RunRecorder : public Sink {
   RunRecord record_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

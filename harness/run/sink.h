@@ -3,9 +3,9 @@
 #pragma once
 
 #include "core/slam_system.h"
-#include "sim/simulation.h"
+#include "core/truth/frame_source.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Takes what comes out of a run, tick by tick, and changes nothing of it.
 class Sink {
@@ -15,4 +15,4 @@ class Sink {
   virtual void on_finish(const SlamSummary&) {}
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -17,7 +17,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr int kJobFailed = 2;
@@ -174,4 +174,4 @@ void run_in_children(const ChildJobs& jobs) {
   RunningJobs(jobs).run();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

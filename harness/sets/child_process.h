@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Runs the job in a process of its own, forked from this one, and returns its text: for figures
 /// that belong to a process, such as its peak memory, and for libraries that read their environment
@@ -35,4 +35,4 @@ struct ChildJobs {
 /// process.
 void run_in_children(const ChildJobs& jobs);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -8,7 +8,7 @@
 
 #include "core/util/xml_text.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 double seconds_of(const SetRun& run) {
@@ -67,4 +67,4 @@ std::string format_junit(const std::vector<SeedsSummary>& scenarios) {
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n" + suites + "</testsuites>\n";
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -7,10 +7,10 @@
 
 #include "harness/sets/set_report.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// A set's verdicts as JUnit's XML: a suite a scenario, a case a seed and one for the median where
 /// it is judged.
 std::string format_junit(const std::vector<SeedsSummary>& scenarios);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -10,7 +10,7 @@
 #include "core/util/files.h"
 #include "harness/run/run_hash.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 /// Every scalar that is the name of a file.
@@ -51,4 +51,4 @@ std::string fingerprint_of_inputs(const ScenarioConfig& scenario) {
   return hash.digits();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

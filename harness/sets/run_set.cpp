@@ -15,11 +15,12 @@
 
 #include "core/util/error.h"
 #include "core/util/files.h"
+#include "harness/jobs/run_scenario.h"
 #include "harness/report/run_folder.h"
 #include "harness/sets/child_process.h"
 #include "harness/sets/run_inputs.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -53,7 +54,7 @@ void write_messages_to(const fs::path& file) {
 
 /// In a process of its own.
 std::string run_planned(const PlannedRun& run, const SetOptions& options, int threads) {
-  prepare_run_folder(run.folder, run.scenario);
+  prepare_scenario_folder(run.folder, run.scenario);
   write_messages_to(run.folder / "log.txt");
   RunOptions run_options;
   run_options.folder = run.folder;
@@ -185,4 +186,4 @@ SetOutcome run_set(const std::vector<PlannedRun>& plan, const SetOptions& option
   return RunningSet(plan, options).run();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "harness/experiment/scenario.h"
 #include "harness/run.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// One run of a set of scenarios and seeds.
 struct PlannedRun {
@@ -61,4 +62,4 @@ struct SetOutcome {
 /// of the same inputs, is kept. Threads change no result.
 SetOutcome run_set(const std::vector<PlannedRun>& plan, const SetOptions& options);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

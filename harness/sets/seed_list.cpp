@@ -8,7 +8,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr std::int64_t kMost = 10'000;
@@ -43,4 +43,4 @@ std::vector<std::int64_t> parse_seeds(const std::string& text) {
   return seeds;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 std::string verdict_of(const SetRun& run) {
@@ -164,4 +164,4 @@ Json summary_json(const std::vector<SeedsSummary>& scenarios) {
   return {{"passed", std::ranges::all_of(scenarios, &SeedsSummary::passed)}, {"scenarios", list}};
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

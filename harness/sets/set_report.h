@@ -9,7 +9,7 @@
 #include "harness/judge/metric_table.h"
 #include "harness/sets/run_set.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// One scenario of a set over its seeds.
 struct SeedsSummary {
@@ -35,4 +35,4 @@ std::string format_failures(const std::vector<SeedsSummary>& scenarios);
 /// The same as data.
 Json summary_json(const std::vector<SeedsSummary>& scenarios);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

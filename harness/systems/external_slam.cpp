@@ -8,7 +8,7 @@
 #include "harness/systems/foreign_trajectory.h"
 #include "harness/systems/program.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -131,4 +131,4 @@ std::unique_ptr<SlamSystem> make_external_slam(const ExternalSlamConfig& config,
   return std::make_unique<ExternalSlam>(config, notes, folder, std::move(stopped));
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -9,7 +9,7 @@
 #include "harness/datasets/euroc/euroc_writer.h"
 #include "harness/systems/slam_choice.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Throws Error where the rig has no camera of that name.
 void check_external_slam(const ExternalSlamConfig& config, const Rig& rig);
@@ -25,4 +25,4 @@ std::unique_ptr<SlamSystem> make_external_slam(const ExternalSlamConfig& config,
                                                const std::filesystem::path& folder,
                                                std::function<bool()> stopped);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -11,7 +11,7 @@
 #include "harness/datasets/files/text_table.h"
 #include "harness/judge/evaluation.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr double kNormTolerance = 0.01;                    // of a quaternion
@@ -78,4 +78,4 @@ Trajectory read_foreign_trajectory(const std::filesystem::path& file,
   return trajectory;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

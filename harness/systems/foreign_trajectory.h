@@ -7,7 +7,7 @@
 
 #include "core/trajectory.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Reads the trajectory of somebody else's SLAM system on frames with these stamps (ascending).
 /// Columns between blanks are `t x y z qx qy qz qw` (TUM), between commas `t,x,y,z,qw,qx,qy,qz`
@@ -18,4 +18,4 @@ namespace vinebench {
 Trajectory read_foreign_trajectory(const std::filesystem::path& file,
                                    const std::vector<Stamp>& frames, const Pose& T_sensor_body);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

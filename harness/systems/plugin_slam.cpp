@@ -11,7 +11,7 @@
 #include "core/slam_plugin.h"
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr double kNormTolerance = 1e-3;  // of a quaternion
@@ -31,7 +31,7 @@ void copy_into(double (&target)[N], const Values& values) {
 class Setup {
  public:
   Setup(const PluginSlamConfig& config, const Rig& rig, const std::vector<RegisteredTag>& tags,
-        const std::optional<MecanumWheels>& wheels, int threads)
+        const std::optional<slam::MecanumWheels>& wheels, int threads)
       : rig_(rig), tags_(tags), settings_(config.settings ? config.settings->string() : "") {
     for (const RigCamera& camera : rig_.cameras) {
       const PinholeCamera& lens = camera.model;
@@ -54,7 +54,7 @@ class Setup {
       known_tags_.push_back({tag.family.c_str(), tag.id, tag.size, to_plugin(tag.T_world_tag)});
     }
     tag_cameras_.assign(rig_.tag_cameras.begin(), rig_.tag_cameras.end());
-    const MecanumWheels w = wheels.value_or(MecanumWheels{0, 0, 0});
+    const slam::MecanumWheels w = wheels.value_or(slam::MecanumWheels{0, 0, 0});
     setup_ = {rig_.name.c_str(),
               rig_.rate_hz,
               cameras_.data(),
@@ -123,7 +123,7 @@ class FrameView {
 class PluginSlam : public SlamSystem {
  public:
   PluginSlam(const PluginSlamConfig& config, const Rig& rig, const std::vector<RegisteredTag>& tags,
-             const std::optional<MecanumWheels>& wheels, int threads)
+             const std::optional<slam::MecanumWheels>& wheels, int threads)
       : file_(std::filesystem::absolute(config.library).string()),
         functions_(load(file_)),
         setup_(config, rig, tags, wheels, threads) {
@@ -242,9 +242,9 @@ class PluginSlam : public SlamSystem {
 
 std::unique_ptr<SlamSystem> load_plugin_slam(const PluginSlamConfig& config, const Rig& rig,
                                              const std::vector<RegisteredTag>& tags,
-                                             const std::optional<MecanumWheels>& wheels,
+                                             const std::optional<slam::MecanumWheels>& wheels,
                                              int threads) {
   return std::make_unique<PluginSlam>(config, rig, tags, wheels, threads);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

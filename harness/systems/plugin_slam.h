@@ -11,14 +11,14 @@
 #include "harness/systems/slam_choice.h"
 #include "slam/odometry/wheel_odometry.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Makes the SLAM system of a shared object (core/slam_plugin.h). Throws Error when it cannot
 /// be loaded, is of another version of that interface, or says that something failed; process and
 /// finish do too.
 std::unique_ptr<SlamSystem> load_plugin_slam(const PluginSlamConfig& config, const Rig& rig,
                                              const std::vector<RegisteredTag>& tags,
-                                             const std::optional<MecanumWheels>& wheels,
+                                             const std::optional<slam::MecanumWheels>& wheels,
                                              int threads);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -17,7 +17,7 @@
 #include "core/util/error.h"
 #include "core/util/files.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr std::chrono::milliseconds kLook{20};
@@ -126,4 +126,4 @@ bool run_program(const Program& program) {
   return true;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

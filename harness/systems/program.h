@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Somebody else's program.
 struct Program {
@@ -26,4 +26,4 @@ struct Program {
 /// than with exit code 0 or takes too long; the message has the last line that it printed.
 bool run_program(const Program& program);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -9,7 +9,7 @@
 
 #include "slam/config.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// A SLAM system that is a program: it is given a recording of the run and leaves a trajectory.
 struct ExternalSlamConfig {
@@ -46,16 +46,16 @@ struct PluginSlamConfig {
 };
 
 /// A scenario's `slam`: settings of the core, or another system in its place.
-struct SlamChoice : SlamConfig {
+struct SlamChoice : slam::SlamConfig {
   std::optional<ExternalSlamConfig> external;
   std::optional<PluginSlamConfig> plugin;
   template <class Archive>
   void serialize(Archive& archive) {
-    SlamConfig::serialize(archive);
+    slam::SlamConfig::serialize(archive);
     archive("external", external);
     archive("plugin", plugin);
     archive.require(!external || !plugin, "plugin", "expected one of external and plugin");
   }
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 bool same(const cv::Mat& a, const cv::Mat& b) {
@@ -90,4 +90,4 @@ int triangle_count(const LevelOfDetail& level) {
   return static_cast<int>(indices / 3);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -6,7 +6,7 @@
 
 #include "sim/scene/scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// A model with the textures and materials that it brings along; its indices count from its own.
 struct Asset {
@@ -28,4 +28,4 @@ Material make_material(std::string name, Label label, int texture);
 
 int triangle_count(const LevelOfDetail& level);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

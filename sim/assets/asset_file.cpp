@@ -13,7 +13,7 @@
 #include "core/util/files.h"
 #include "sim/assets/image_size.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr float kFarthest = 1e5f;  // m; what lies further from its origin is no plant
@@ -175,4 +175,4 @@ Asset load_asset(const std::filesystem::path& file) {
   return asset;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -7,7 +7,7 @@
 
 #include "sim/assets/asset.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Reads a mesh of any origin: .glb and .gltf (y up, as their standard has it), .dae (as it says
 /// itself), .obj and .stl (z up); m. Materials that do not say otherwise are labelled as leaves.
@@ -34,4 +34,4 @@ cv::Mat decode_image(std::string_view bytes, const std::string& where);
 /// Normals from the triangles around each vertex, weighted by their areas.
 void compute_normals(Primitive& primitive);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -9,7 +9,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr std::size_t kDeepest = 64;  // nodes in each other
@@ -129,4 +129,4 @@ void check_collada(std::string_view text, const std::string& file) {
   ColladaCheck(text, file).run();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -9,7 +9,7 @@
 #define TINYGLTF_NO_INCLUDE_STB_IMAGE_WRITE
 #include <tiny_gltf.h>
 
-namespace vinebench {
+namespace vinebench::sim {
 
 // Levels of detail: a viewer draws the node of the scene, the others are named by this extension.
 inline constexpr const char* kLevelsExtension = "MSFT_lod";
@@ -23,4 +23,4 @@ inline constexpr const char* kTranslucency = "translucency";
 inline constexpr const char* kOcclusion = "_OCCLUSION";
 inline constexpr const char* kPart = "_PART";
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

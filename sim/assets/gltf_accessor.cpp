@@ -7,7 +7,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 template <class T>
@@ -126,4 +126,4 @@ std::uint32_t GltfNumbers::whole(std::size_t element) const {
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -8,7 +8,7 @@
 
 #include "sim/assets/gltf.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// The bytes of a buffer view. Throws Error that names `file` when they lie outside their buffer.
 std::string_view gltf_view(const tinygltf::Model& model, int view, const std::string& file);
@@ -39,4 +39,4 @@ class GltfNumbers {
   bool normalised_ = false;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -8,7 +8,7 @@
 #include "core/util/error.h"
 #include "sim/assets/asset_file.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 /// Keeps an image file's bytes as they are; those inside a buffer are found there later.
@@ -135,4 +135,4 @@ tinygltf::Model parse_gltf(const std::filesystem::path& file) {
   return model;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

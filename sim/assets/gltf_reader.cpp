@@ -9,7 +9,7 @@
 #include "sim/assets/gltf_accessor.h"
 #include "sim/assets/gltf_file.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using tinygltf::Value;
@@ -290,4 +290,4 @@ Asset read_gltf(const std::filesystem::path& file) {
   return GltfReader(file).read();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -9,7 +9,7 @@
 #include "sim/assets/asset_file.h"
 #include "sim/assets/gltf.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using tinygltf::Value;
@@ -183,4 +183,4 @@ std::string to_glb(const Asset& asset) {
   return GltfWriter(asset).bytes();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

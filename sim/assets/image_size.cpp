@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using std::string_view_literals::operator""sv;
@@ -79,4 +79,4 @@ std::optional<cv::Size2d> image_size(std::string_view bytes) {
   return std::nullopt;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -15,7 +15,7 @@
 #include "sim/assets/asset_file.h"
 #include "sim/assets/collada_check.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr double kMostVertices = 10e6;
@@ -154,4 +154,4 @@ Asset import_mesh(const std::filesystem::path& file) {
   return MeshImporter(file).read();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -4,10 +4,10 @@
 
 #include "core/config/yaml.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 Cultivar load_cultivar(const std::filesystem::path& file) {
   return file.empty() ? Cultivar{} : YamlDocument::load(file).read<Cultivar>();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

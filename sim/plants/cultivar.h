@@ -8,7 +8,7 @@
 
 #include "core/config/config_field.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// What tells one grape variety from another by camera. Colours are sRGB, 0 to 1. The defaults are
 /// a red wine grape of middle size; sources stand in docs/plants.md.
@@ -80,4 +80,4 @@ struct Cultivar {
 /// Reads a cultivar's file; the built-in cultivar where `file` is empty. Throws Error.
 Cultivar load_cultivar(const std::filesystem::path& file);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

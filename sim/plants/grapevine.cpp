@@ -10,7 +10,7 @@
 #include "sim/plants/grapevine_wood.h"
 #include "sim/textures/textures.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using Eigen::Vector3f;
@@ -308,4 +308,4 @@ double leaf_area(const Grapevine& plant) {
   return area;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -12,7 +12,7 @@
 #include "sim/scene/mesh_builder.h"
 #include "sim/world/vines.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// A bunch of berries (before fruit set, of flowers) that hangs from its shoot.
 struct Bunch {
@@ -76,4 +76,4 @@ std::vector<Texture> plant_textures(const Cultivar& cultivar, const GrowthStage&
 std::vector<Asset> mesh_grapevines(const std::vector<Grapevine>& plants,
                                    const std::vector<Texture>& textures);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

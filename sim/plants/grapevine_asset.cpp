@@ -5,7 +5,7 @@
 #include "sim/plants/grapevine_mesh.h"
 #include "sim/textures/textures.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr std::array<MeshDetail, 3> kNear{{{0.5, 11000, 9, 4, 1, true, 2, true},
@@ -60,4 +60,4 @@ std::vector<Asset> mesh_grapevines(const std::vector<Grapevine>& plants,
   return assets;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

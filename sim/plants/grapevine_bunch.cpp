@@ -9,7 +9,7 @@
 #include "core/util/random.h"
 #include "sim/textures/textures.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using Eigen::Vector3f;
@@ -128,4 +128,4 @@ void add_bunch(Primitive& primitive, const Bunch& bunch, int part, const BunchDe
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

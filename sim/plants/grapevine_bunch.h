@@ -4,7 +4,7 @@
 
 #include "sim/plants/grapevine.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// How finely a bunch is drawn.
 struct BunchDetail {
@@ -22,4 +22,4 @@ void add_bunch(Primitive& primitive, const Bunch& bunch, int part, const BunchDe
 /// Berries on the surface of the bunch, those inside left out.
 int visible_berries(const Bunch& bunch);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

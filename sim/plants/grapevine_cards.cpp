@@ -6,7 +6,7 @@
 #include "sim/plants/grapevine_mesh.h"
 #include "sim/plants/plant_painter.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using Eigen::Vector2f;
@@ -199,4 +199,4 @@ std::vector<LevelOfDetail> FarPlants::levels(std::size_t plant) const {
   return levels;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using Eigen::Vector3f;
@@ -65,4 +65,4 @@ float CanopyLight::leaf_area_along(const Vector3f& from, const Vector3f& directi
   return area;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -7,7 +7,7 @@
 
 #include "sim/scene/mesh_builder.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// How much of the sky's light reaches a point between the leaves (Beer-Lambert through a grid of
 /// leaf density).
@@ -31,4 +31,4 @@ class CanopyLight {
   std::vector<float> density_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

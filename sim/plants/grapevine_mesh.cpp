@@ -8,7 +8,7 @@
 #include "sim/plants/grapevine_bunch.h"
 #include "sim/textures/textures.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using Eigen::Vector3f;
@@ -177,4 +177,4 @@ void add_far_bunches(LevelOfDetail& level, const Grapevine& plant, int triangles
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

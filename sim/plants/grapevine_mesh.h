@@ -7,7 +7,7 @@
 #include "sim/plants/grapevine.h"
 #include "sim/plants/grapevine_light.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 // How grapevines become triangles; mesh_grapevines puts it together.
 
@@ -82,4 +82,4 @@ class FarPlants {
   Texture texture_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -8,7 +8,7 @@
 #include "core/util/error.h"
 #include "sim/world/vines.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr std::array<GrowthStage, 7> kStages{{
@@ -44,4 +44,4 @@ const GrowthStage& growth_stage(int bbch) {
   return *stage;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

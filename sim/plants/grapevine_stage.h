@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// A vine at one point of its year, after the extended BBCH scale for grapes (Lorenz et al. 1995).
 /// Shares are of what the vine reaches in full leaf at harvest.
@@ -25,4 +25,4 @@ struct GrowthStage {
 /// Stages 0, 9, 65, 75, 83, 89 and 95. Throws Error that names them for any other.
 const GrowthStage& growth_stage(int bbch);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using Eigen::Vector3f;
@@ -189,4 +189,4 @@ std::vector<Bud> grow_young_wood(Grapevine& plant, const PlantBrief& brief,
   return {{head, {0.05f, 0, 1}}, {head - Eigen::Vector3f(0, 0, 0.04f), {-0.3f, 0.1f, 1}}};
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -7,7 +7,7 @@
 #include "core/util/random.h"
 #include "sim/plants/grapevine.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Where a shoot begins.
 struct Bud {
@@ -22,4 +22,4 @@ std::vector<Bud> grow_old_wood(Grapevine& plant, const PlantBrief& brief, Random
 /// The thin stem of a second-year vine beside its stake, and its grow tube. Returns its buds.
 std::vector<Bud> grow_young_wood(Grapevine& plant, const PlantBrief& brief, RandomSequence& random);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

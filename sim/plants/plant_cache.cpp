@@ -12,7 +12,7 @@
 #include "sim/assets/asset_file.h"
 #include "sim/plants/grapevine.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr int kYoungTemplates = 2;
@@ -84,4 +84,4 @@ PlantSet cached_plants(const VinesConfig& vines, std::uint64_t seed,
   return set;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -8,7 +8,7 @@
 #include "sim/assets/asset.h"
 #include "sim/world/vines.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// The plants of a world, one for each template.
 struct PlantSet {
@@ -22,4 +22,4 @@ struct PlantSet {
 PlantSet cached_plants(const VinesConfig& vines, std::uint64_t seed,
                        const std::filesystem::path& cache);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -7,7 +7,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr int kSamples = 3;        // a side of a pixel
@@ -186,4 +186,4 @@ PlantPainting paint_plant(const std::vector<Primitive>& parts, const std::vector
   return canvas.finish();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

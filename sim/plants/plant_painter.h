@@ -8,7 +8,7 @@
 
 #include "sim/assets/asset.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// What part of the model a painted image shows, without perspective.
 struct PaintWindow {
@@ -29,4 +29,4 @@ struct PlantPainting {
 PlantPainting paint_plant(const std::vector<Primitive>& parts, const std::vector<Texture>& textures,
                           const std::vector<Material>& materials, const PaintWindow& window);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

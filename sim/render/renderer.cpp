@@ -7,15 +7,15 @@
 #include <tuple>
 #include <utility>
 
+#include "core/truth/rover_flow.h"
 #include "core/util/error.h"
 #include "sim/render/gl/frustum.h"
 #include "sim/render/gl/painter.h"
 #include "sim/render/gl/platform/gl_context.h"
 #include "sim/render/gl/platform/gl_objects.h"
-#include "sim/rover/rover_flow.h"
 #include "sim/sensors/camera/glare.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr int kLargest = 8192;  // pixels a side
@@ -158,4 +158,12 @@ RenderedImage Renderer::render(const PinholeCamera& camera, const Pose& T_world_
   return impl_->render(camera, T_world_cam, request);
 }
 
-}  // namespace vinebench
+Renderer::Request truth_request(double time, double other_time) {
+  Renderer::Request request;
+  request.labels = request.depth = request.instances = request.normals = request.motion = true;
+  request.time = time;
+  request.other_time = other_time;
+  return request;
+}
+
+}  // namespace vinebench::sim

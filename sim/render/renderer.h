@@ -11,25 +11,10 @@
 #include "core/config/config_field.h"
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
+#include "core/truth/truth_images.h"
 #include "sim/scene/scene.h"
 
-namespace vinebench {
-
-/// One rendered view. What was not asked for is empty.
-struct RenderedImage {
-  cv::Mat rgb;     ///< CV_8UC3, RGB, top row first
-  cv::Mat labels;  ///< CV_8UC1 of Label
-  cv::Mat depth;   ///< CV_32FC1, z along the optical axis in m, 0 for sky
-  /// CV_32SC1: 256 * (index into Scene::instances + 1) + Vertex::part; 0 for sky and wires. The
-  /// rover counts as one more instance after the last.
-  cv::Mat instances;
-  /// CV_32FC3, unit, camera frame, towards the camera: of the triangles drawn, so that it fits
-  /// depth; of a wire, its way to the camera. 0 for sky.
-  cv::Mat normals;
-  /// CV_32FC3, m, world frame: where this point goes from `time` to `other_time`, by the wind or
-  /// with the rover.
-  cv::Mat motion;
-};
+namespace vinebench::sim {
 
 /// Which GL platform draws.
 enum class GlBackend { kAuto, kOsmesa, kEgl };
@@ -83,4 +68,8 @@ class Renderer {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace vinebench
+/// What the truth images of two views need of the renderer, drawn at `time` and compared with a
+/// view of `other_time` (s; of account only where the wind blows).
+Renderer::Request truth_request(double time = 0, double other_time = 0);
+
+}  // namespace vinebench::sim

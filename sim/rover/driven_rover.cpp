@@ -6,7 +6,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr Stamp kControlPeriod = kNanosecondsPerSecond / 50;
@@ -87,4 +87,4 @@ void DrivenRover::hand_out(Stamp stamp, std::vector<ImuSample>& imu,
   move_until(stamp, wheels_, wheels);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

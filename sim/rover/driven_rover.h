@@ -12,7 +12,7 @@
 #include "sim/rover/route.h"
 #include "sim/rover/rover.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// The rover under its position loop, with a short memory of where it was.
 class DrivenRover {
@@ -53,4 +53,4 @@ class DrivenRover {
   std::vector<WheelSample> wheels_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

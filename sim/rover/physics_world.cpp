@@ -18,7 +18,7 @@
 #include "sim/vineyard/trellis.h"
 #include "sim/world/terrain.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr double kGroundBase = 1.0;    // m of ground below its lowest place
@@ -249,4 +249,4 @@ int PhysicsWorld::sensor_address(const std::string& name) const {
   return model_->sensor_adr[find(mjOBJ_SENSOR, name)];
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

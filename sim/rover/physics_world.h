@@ -10,7 +10,7 @@
 
 #include "sim/world/world.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 class Terrain;
 
@@ -64,4 +64,4 @@ class PhysicsWorld {
   std::unique_ptr<mjData, Free> state_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -8,7 +8,7 @@
 
 #include "core/config/validate.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr double kStandstill = 1e-9;      // m or rad: a way shorter than this is none
@@ -173,4 +173,4 @@ Eigen::Vector3d follow(const Route::Reference& reference, const Pose& T_world_bo
   return {c * v_world.x() + s * v_world.y(), c * v_world.y() - s * v_world.x(), turn};
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -11,7 +11,7 @@
 #include "core/geometry/pose.h"
 #include "core/time.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Where the position loop has the rover's pose from.
 enum class Steering {
@@ -114,4 +114,4 @@ class Route {
 /// proportion to the error (2 per s, at most 0.3 m/s and 1 rad/s), meant for 15 Hz or more.
 Eigen::Vector3d follow(const Route::Reference& reference, const Pose& T_world_body);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

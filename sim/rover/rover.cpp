@@ -11,7 +11,7 @@
 #include "sim/rover/wheel_controller.h"
 #include "sim/world/terrain.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr std::array<const char*, 4> kWheelNames{"front_left", "front_right", "rear_left",
@@ -300,4 +300,4 @@ Pose Rover::T_world_body() const {
   return physics_->pose_at(physics_->now);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

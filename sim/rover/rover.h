@@ -13,7 +13,7 @@
 #include "core/geometry/pose.h"
 #include "sim/world/world.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// A rover: its MuJoCo model, its cameras, its sensors' rates. Wheels: front-left, front-right,
 /// rear-left, rear-right.
@@ -68,4 +68,4 @@ class Rover {
   std::unique_ptr<Physics> physics_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

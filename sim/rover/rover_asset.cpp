@@ -16,7 +16,7 @@
 #include "sim/scene/mesh_builder.h"
 #include "sim/vineyard/props.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using Eigen::Vector3f;
@@ -264,4 +264,4 @@ void add_rover(Scene& scene, const std::filesystem::path& mjcf) {
   scene.rover_model = add_asset(scene, rover_asset(mjcf));
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

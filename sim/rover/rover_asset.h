@@ -6,7 +6,7 @@
 
 #include "sim/assets/asset.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// A rover as it looks: the visible geoms (groups 0 to 2, not wholly transparent) of the body that
 /// carries the joint `chassis` in its MJCF file, and of all that hangs on it, in the body's frame
@@ -18,4 +18,4 @@ Asset rover_asset(const std::filesystem::path& mjcf);
 /// Makes it the rover that Renderer::Request places.
 void add_rover(Scene& scene, const std::filesystem::path& mjcf);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinebench {
+namespace vinebench::sim {
 
 WheelArray MecanumDrive::wheel_speeds(const Eigen::Vector3d& twist) const {
   const double forward = twist.x();
@@ -37,4 +37,4 @@ double SpeedLoop::torque(double wanted, double measured, double dt) {
   return limited;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

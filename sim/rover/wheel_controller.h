@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Front-left, front-right, rear-left, rear-right.
 using WheelArray = std::array<double, 4>;
@@ -46,4 +46,4 @@ class SpeedLoop {
   double integral_ = 0;  ///< Nm
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr float kTurn = 2 * std::numbers::pi_v<float>;
@@ -281,4 +281,4 @@ void MeshBuilder::spindle(const Eigen::Vector3f& top, float length, const std::v
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -8,7 +8,7 @@
 
 #include "sim/scene/scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// A bent round thing: trunk, cane, post, blade of grass.
 struct Tube {
@@ -102,4 +102,4 @@ class MeshBuilder {
   std::uint8_t part_ = 0;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -10,25 +10,9 @@
 #include <vector>
 
 #include "core/geometry/pose.h"
+#include "core/truth/labels.h"
 
-namespace vinebench {
-
-/// What a pixel shows.
-enum class Label : std::uint8_t {
-  kSky,
-  kGround,
-  kGrass,
-  kTrunk,
-  kCane,
-  kLeaf,
-  kBunch,
-  kPost,
-  kWire,
-  kTag,
-  kBox,
-  kRover,
-  kPerson
-};
+namespace vinebench::sim {
 
 /// An RGBA image on a surface: CV_8UC4, sRGB, first row at v = 0 (glTF's convention).
 struct Texture {
@@ -125,4 +109,4 @@ struct Scene {
   std::uint64_t seed = 0;  ///< for what the renderer draws by itself, such as clouds
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

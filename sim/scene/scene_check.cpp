@@ -8,7 +8,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr int kLargestSide = 16384;  // px; what Mesa and every GPU of today can hold
@@ -117,4 +117,4 @@ void check_scene(const Scene& scene) {
   check_numbers(std::isfinite(scene.wind.speed) && scene.wind.towards.allFinite(), "wind");
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -7,7 +7,7 @@
 #include "core/util/error.h"
 #include "core/util/random.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
@@ -60,4 +60,4 @@ Rig true_rig(const Rig& told, const CalibrationErrorConfig& config, std::uint64_
   return rig;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

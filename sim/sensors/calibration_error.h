@@ -11,7 +11,7 @@
 #include "core/config/config_field.h"
 #include "core/geometry/rig.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// How the true rig, which takes the images, differs from the one that its users are told of.
 /// None by default.
@@ -40,6 +40,10 @@ struct CalibrationErrorConfig {
   double focal_px = 0;            ///< the same draw for x and y
   double principal_point_px = 0;  ///< in each direction
   std::vector<Camera> cameras;
+  bool any() const {
+    return position > 0 || rotation_deg > 0 || focal_px > 0 || principal_point_px > 0 ||
+           !cameras.empty();
+  }
   template <class Archive>
   void serialize(Archive& archive) {
     archive("position", position, Range::between(0, 1));
@@ -54,4 +58,4 @@ struct CalibrationErrorConfig {
 /// that is not in the rig and a focal length that is not above 0.
 Rig true_rig(const Rig& told, const CalibrationErrorConfig& config, std::uint64_t seed);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -10,7 +10,7 @@
 #include "core/config/config_field.h"
 #include "core/time.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Which cameras a fault applies_to, and when. All of them all the time by default.
 struct FaultScope {
@@ -33,4 +33,4 @@ struct FaultScope {
   }
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

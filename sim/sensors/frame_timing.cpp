@@ -8,7 +8,7 @@
 #include "core/util/error.h"
 #include "core/util/random.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr double kMostSigmas = 3;
@@ -57,4 +57,4 @@ Stamp FrameTiming::longest_delay() const {
   return longest;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -12,7 +12,7 @@
 #include "core/time.h"
 #include "sim/sensors/fault_scope.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// When images are taken and what their stamps say. All cameras at each frame's instant, exactly
 /// stamped, by default.
@@ -77,4 +77,4 @@ class FrameTiming {
   std::vector<Stamp> delays_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

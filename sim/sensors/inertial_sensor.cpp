@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace vinebench {
+namespace vinebench::sim {
 
 InertialAxes::InertialAxes(const InertialAxesConfig& config, const std::string& name,
                            double rate_hz, std::uint64_t seed)
@@ -45,4 +45,4 @@ void InertialSensor::measure(ImuSample& sample) {
   sample.specific_force = accelerometer_.measure(sample.specific_force);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

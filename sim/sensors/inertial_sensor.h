@@ -10,7 +10,7 @@
 #include "core/frame.h"
 #include "core/util/random.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Three axes of a gyroscope (unit u = rad/s) or an accelerometer (u = m/s^2).
 struct InertialAxesConfig {
@@ -77,4 +77,4 @@ class InertialSensor {
   InertialAxes accelerometer_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -4,7 +4,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 namespace {
 
@@ -59,4 +59,4 @@ void check_sensors(const SensorsConfig& config, const Rig& rig) {
   throw_violations(violations);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -10,7 +10,7 @@
 #include "sim/sensors/inertial_sensor.h"
 #include "sim/sensors/wheel_sensor.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Every sensor of the rover. Each draw is a function of (seed, stream, camera or axis, frame or
 /// reading), so that switching one effect on changes no other's.
@@ -39,4 +39,4 @@ SensorsConfig perfect_sensors();
 /// an exposure and readout that take longer than the time between its frames.
 void check_sensors(const SensorsConfig& config, const Rig& rig);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vinebench {
+namespace vinebench::sim {
 
 void WheelSensor::measure(WheelSample& sample) {
   if (config_.counts_per_turn == 0) return;
@@ -18,4 +18,4 @@ void WheelSensor::measure(WheelSample& sample) {
   before_ = sample;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

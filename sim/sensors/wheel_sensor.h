@@ -5,7 +5,7 @@
 #include "core/config/config_field.h"
 #include "core/frame.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Encoders on the wheels. They read how the wheels turn, so a wheel that slips on the ground tells
 /// of a way that the rover did not go.
@@ -29,4 +29,4 @@ class WheelSensor {
   WheelSample before_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-namespace vinebench {
+namespace vinebench::sim {
 
 cv::Mat value_noise(cv::Size size, cv::Size cells, const RandomStream& random) {
   constexpr int kRim = 3;  // cells of the next tile, so that interpolation meets its own far side
@@ -72,4 +72,4 @@ cv::Mat to_rgba(const cv::Mat& rgb, const cv::Mat& alpha) {
   return rgba;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

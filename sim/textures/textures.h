@@ -11,7 +11,7 @@
 #include "sim/scene/mesh_builder.h"
 #include "sim/scene/scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 // Images painted in code from a seed; the same seed gives the same bytes.
 
@@ -77,4 +77,4 @@ Texture grass_texture(std::uint64_t seed);
 Texture stone_texture(std::uint64_t seed);
 Texture hedge_texture(std::uint64_t seed);  ///< trees and bushes, alpha above their tops
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

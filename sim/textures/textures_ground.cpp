@@ -8,7 +8,7 @@
 #include "sim/textures/textures.h"
 #include "sim/textures/textures_paint.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 /// Of the nearest pixel; beyond the last one comes the first.
@@ -285,4 +285,4 @@ Texture hedge_texture(std::uint64_t seed) {
   return {"hedge", to_rgba(rgb, alpha), true};
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

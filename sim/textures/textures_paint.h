@@ -8,7 +8,7 @@
 
 // What painters of images that repeat have in common.
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Draws a small thing on an image that repeats: again wherever it crosses the seam.
 template <class Draw>
@@ -34,4 +34,4 @@ inline cv::Point2d somewhere(RandomSequence& random, const cv::Mat& image) {
   return {x, random.uniform(0, image.rows)};
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

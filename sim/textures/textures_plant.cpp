@@ -8,7 +8,7 @@
 
 #include "sim/textures/textures.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr int kLeafPixels = 256;
@@ -286,4 +286,4 @@ TextureCell packed_berries_cell() {
   return atlas_cell(0, 2, 1, 0.5f / kBunchPixels);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

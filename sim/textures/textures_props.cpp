@@ -8,7 +8,7 @@
 #include "sim/textures/textures.h"
 #include "sim/textures/textures_paint.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr int kPanel = 512;  // px, height of one half of a carton's image
@@ -127,4 +127,4 @@ Texture cloth_texture(std::uint64_t seed) {
   return {"cloth", to_rgba(blend(folds, {190, 190, 190}, {252, 252, 252})), true};
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace vinebench {
+namespace vinebench::sim {
 
 double label_share(const cv::Mat& labels, Label wanted) {
   if (labels.empty()) return 0;
@@ -47,4 +47,4 @@ bool is_tag_visible(const WorldConfig::Tag& tag, const PinholeCamera& camera,
   return true;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -8,7 +8,7 @@
 #include "core/geometry/pose.h"
 #include "sim/world/world.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Share of pixels (0 to 1) that show `wanted` in an image of labels (CV_8UC1 of Label).
 double label_share(const cv::Mat& labels, Label wanted);
@@ -19,4 +19,4 @@ double label_share(const cv::Mat& labels, Label wanted);
 bool is_tag_visible(const WorldConfig::Tag& tag, const PinholeCamera& camera,
                     const Pose& T_world_cam, const cv::Mat& labels, double min_side = 24);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -10,7 +10,7 @@
 #include "sim/textures/textures.h"
 #include "sim/vineyard/ground.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using Eigen::Vector3f;
@@ -90,4 +90,4 @@ void add_backdrop(Scene& scene, const WorldConfig& world, const Terrain& terrain
   add_round(scene, middle, std::move(hills));
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -12,7 +12,7 @@
 #include "sim/textures/textures.h"
 #include "sim/world/row_index.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using Eigen::Vector2d;
@@ -292,4 +292,4 @@ void add_ground(Scene& scene, const WorldConfig& world, const Terrain& terrain,
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -6,7 +6,7 @@
 #include "sim/world/terrain.h"
 #include "sim/world/world.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// The soil and its mown strips: tiles of the terrain's own grid, coarser with the distance, and an
 /// apron round them to the ground's edge.
@@ -21,4 +21,4 @@ void add_ground_cover(Scene& scene, const WorldConfig& world, const Terrain& ter
 void add_backdrop(Scene& scene, const WorldConfig& world, const Terrain& terrain,
                   std::uint64_t seed);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

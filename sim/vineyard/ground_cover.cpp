@@ -12,7 +12,7 @@
 #include "sim/vineyard/ground.h"
 #include "sim/world/row_index.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using Eigen::Vector3f;
@@ -258,4 +258,4 @@ void add_ground_cover(Scene& scene, const WorldConfig& world, const Terrain& ter
   strewer.strew_field();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -10,7 +10,7 @@
 #include "sim/textures/textures.h"
 #include "sim/vineyard/props.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using Eigen::Vector3d;
@@ -175,4 +175,4 @@ void add_obstacles(Scene& scene, const WorldConfig& world, const Terrain& terrai
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

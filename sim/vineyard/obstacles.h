@@ -8,7 +8,7 @@
 #include "sim/world/terrain.h"
 #include "sim/world/world.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// An upright block in an obstacle's frame.
 struct Block {
@@ -26,4 +26,4 @@ std::vector<Block> obstacle_blocks(const WorldConfig::Obstacle& obstacle);
 void add_obstacles(Scene& scene, const WorldConfig& world, const Terrain& terrain,
                    std::uint64_t seed);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

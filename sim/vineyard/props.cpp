@@ -14,7 +14,7 @@
 #include "sim/textures/textures.h"
 #include "sim/world/tag_family.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using Eigen::Vector3f;
@@ -143,4 +143,4 @@ void add_tags(Scene& scene, const WorldConfig& world) {
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -6,7 +6,7 @@
 #include "sim/scene/scene.h"
 #include "sim/world/world.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// sRGB, 0 to 1, to linear RGB.
 Eigen::Vector3f linear_colour(const Eigen::Vector3d& srgb);
@@ -35,4 +35,4 @@ inline constexpr double kTagBoardThickness = 0.005;  ///< m
 /// Side of what tag_texture shows, in sides of the black square.
 double tag_board_scale(const std::string& family);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -14,7 +14,7 @@
 #include "sim/world/terrain.h"
 #include "sim/world/world.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 /// Models to choose from for each place of a row.
@@ -81,4 +81,4 @@ Scene build_scene(const WorldConfig& world, std::uint64_t seed,
   return scene;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -11,7 +11,7 @@
 #include "sim/scene/mesh_builder.h"
 #include "sim/textures/textures.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using Eigen::Vector3d;
@@ -163,4 +163,4 @@ void add_trellis(Scene& scene, const WorldConfig& world, const Terrain& terrain,
   add_wires(scene, world, terrain);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -6,7 +6,7 @@
 #include "sim/world/terrain.h"
 #include "sim/world/world.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// What holds an end post: a strut within the row or a wire to an anchor outside it.
 struct Brace {
@@ -22,4 +22,4 @@ std::vector<Brace> trellis_braces(const WorldConfig& world, const Terrain& terra
 void add_trellis(Scene& scene, const WorldConfig& world, const Terrain& terrain,
                  std::uint64_t seed);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

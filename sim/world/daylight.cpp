@@ -10,7 +10,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using std::numbers::pi;
@@ -138,4 +138,4 @@ Wind make_wind(const WindConfig& config, std::uint64_t seed) {
   return wind;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

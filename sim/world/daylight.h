@@ -9,7 +9,7 @@
 #include "core/config/config_field.h"
 #include "sim/scene/scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Where the sun stands: said outright, or by place and time.
 struct SunConfig {
@@ -82,4 +82,4 @@ Light daylight(const SunConfig& sun, const SkyConfig& sky);
 
 Wind make_wind(const WindConfig& config, std::uint64_t seed);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

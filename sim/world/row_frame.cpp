@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr double kParallel = 1e-3;      // rad
@@ -57,4 +57,4 @@ RowFrame row_frame(const WorldConfig& world) {
   return frame;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -7,7 +7,7 @@
 
 #include "sim/world/world.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// A frame that rows agree on: x along them, y to the left, its origin at the first row's start.
 /// Where rows are parallel and evenly spaced, row k lies at y = first + k * spacing.
@@ -31,4 +31,4 @@ struct RowFrame {
 
 RowFrame row_frame(const WorldConfig& world);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr double kSide = 4.0;  // m, of a square
@@ -52,4 +52,4 @@ double RowIndex::distance(const Eigen::Vector2d& p) const {
   return nearest;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -6,7 +6,7 @@
 
 #include "sim/world/world.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Finds the row next to a place without asking all of them.
 class RowIndex {
@@ -29,4 +29,4 @@ class RowIndex {
   std::vector<std::vector<int>> bins_;  ///< rows within reach of each square, line by line
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

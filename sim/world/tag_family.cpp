@@ -18,7 +18,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 struct Entry {
@@ -83,4 +83,4 @@ cv::Mat TagFamily::image(int id) const {
   return cv::Mat(image->height, image->width, CV_8UC1, image->buf, stride).clone();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -9,7 +9,7 @@
 
 struct apriltag_family;
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// A family of the AprilTag library: its code table and its printed layout.
 class TagFamily {
@@ -34,4 +34,4 @@ class TagFamily {
   std::shared_ptr<apriltag_family> family_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

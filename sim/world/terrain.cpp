@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0;
@@ -138,4 +138,4 @@ Pose Terrain::lie(const Eigen::Vector2d& p_world, double yaw, double reach) cons
   return {(lean * turned).normalized(), at};
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

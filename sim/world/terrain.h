@@ -9,7 +9,7 @@
 #include "sim/world/row_frame.h"
 #include "sim/world/world.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Aisles begin and end this far beyond the rows' end posts; m.
 inline constexpr double kRowEnd = 0.6;
@@ -68,4 +68,4 @@ class Terrain {
   std::vector<RandomStream> octaves_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

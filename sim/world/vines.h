@@ -8,7 +8,7 @@
 
 #include "core/config/config_field.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// How the vine's old wood is led along the wire.
 enum class Training { kBilateralCordon, kUnilateralCordon, kSingleGuyot, kDoubleGuyot };
@@ -62,4 +62,4 @@ struct VinesConfig {
   }
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

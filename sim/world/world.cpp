@@ -13,7 +13,7 @@
 #include "sim/world/tag_family.h"
 #include "sim/world/terrain.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0;
@@ -130,7 +130,7 @@ std::pair<std::string, std::string> WorldConfig::size_problem() const {
                                  "vines.spacing larger or the rows fewer",
                                  count, kMostVines)};
   }
-  const vinebench::Terrain ground_now(*this);
+  const sim::Terrain ground_now(*this);
   if (const double area = ground_now.box().volume(); area > kMostGround) {
     return {"rows", fmt::format("the rows lie on {:.0f} m^2 of ground, expected at most {:.0f}",
                                 area, kMostGround)};
@@ -160,7 +160,7 @@ void WorldConfig::place() {
     fail("world {}: {}: {}", name, key, problem);
   }
   expand_block();
-  const vinebench::Terrain terrain_now(*this);
+  const sim::Terrain terrain_now(*this);
   const std::vector<TrellisPost> posts = trellis_posts(*this);
   for (Tag& tag : tags) {
     Eigen::Vector2d foot = tag.position.head<2>();
@@ -242,6 +242,31 @@ Pose box_pose(const WorldConfig::Box& box) {
   return {from_roll_pitch_yaw({0, 0, box.yaw_deg * kRadians}), centre};
 }
 
+std::vector<WorldTag> world_tags(const WorldConfig& world) {
+  std::vector<WorldTag> tags;
+  for (const WorldConfig::Tag& tag : world.tags) {
+    tags.push_back({tag.family, tag.id, tag.size, tag_pose(tag), tag.registered});
+  }
+  return tags;
+}
+
+Site site_of(const WorldConfig& world) {
+  Site site;
+  site.name = world.name;
+  for (const WorldConfig::Row& row : world.rows) site.rows.push_back({row.start, row.end});
+  site.vines = vine_positions(world);
+  site.posts = post_positions(world);
+  for (const WorldConfig::Box& box : world.boxes) {
+    site.objects.push_back(
+        {Label::kBox, box.position, box.size.head<2>(), box.yaw_deg, box.colour});
+  }
+  site.tags = world_tags(world);
+  site.vine_spacing = world.vines.spacing;
+  site.canopy_depth = world.vines.canopy_depth;
+  site.post_radius = world.trellis.post_radius;
+  return site;
+}
+
 std::vector<RegisteredTag> registered_tags(const WorldConfig& world) {
   std::vector<RegisteredTag> tags;
   for (const WorldConfig::Tag& tag : world.tags) {
@@ -254,4 +279,4 @@ std::vector<RegisteredTag> registered_tags(const WorldConfig& world) {
   return tags;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

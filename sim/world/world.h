@@ -13,11 +13,12 @@
 #include "core/config/config_field.h"
 #include "core/geometry/pose.h"
 #include "core/slam_system.h"
+#include "core/truth/site.h"
 #include "sim/scene/scene.h"
 #include "sim/world/daylight.h"
 #include "sim/world/vines.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// A vineyard as its YAML file describes it. World frame: x east, y north, z up; m.
 struct WorldConfig {
@@ -314,8 +315,14 @@ Pose box_pose(const WorldConfig::Box& box);
 /// The tags whose pose the SLAM system is told, with the errors of their survey.
 std::vector<RegisteredTag> registered_tags(const WorldConfig& world);
 
+/// All tags as they truly stand, in the order of the file.
+std::vector<WorldTag> world_tags(const WorldConfig& world);
+
+/// The world seen from above.
+Site site_of(const WorldConfig& world);
+
 /// Grows (or loads) the plants and assembles all that can be drawn. The plants of a seed are grown
 /// once into `cache` as .glb files. Throws Error that names the mesh that cannot be loaded.
 Scene build_scene(const WorldConfig& world, std::uint64_t seed, const std::filesystem::path& cache);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

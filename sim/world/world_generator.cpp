@@ -13,7 +13,7 @@
 #include "sim/world/row_frame.h"
 #include "sim/world/tag_family.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr double kNarrow = 1.4;   // m; tractors drive in aisles at least so wide, and grass grows
@@ -159,4 +159,4 @@ std::string format_world(const WorldRecipe& recipe) {
       recipe.name, recipe.seed, format_yaml(make_world(recipe)));
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -8,7 +8,7 @@
 
 #include "sim/world/world.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// What a vineyard is made from.
 struct WorldRecipe {
@@ -67,4 +67,4 @@ WorldConfig make_world(const WorldRecipe& recipe);
 /// The YAML text of that world. Reading it gives the same world.
 std::string format_world(const WorldRecipe& recipe);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -6,7 +6,7 @@
 #include <bit>
 #include <cmath>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr unsigned kFirst = 12;  // keyframes
@@ -57,4 +57,4 @@ std::optional<std::vector<double>> find_disparity_offsets(const Map& map, const 
   return job.disparity_offsets();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -7,7 +7,7 @@
 
 #include "slam/optimisation/bundle_adjustment.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Whether it is time to look at the calibration again: after a dozen keyframes, then each time
 /// their number has doubled, a few times.
@@ -24,4 +24,4 @@ bool calibration_due(const Map& map);
 std::optional<std::vector<double>> find_disparity_offsets(const Map& map, const EstimatorRig& rig,
                                                           const AdjustmentOptions& options);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace vinebench {
+namespace vinebench::slam {
 
 EstimatorRig::EstimatorRig(const StereoRig& stereo_rig, const OrbConfig& features,
                            const RefinementConfig& refine, const StereoConfig& stereo_config)
@@ -14,9 +14,8 @@ EstimatorRig::EstimatorRig(const StereoRig& stereo_rig, const OrbConfig& feature
     T_body_cams.push_back(pair.T_body_cam);
   }
   for (const RigCamera& camera : rig.cameras) {
-    StereoCameraModel camera{camera.model, camera.T_body_cam.inverse(), 0};
-    camera.lens.distortion = {};
-    undistorted_cameras.push_back(camera);
+    undistorted_cameras.push_back({camera.model, camera.T_body_cam.inverse(), 0});
+    undistorted_cameras.back().lens.distortion = {};
   }
   for (int level = 0; level < features.levels; ++level) {
     level_scales.push_back(std::pow(features.scale, level));
@@ -24,11 +23,12 @@ EstimatorRig::EstimatorRig(const StereoRig& stereo_rig, const OrbConfig& feature
 }
 
 void EstimatorRig::set_disparity_offsets(const std::vector<double>& offsets) {
-  for (std::size_t v = 0; v < cameras.size(); ++v) cameras[v].disparity_offset = offsets[v];
+  for (std::size_t v = 0; v < left_cameras.size(); ++v)
+    left_cameras[v].disparity_offset = offsets[v];
 }
 
 void EstimatorRig::correct_depths(std::size_t v, StereoView& view) const {
-  const StereoCameraModel& camera = cameras[v];
+  const StereoCameraModel& camera = left_cameras[v];
   if (camera.disparity_offset == 0) return;
   for (std::size_t f = 0; f < view.stereo.size(); ++f) {
     StereoMatch& match = view.stereo[f];
@@ -60,9 +60,9 @@ Eigen::Vector3d EstimatorRig::stereo_point(const StereoView& view, int v, int fe
   const auto f = static_cast<std::size_t>(feature);
   const Keypoint& keypoint = view.features.keypoints[f];
   const Eigen::Vector3d ray =
-      cameras[static_cast<std::size_t>(v)].lens.unproject({keypoint.x, keypoint.y});
+      left_cameras[static_cast<std::size_t>(v)].lens.unproject({keypoint.x, keypoint.y});
   const Eigen::Vector3d p_cam = ray * static_cast<double>(view.stereo[f].depth);
   return T_map_body * (T_body_cams[static_cast<std::size_t>(v)] * p_cam);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -9,7 +9,7 @@
 #include "slam/factors/reprojection.h"
 #include "slam/map/map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// What every stage of the estimator needs to know of cameras and noise, derived once.
 struct EstimatorRig {
@@ -39,4 +39,4 @@ struct EstimatorRig {
                                const Pose& T_map_body) const;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

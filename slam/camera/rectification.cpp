@@ -11,7 +11,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr double kMinBaseline = 1e-3;      // m
@@ -172,4 +172,4 @@ void Rectification::drop_unseen(Features& features, const OrbExtractor& extracto
   features.descriptors.resize(kept);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

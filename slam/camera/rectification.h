@@ -10,7 +10,7 @@
 #include "slam/features/features.h"
 #include "slam/features/orb_extractor.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Turns the images of two cameras that look roughly the same way into those of a rectified pair:
 /// one lens without distortion, cameras on one row, at the same places as the real ones.
@@ -56,4 +56,4 @@ class Rectification {
   cv::Mat clearance_;  ///< px from each left pixel to the nearest without a source; empty: all have
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

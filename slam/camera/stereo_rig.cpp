@@ -7,7 +7,7 @@
 #include "core/util/error.h"
 #include "slam/camera/rectification.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 bool same_lens(const PinholeCamera& a, const PinholeCamera& b) {
@@ -79,4 +79,4 @@ StereoRig make_stereo_rig(const Rig& rig, const std::vector<std::string>& names)
   return used;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -8,7 +8,7 @@
 
 #include "core/geometry/rig.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 class Rectification;
 
@@ -38,4 +38,4 @@ struct StereoRig {
 /// pixel, is used as it is.
 StereoRig make_stereo_rig(const Rig& rig, const std::vector<std::string>& names);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using Matrix3d = Eigen::Matrix3d;
@@ -238,4 +238,4 @@ bool OdometryError::Evaluate(double const* const* parameters, double* residuals,
   return true;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -10,7 +10,7 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// A pose T_map_body as Ceres holds it: qx qy qz qw, x y z.
 using PoseBlock = std::array<double, 7>;
@@ -175,4 +175,4 @@ inline double chi_squared_limit(const PixelMeasurement& measurement) {
 /// hard as a good one; this one lets go of them.
 inline constexpr double kCauchyScale = 1;
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

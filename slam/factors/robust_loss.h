@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// A loss of the squared norm s of a residual (in standard deviations): what it costs, and the
 /// weight of its square in iteratively reweighted least squares (Huber 1964; Cauchy's by Black and
@@ -29,4 +29,4 @@ class RobustLoss {
   bool cauchy_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

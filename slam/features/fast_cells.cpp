@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <opencv2/features2d.hpp>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// FAST looks 3 px around, and the suppression of non-maxima one further.
@@ -79,4 +79,4 @@ std::vector<Corner> detect_fast_cells(const cv::Mat& image, const FastCellsConfi
   return corners;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

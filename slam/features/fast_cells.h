@@ -5,7 +5,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// A corner of one pyramid level.
 struct Corner {
@@ -26,4 +26,4 @@ struct FastCellsConfig {
 /// the image is smaller than its borders.
 std::vector<Corner> detect_fast_cells(const cv::Mat& image, const FastCellsConfig& config);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

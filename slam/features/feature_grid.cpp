@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// Cell of a coordinate, those off the image in the outermost ones.
@@ -61,4 +61,4 @@ void FeatureGrid::query(float x, float y, float radius, int min_level, int max_l
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -7,7 +7,7 @@
 
 #include "slam/features/features.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Files the keypoints of an image by cells, so that those near a point are found at once.
 class FeatureGrid {
@@ -37,4 +37,4 @@ class FeatureGrid {
   std::vector<Item> items_;      ///< cell after cell, in a cell by index
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// An image corner with its scale and direction.
 struct Keypoint {
@@ -44,4 +44,4 @@ struct Features {
   std::size_t size() const { return keypoints.size(); }
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -11,7 +11,7 @@
 
 #include "core/util/random.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr int kDiscRadius = 15;
@@ -141,4 +141,4 @@ Descriptor rotated_brief(const cv::Mat& smoothed, int x, int y, float angle) {
   return descriptor;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

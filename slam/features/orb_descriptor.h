@@ -6,7 +6,7 @@
 
 #include "slam/features/features.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// How far from a keypoint its direction and its descriptor look, px of its level: so much of the
 /// image must lie around it.
@@ -21,4 +21,4 @@ float centroid_angle(const cv::Mat& image, int x, int y);
 /// distributed about the keypoint as in BRIEF (Calonder et al. 2010).
 Descriptor rotated_brief(const cv::Mat& smoothed, int x, int y, float angle);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -11,7 +11,7 @@
 #include "slam/features/smoothing.h"
 #include "slam/features/square_covering.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// Shares `features` among the levels so that each has 1 / scale of the one before.
@@ -91,4 +91,4 @@ Extraction OrbExtractor::extract(const cv::Mat& grey) const {
   return result;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -8,7 +8,7 @@
 #include "core/config/config_field.h"
 #include "slam/features/features.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// ORB features as in Sect. III-A of the paper.
 struct OrbConfig {
@@ -59,4 +59,4 @@ class OrbExtractor {
   std::vector<int> features_per_level_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

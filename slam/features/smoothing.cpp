@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr int kRadius = 3;
@@ -73,4 +73,4 @@ cv::Mat smooth(const cv::Mat& image) {
   return smoothed;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

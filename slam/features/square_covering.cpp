@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// A result this near to the wanted count ends the bisection.
@@ -89,4 +89,4 @@ std::vector<Corner> suppress_square_covering(std::vector<Corner> corners, int co
   return best;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -6,7 +6,7 @@
 
 #include "slam/features/fast_cells.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Suppression via square covering (Bailo et al., "Efficient adaptive non-maximal suppression
 /// algorithms for homogeneous spatial keypoint distribution", 2018): the strongest corners that
@@ -15,4 +15,4 @@ namespace vinebench {
 std::vector<Corner> suppress_square_covering(std::vector<Corner> corners, int count, int width,
                                              int height);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

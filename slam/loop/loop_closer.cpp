@@ -12,7 +12,7 @@
 #include "slam/loop/loop_correction.h"
 #include "slam/optimisation/bundle_adjustment.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// 99.9 % of the chi-square distribution with six degrees of freedom.
@@ -242,17 +242,17 @@ std::vector<RejectedTag> LoopCloser::gate(FrameFeatures& frame, const Pose& T_ma
   std::vector<RejectedTag> rejected;
   std::vector<Return> returns;
   for (const TagSighting& sighting : frame.tags) {
-    const auto reject = [&](TagRejection reason) {
+    const auto leave_out = [&](TagRejection reason) {
       rejected.push_back({sighting.family, sighting.id, sighting.camera, reason});
     };
     if (sighting.ambiguous) {
-      reject(TagRejection::kAmbiguous);
+      leave_out(TagRejection::kAmbiguous);
     } else if (!is_in_place(sighting, T_map_body, path_length, map)) {
       reject(sighting);
-      reject(TagRejection::kMisplaced);
+      leave_out(TagRejection::kMisplaced);
     } else if (is_doubled(sighting, frame, T_map_body, path_length, map)) {
       reject(sighting);
-      reject(TagRejection::kDuplicate);
+      leave_out(TagRejection::kDuplicate);
     } else if (was_left(sighting, frame.stamp, path_length)) {
       returns.push_back({sighting, frame.stamp, T_map_body * T_body_tag(sighting, rig_)});
       if (is_confirmed(returns.back())) believed.push_back(sighting);
@@ -342,4 +342,4 @@ void LoopCloser::adjust_globally(Map& map) const {
   malloc_trim(0);  // of what a long drive's adjustment took, the C library would keep most
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -12,7 +12,7 @@
 #include "slam/map/map.h"
 #include "slam/optimisation/tag_localisation.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Loop closing by tags (paper, Sect. III-B): a tag that was seen, left, and is seen again ties the
 /// two visits together; global bundle adjustment spreads the correction over all poses and
@@ -114,4 +114,4 @@ class LoopCloser {
   std::vector<std::pair<std::string, int>> rejected_;  ///< found elsewhere than the map has them
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -7,7 +7,7 @@
 
 #include "slam/optimisation/pose_uncertainty.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// A step of no length is uncertain too.
@@ -69,4 +69,4 @@ void spread_correction(Map& map, int first, int last, const Pose& corrected,
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

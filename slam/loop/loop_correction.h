@@ -4,7 +4,7 @@
 
 #include "slam/map/map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// What a keyframe's step from the one before is off by, along or about one axis, grows with the
 /// root of the way: so much after one metre.
@@ -20,4 +20,4 @@ inline constexpr double kStepTurn = 2e-4;    // rad
 void spread_correction(Map& map, int first, int last, const Pose& corrected,
                        const Matrix6d& covariance);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

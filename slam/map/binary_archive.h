@@ -16,7 +16,7 @@
 #include "core/geometry/pose.h"
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 // Two archives with one face: `archive(a, b, c)` writes values, or reads them in the same order.
 // A struct takes part by a function `fields(archive, value)` in this namespace that names its
@@ -171,4 +171,4 @@ class BinaryReader {
   std::string where_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

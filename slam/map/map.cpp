@@ -6,7 +6,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 auto order_of(const Observation& o) {
@@ -202,4 +202,4 @@ std::size_t Map::count_landmarks(int min_observations) const {
       }));
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -17,7 +17,7 @@
 #include "slam/patches/patch_list.h"
 #include "slam/stereo/stereo_matcher.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// What one stereo pair saw in one frame: the left camera's features with their stereo matches.
 struct StereoView {
@@ -172,4 +172,4 @@ class Map {
 /// Number of different keyframes among a landmark's observations.
 int count_keyframes(const Landmark& landmark);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -10,7 +10,7 @@
 #include "slam/map/binary_archive.h"
 #include "slam/map/rig_fingerprint.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr std::string_view kMagic("vinemap\0", 8);
@@ -305,4 +305,4 @@ Map load_map(const std::filesystem::path& file, const EstimatorRig& rig) {
   return parse_map(read_file(file), rig, file.string());
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -9,7 +9,7 @@
 #include "slam/camera/estimator_rig.h"
 #include "slam/map/map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 // A map as a file: little endian, IEEE 754.
 //
@@ -38,4 +38,4 @@ void save_map(const Map& map, const EstimatorRig& rig, const std::filesystem::pa
 /// Reads a map file. Throws Error as parse_map does, or when the file cannot be read.
 Map load_map(const std::filesystem::path& file, const EstimatorRig& rig);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -5,7 +5,7 @@
 #include "core/util/files.h"
 #include "slam/map/binary_archive.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr std::uint8_t kUnknownGrey = 128;
@@ -72,4 +72,4 @@ void save_point_cloud(const Map& map, int min_observations, const std::filesyste
   write_file_atomically(file, format_ply(map, min_observations));
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

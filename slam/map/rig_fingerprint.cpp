@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// Equal but for the roundings of a calibration that was computed again.
@@ -70,4 +70,4 @@ std::string difference(const RigFingerprint& map, const RigFingerprint& rig) {
   return {};
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

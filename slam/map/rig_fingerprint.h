@@ -7,7 +7,7 @@
 
 #include "slam/camera/estimator_rig.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// What a map depends on of the rig that made it.
 struct RigFingerprint {
@@ -51,4 +51,4 @@ template <class Archive>
 void fields(Archive& archive, RigFingerprint& rig) {
   archive(rig.cameras, rig.pairs, rig.level_scales);
 }
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -9,7 +9,7 @@
 #include "slam/matching/match_refiner.h"
 #include "slam/matching/projection_matcher.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// Keyframes after which features that no landmark is tied to lose their patches, 0.19 of a
@@ -146,4 +146,4 @@ void LocalMapper::triangulate_between(int newer, int older, int view, Map& map) 
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -11,7 +11,7 @@
 #include "slam/optimisation/bundle_adjustment.h"
 #include "slam/tracking/tracker.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Local mapping: what a new keyframe adds to the map.
 class LocalMapper {
@@ -42,4 +42,4 @@ class LocalMapper {
   const EstimatorRig& rig_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

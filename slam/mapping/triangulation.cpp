@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// Rays that meet at less than a degree give no useful depth.
@@ -85,4 +85,4 @@ std::vector<EpipolarMatch> match_epipolar(const Keyframe& a, const Keyframe& b, 
   return matches;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -8,7 +8,7 @@
 #include "slam/camera/estimator_rig.h"
 #include "slam/map/map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// The point nearest to two rays p + s d (d of unit length, map frame), by least squares. Nothing
 /// where the rays are nearly parallel or meet behind either camera.
@@ -28,4 +28,4 @@ struct EpipolarMatch {
 std::vector<EpipolarMatch> match_epipolar(const Keyframe& a, const Keyframe& b, int view,
                                           const EstimatorRig& rig, int max_hamming);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

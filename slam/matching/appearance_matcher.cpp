@@ -8,7 +8,7 @@
 
 #include "slam/tracking/tracker.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// Keyframes nearer than this, looking the same way, are one place.
@@ -137,4 +137,4 @@ Associations match_by_appearance(const Map& map, const std::vector<int>& landmar
   return associations;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

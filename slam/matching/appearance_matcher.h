@@ -6,7 +6,7 @@
 
 #include "slam/map/map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Ids of the keyframes that see most of what the frame sees, best first, one for each place: each
 /// of `queries` features, spread over the frame, votes for the keyframes of the two landmarks of
@@ -23,4 +23,4 @@ std::vector<int> landmarks_around(const Map& map, int keyframe);
 Associations match_by_appearance(const Map& map, const std::vector<int>& landmarks,
                                  const FrameFeatures& frame, int max_hamming, double second_best);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -4,7 +4,7 @@
 
 #include "slam/matching/patch_projector.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 class Refiner {
@@ -91,4 +91,4 @@ std::vector<PatchList> cut_patches(const FrameFeatures& frame, const Association
   return patches;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

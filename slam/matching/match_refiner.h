@@ -5,7 +5,7 @@
 #include "slam/camera/estimator_rig.h"
 #include "slam/map/map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Places a frame's matched features to a fraction of a pixel: the corner detector finds whole
 /// pixels of a pyramid level, and not the same ones from every distance. Each match is moved to
@@ -21,4 +21,4 @@ void refine_matches(const Map& map, const Pose& T_map_body, const EstimatorRig& 
 std::vector<PatchList> cut_patches(const FrameFeatures& frame, const Associations& landmarks,
                                    const EstimatorRig& rig);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

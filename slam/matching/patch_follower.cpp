@@ -8,7 +8,7 @@
 #include "slam/matching/patch_projector.h"
 #include "slam/patches/patch_alignment.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr int kCell = 48;           // px; of the image's cells that share the landmarks
@@ -188,4 +188,4 @@ void follow_patches(const Map& map, const std::vector<int>& landmarks, const Pos
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

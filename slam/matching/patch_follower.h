@@ -7,7 +7,7 @@
 #include "slam/camera/estimator_rig.h"
 #include "slam/map/map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Follows landmarks that the corner detector did not find again: each is looked for by its patch
 /// where a good pose says that it is, in both cameras. What is found is appended to the frame's
@@ -20,4 +20,4 @@ namespace vinebench {
 void follow_patches(const Map& map, const std::vector<int>& landmarks, const Pose& T_map_body,
                     const EstimatorRig& rig, FrameFeatures& frame, Associations& associations);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// A patch that appears larger or smaller than this is another image.
@@ -111,4 +111,4 @@ std::optional<PatchView> PatchProjector::on_best_level(const Observation& seen, 
   return view_on(*H, *find_patch(seen), std::clamp(static_cast<int>(std::lround(level)), 0, top));
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -8,7 +8,7 @@
 #include "slam/camera/estimator_rig.h"
 #include "slam/map/map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// How a landmark's patch, cut out of a keyframe's image, appears from another pose of the body.
 struct PatchView {
@@ -51,4 +51,4 @@ class PatchProjector {
   std::vector<std::vector<std::optional<Step>>> steps_;  ///< of each view, by keyframe
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

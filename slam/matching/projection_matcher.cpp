@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// A leaf looks different from farther around than this.
@@ -108,4 +108,4 @@ int match_by_projection(const Map& map, const std::vector<int>& landmarks,
   return added;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -7,7 +7,7 @@
 #include "slam/camera/estimator_rig.h"
 #include "slam/map/map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 struct ProjectionSearch {
   double radius = 10;         ///< px at level 0; grows with the predicted level
@@ -29,4 +29,4 @@ int find_feature(const Landmark& landmark, const StereoView& view, int v, const 
                  const EstimatorRig& rig, double level_scale, const ProjectionSearch& search,
                  const std::vector<int>* taken);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace vinebench {
+namespace vinebench::slam {
 
 void DeadReckoning::reset() {
   frames_ = 0;
@@ -47,4 +47,4 @@ Matrix6d DeadReckoning::covariance() const {
   return variance.asDiagonal();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -8,7 +8,7 @@
 #include "core/geometry/pose.h"
 #include "slam/odometry/wheel_odometry.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// What is known of the body's motion while no camera sees anything.
 struct DeadReckoningConfig {
@@ -59,4 +59,4 @@ class DeadReckoning {
   double turn_ = 0;  ///< rad, by the wheels
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

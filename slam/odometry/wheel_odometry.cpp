@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/odometry/wheel_odometry.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 Pose WheelOdometry::step_between(const WheelSample& from, const WheelSample& to) const {
   std::array<double, 4> rolled{};  // m; front-left, front-right, rear-left, rear-right
@@ -28,4 +28,4 @@ std::optional<Pose> WheelOdometry::step(const std::vector<WheelSample>& readings
   return T_before_now;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

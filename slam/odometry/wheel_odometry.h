@@ -9,7 +9,7 @@
 #include "core/frame.h"
 #include "core/geometry/pose.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Four mecanum wheels as the estimator is told of them.
 struct MecanumWheels {
@@ -43,4 +43,4 @@ class WheelOdometry {
   std::optional<WheelSample> last_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

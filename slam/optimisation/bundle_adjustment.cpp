@@ -8,7 +8,7 @@
 
 #include "slam/optimisation/tag_localisation.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr std::size_t kAbsent = static_cast<std::size_t>(-1);
@@ -320,4 +320,4 @@ void adjust(Map& map, const AdjustmentWindow& window, const EstimatorRig& rig,
   job.apply(map);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

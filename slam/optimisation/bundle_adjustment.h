@@ -9,7 +9,7 @@
 #include "slam/config.h"
 #include "slam/map/map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Which keyframes an adjustment moves, and which it only looks at. The landmarks that a moved
 /// keyframe sees are adjusted with them.
@@ -69,4 +69,4 @@ void adjust(Map& map, const AdjustmentWindow& window, const EstimatorRig& rig,
 /// Corners of a tag of side `size` in its own frame (x right, y down), in the order of TagSighting.
 std::array<Eigen::Vector3d, 4> tag_corners(double size);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

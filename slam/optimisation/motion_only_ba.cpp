@@ -8,7 +8,7 @@
 
 #include "slam/factors/robust_loss.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 const RobustLoss kFar = RobustLoss::huber(std::sqrt(kChiSquared2));
@@ -184,4 +184,4 @@ MotionEstimate estimate_motion(const Map& map, const FrameFeatures& frame, const
   return estimate;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

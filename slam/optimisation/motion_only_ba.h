@@ -7,7 +7,7 @@
 #include "slam/camera/estimator_rig.h"
 #include "slam/map/map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 struct MotionEstimate {
   Pose T_map_body;
@@ -30,4 +30,4 @@ MotionEstimate estimate_motion(const Map& map, const FrameFeatures& frame, const
                                const EstimatorRig& rig, double min_inlier_share,
                                Associations& associations);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

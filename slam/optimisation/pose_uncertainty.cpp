@@ -4,7 +4,7 @@
 
 #include <Eigen/Cholesky>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 Matrix6d inflated_inverse(const Matrix6d& information) {
@@ -51,4 +51,4 @@ Matrix6d PoseUncertainty::at(const Pose& T_last_now, const Matrix6d& information
   return carry_covariance(keyframe_, T_last_now) + inflated_inverse(information);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

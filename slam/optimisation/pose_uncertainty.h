@@ -4,7 +4,7 @@
 
 #include "core/geometry/pose.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// The covariance of the body's pose in the map, in the step of step_of (body frame: m, then
 /// rad).
@@ -42,4 +42,4 @@ Matrix6d carried_step(const Pose& T_a_b);
 /// The covariance of T_map_b where T_map_b = T_map_a T_a_b and T_a_b is exact.
 Matrix6d carry_covariance(const Matrix6d& of_a, const Pose& T_a_b);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -7,7 +7,7 @@
 
 #include "slam/optimisation/bundle_adjustment.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using Vector8d = Eigen::Matrix<double, 8, 1>;
@@ -151,4 +151,4 @@ std::optional<Pose> locate_by_tags(const std::vector<PlacedSighting>& seen, cons
   return best.size() == 1 ? best_pose : refine(best_pose, best, rig, systematic);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

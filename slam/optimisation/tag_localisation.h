@@ -9,7 +9,7 @@
 #include "slam/camera/estimator_rig.h"
 #include "slam/optimisation/pose_uncertainty.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// What sightings of tags say of poses, and how surely. A covariance of a pose is that of the steps
 /// of step_of about it (m and rad in the pose's own axes).
@@ -43,4 +43,4 @@ double pose_chi_squared(const Pose& a, const Pose& b, const Matrix6d& covariance
 std::optional<Pose> locate_by_tags(const std::vector<PlacedSighting>& seen, const EstimatorRig& rig,
                                    double systematic);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr int kSide = PatchWindow::kSide;
@@ -181,4 +181,4 @@ std::optional<PatchFit> fit_patch(const PatchWindow& wanted, const cv::Mat& imag
                   static_cast<double>(difference / kArea), static_cast<double>(wanted.contrast)};
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

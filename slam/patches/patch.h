@@ -8,7 +8,7 @@
 #include <opencv2/core/mat.hpp>
 #include <optional>
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Grey levels around a feature, on its own pyramid level: what the landmark looks like.
 struct Patch {
@@ -53,4 +53,4 @@ struct PatchFit {
 std::optional<PatchFit> fit_patch(const PatchWindow& window, const cv::Mat& image, double x,
                                   double y);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr int kRadius = 5;
@@ -256,4 +256,4 @@ std::optional<PatchAlignment> align_patch(const cv::Mat& left, const cv::Mat& ri
                         static_cast<double>(deviation(t.grey))};
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

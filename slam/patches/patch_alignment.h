@@ -5,7 +5,7 @@
 #include <opencv2/core/mat.hpp>
 #include <optional>
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Where a window of the left image lies in the right one.
 struct PatchAlignment {
@@ -24,4 +24,4 @@ struct PatchAlignment {
 std::optional<PatchAlignment> align_patch(const cv::Mat& left, const cv::Mat& right, int x, int y,
                                           double guess);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -8,7 +8,7 @@
 
 #include "slam/patches/patch.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// The patches of a keyframe's features in one view. Many features have none, and patches are most
 /// of what a map takes of memory, so that only those that are there take room.
@@ -51,4 +51,4 @@ class PatchList {
   std::vector<Patch> patches_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -6,7 +6,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// Puts the samples of the frame before in front of a frame's own.
@@ -89,4 +89,4 @@ void LiveSlam::run() {
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

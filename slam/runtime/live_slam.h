@@ -12,7 +12,7 @@
 
 #include "core/slam_system.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Runs a SLAM system as a robot does: on a thread of its own, always on the newest frame. A frame
 /// that comes while one is being worked on waits; one that comes after it takes its place, and the
@@ -62,4 +62,4 @@ class LiveSlam {
   std::thread thread_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

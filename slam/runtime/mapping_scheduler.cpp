@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 double solve(AdjustmentJob& job) {
@@ -41,4 +41,4 @@ Pose MappingScheduler::join(Map& map, StageTimes& times) {
   return map.keyframe(keyframe_).T_map_body * before.inverse();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

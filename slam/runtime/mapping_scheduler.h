@@ -11,7 +11,7 @@
 #include "slam/config.h"
 #include "slam/optimisation/bundle_adjustment.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Runs local adjustments beside tracking, one at a time, on a thread of their own.
 class MappingScheduler {
@@ -46,4 +46,4 @@ class MappingScheduler {
   int frames_since_start_ = 0;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr int kWidth = 16;  // one SIMD register of grey levels
@@ -128,4 +128,4 @@ RowSearch search_row(const cv::Mat& from, int x, int y, const cv::Mat& in, int f
   return found;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -4,7 +4,7 @@
 
 #include <opencv2/core/mat.hpp>
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// How surely a window was found along a row.
 struct RowSearch {
@@ -19,4 +19,4 @@ struct RowSearch {
 RowSearch search_row(const cv::Mat& from, int x, int y, const cv::Mat& in, int first, int last,
                      double rivalry = 1e9);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

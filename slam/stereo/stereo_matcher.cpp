@@ -8,7 +8,7 @@
 #include "core/util/error.h"
 #include "slam/stereo/row_search.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// Search and search back agree to this.
@@ -87,4 +87,4 @@ void reach_farther(const Features& left, const PinholeCamera& camera, double bas
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

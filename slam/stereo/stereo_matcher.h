@@ -10,7 +10,7 @@
 #include "slam/features/orb_extractor.h"
 #include "slam/patches/patch_alignment.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 struct StereoConfig {
   double max_depth_baselines = 40;  ///< farther depths are not used (paper, Sect. III-A)
@@ -72,4 +72,4 @@ std::vector<StereoMatch> match_stereo(const Extraction& left,
 void reach_farther(const Features& left, const PinholeCamera& camera, double baseline,
                    const StereoConfig& config, std::vector<StereoMatch>& matches);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr int kTile = 4;  // px
@@ -148,4 +148,4 @@ BlackRegions find_black_regions(const cv::Mat& image, int contrast) {
   return found;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -5,7 +5,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Black pixels side by side in a row.
 struct BlackRun {
@@ -31,4 +31,4 @@ struct BlackRegions {
 /// `contrast` it is neither. Joins the black ones.
 BlackRegions find_black_regions(const cv::Mat& image, int contrast);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

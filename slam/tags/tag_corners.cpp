@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr double kStep = 0.5;          // px along the profile
@@ -139,4 +139,4 @@ double refine_tag_corners(const cv::Mat& grey, const PinholeCamera& model, doubl
   return std::sqrt(variance + kLeast * kLeast);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

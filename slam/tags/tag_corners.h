@@ -8,7 +8,7 @@
 
 #include "core/geometry/camera.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Places the corners of a tag's black square anew, to a few hundredths of a pixel: the edge is
 /// found along each side where the grey level rises from black to white, lines are fitted to the
@@ -19,4 +19,4 @@ namespace vinebench {
 double refine_tag_corners(const cv::Mat& grey, const PinholeCamera& model, double module,
                           std::array<Eigen::Vector2d, 4>& corners);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -24,7 +24,7 @@
 #include "slam/tags/tag_pose.h"
 #include "slam/tags/tag_search.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 struct KnownFamily {
@@ -188,4 +188,4 @@ std::vector<TagSighting> TagDetector::detect(const cv::Mat& grey, const PinholeC
   return sightings;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

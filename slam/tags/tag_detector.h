@@ -11,7 +11,7 @@
 #include "core/geometry/camera.h"
 #include "core/slam_system.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 struct TagDetectorConfig {
   std::vector<std::string> families{"tag36h11"};
@@ -48,4 +48,4 @@ class TagDetector {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using Points3 = std::array<Eigen::Vector3d, 4>;
@@ -111,7 +111,7 @@ std::vector<Pose> solve_closed_form(const Points3& corners, const Points2& seen)
   }
   std::vector<cv::Mat> rotations;
   std::vector<cv::Mat> translations;
-  cv::solvePnPGeneric(object, image, cv::Matx33d::camera(), cv::noArray(), rotations, translations,
+  cv::solvePnPGeneric(object, image, cv::Matx33d::eye(), cv::noArray(), rotations, translations,
                       false, cv::SOLVEPNP_IPPE_SQUARE);
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < rotations.size(); ++i) {
@@ -146,4 +146,4 @@ TagPose estimate_tag_pose(const std::array<Eigen::Vector2d, 4>& corners, const P
   return result;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -8,7 +8,7 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Where a tag stands by its corners.
 struct TagPose {
@@ -27,4 +27,4 @@ struct TagPose {
 TagPose estimate_tag_pose(const std::array<Eigen::Vector2d, 4>& corners, const PinholeCamera& model,
                           double size, double corner_sigma = 0.1);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -8,7 +8,7 @@
 
 #include "slam/tags/black_regions.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 // From 206 images with 95 tags at 0.5 to 4.8 m, up to 65 degrees aslant, dim, noisy and blurred:
@@ -171,4 +171,4 @@ std::vector<cv::Rect> find_tag_candidates(const cv::Mat& grey, int step) {
   return unite(rectangles);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

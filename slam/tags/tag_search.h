@@ -5,7 +5,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Where in a CV_8UC1 image a tag with a black border may be: rectangles in a fixed order, each
 /// with as much around the border as it takes to read the tag. They may overlap.
@@ -16,4 +16,4 @@ namespace vinebench {
 /// AprilTag makes its quadrilaterals of, so a tag that it would find lies in a candidate.
 std::vector<cv::Rect> find_tag_candidates(const cv::Mat& grey, int step);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

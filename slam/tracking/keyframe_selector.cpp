@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// Features with a stereo depth that no landmark explains yet.
@@ -47,4 +47,4 @@ bool wants_keyframe(const TrackedFrame& tracked, const Map& map, const KeyframeC
   return moved || (weak && something_new);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -6,11 +6,11 @@
 #include "slam/map/map.h"
 #include "slam/tracking/tracker.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// Whether a tracked frame should become a keyframe (paper, Sect. III-A): it tracks too few
 /// landmarks, far fewer than the last keyframe's well-founded ones (seen by three keyframes), or
 /// the body has moved or turned on since then.
 bool wants_keyframe(const TrackedFrame& tracked, const Map& map, const KeyframeConfig& config);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

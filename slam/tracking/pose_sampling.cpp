@@ -8,7 +8,7 @@
 
 #include "core/util/random.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr double kNearest = 0.05;  // m before a camera
@@ -50,7 +50,7 @@ std::vector<Pose> poses_of(const std::array<const Match*, 3>& three, const Estim
   }
   std::vector<cv::Mat> turns;
   std::vector<cv::Mat> shifts;
-  cv::solveP3P(points, rays, cv::Mat::camera(3, 3, CV_64F), cv::noArray(), turns, shifts,
+  cv::solveP3P(points, rays, cv::Mat::eye(3, 3, CV_64F), cv::noArray(), turns, shifts,
                cv::SOLVEPNP_AP3P);
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < turns.size(); ++i) {
@@ -118,4 +118,4 @@ std::optional<Pose> sample_pose(const Map& map, const FrameFeatures& frame, cons
   return best;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

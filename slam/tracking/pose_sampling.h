@@ -8,7 +8,7 @@
 #include "slam/camera/estimator_rig.h"
 #include "slam/map/map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 struct PoseSampling {
   int samples = 300;       ///< sets of three matches that are tried
@@ -24,4 +24,4 @@ std::optional<Pose> sample_pose(const Map& map, const FrameFeatures& frame, cons
                                 const PoseSampling& sampling, std::uint64_t seed,
                                 Associations& associations);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -10,7 +10,7 @@
 #include "slam/optimisation/motion_only_ba.h"
 #include "slam/tracking/pose_sampling.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// Poses nearer than this are one place.
@@ -111,4 +111,4 @@ std::optional<Pose> Relocaliser::find(const Map& map, const EstimatorRig& rig,
   return believed ? std::optional(now->T_map_body) : std::nullopt;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

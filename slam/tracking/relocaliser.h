@@ -7,7 +7,7 @@
 #include "slam/camera/estimator_rig.h"
 #include "slam/map/map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// What is asked of a relocalisation. Rows of vines look alike: a false pose is worse than none.
 struct RelocaliserOptions {
@@ -57,4 +57,4 @@ class Relocaliser {
   Stamp stamp_ = 0;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

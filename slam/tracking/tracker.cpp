@@ -11,7 +11,7 @@
 #include "slam/matching/projection_matcher.h"
 #include "slam/tracking/pose_sampling.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// Keyframes nearer than this that look the same way may show the same vines.
@@ -208,4 +208,4 @@ void Tracker::reckon(const FrameFeatures& frame) {
   if (dead_reckoning_.is_lost()) velocity_.setZero();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -11,7 +11,7 @@
 #include "slam/map/map.h"
 #include "slam/optimisation/motion_only_ba.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 
 /// What tracking made of one frame.
 struct TrackedFrame {
@@ -77,4 +77,4 @@ std::vector<int> local_landmarks(const Map& map, const std::vector<int>& seen,
 /// The landmarks of an association, ascending, each once.
 std::vector<int> landmark_ids(const Associations& associations);
 
-}  // namespace vinebench
+}  // namespace vinebench::slam

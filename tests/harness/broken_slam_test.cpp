@@ -10,13 +10,13 @@
 #include <set>
 
 #include "harness/experiment/scenario.h"
+#include "harness/jobs/run_scenario.h"
 #include "harness/judge/results.h"
 #include "harness/judge/verdict.h"
 #include "harness/run/lockstep.h"
-#include "harness/run_scenario.h"
 #include "slam/slam.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 /// The frames of a simulation, taken once and given to any number of SLAM systems.
@@ -54,20 +54,22 @@ class Drive {
   Drive()
       : scenario_(load_scenario(std::filesystem::path(VINEBENCH_SOURCE_DIR) /
                                 "scenarios/quick-loop.yaml")),
-        frames_(*make_simulation(scenario_.simulation, static_cast<std::uint64_t>(scenario_.seed),
-                                 default_cache(), pool_)) {}
+        frames_(*sim::make_simulation(scenario_.simulation,
+                                      static_cast<std::uint64_t>(scenario_.seed), default_cache(),
+                                      pool_)) {}
 
   const Rig& rig() const { return frames_.rig(); }
-  const SlamConfig& config() const { return scenario_.slam; }
+  const slam::SlamConfig& config() const { return scenario_.slam; }
 
   /// Which expectations a SLAM core does not meet that is told this rig and has these settings.
-  std::set<std::string> broken_expectations(const Rig& told, const SlamConfig& config) {
+  std::set<std::string> broken_expectations(const Rig& told, const slam::SlamConfig& config) {
     frames_.rewind();
-    const auto slam = make_slam(config, told, registered_tags(scenario_.simulation.world), pool_);
-    RunRecorder recorder(frames_.rig(), scenario_.simulation.world.tags);
+    const auto slam =
+        slam::make_slam(config, told, sim::registered_tags(scenario_.simulation.world), pool_);
+    RunRecorder recorder(frames_.rig(), sim::world_tags(scenario_.simulation.world));
     run_lockstep(frames_, *slam, {&recorder});
     std::set<std::string> broken;
-    const RunResults results = measure(recorder.record(), scenario_);
+    const RunResults results = measure(recorder.record(), trial_of(scenario_));
     for (const Check& check : check_expectations(scenario_.expectations, results)) {
       if (!check.ok) broken.insert(check.what);
     }
@@ -109,7 +111,7 @@ TEST(BrokenSlamTest, EachFaultIsCaughtByTheExpectationThatShould) {
       drive.broken_expectations(with_baselines_times(1.02, drive.rig()), drive.config());
   EXPECT_TRUE(longer.contains("ATE, first pose aligned"));
 
-  SlamConfig without_tags = drive.config();
+  slam::SlamConfig without_tags = drive.config();
   without_tags.loop.enabled = false;
   const auto open = drive.broken_expectations(drive.rig(), without_tags);
   EXPECT_TRUE(open.contains("loop closures, correct"));
@@ -122,4 +124,4 @@ TEST(BrokenSlamTest, EachFaultIsCaughtByTheExpectationThatShould) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

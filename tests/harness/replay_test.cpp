@@ -9,7 +9,7 @@
 #include "tests/support/recorded_folders.h"
 #include "tests/support/synthetic_plane.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using test::error_of;
@@ -50,7 +50,7 @@ class ReplayTest : public testing::Test {
  protected:
   RunOutcome replay(const std::filesystem::path& out = {}, int threads = 2) {
     Recording recording = open_recording(wall_.root());
-    const SlamConfig slam = replay_settings(recording, "", {});
+    const slam::SlamConfig slam = replay_settings(recording, "", {});
     RunOptions options;
     options.folder = out;
     if (!out.empty()) prepare_replay_folder(out, slam);
@@ -106,7 +106,8 @@ TEST_F(ReplayTest, FaultsAreCountedAndLogged) {
 TEST_F(ReplayTest, SettingsComeFromFileAndOverrides) {
   const Recording recording = open_recording(wall_.root());
   const auto file = folder_.write("slam.yaml", "tracking: {radius: 12}\n");
-  const SlamConfig slam = replay_settings(recording, file, {{"slam.tracking.min_matches", "30"}});
+  const slam::SlamConfig slam =
+      replay_settings(recording, file, {{"slam.tracking.min_matches", "30"}});
   EXPECT_EQ(slam.tracking.radius, 12);
   EXPECT_EQ(slam.tracking.min_matches, 30);
   EXPECT_EQ(replay_settings(recording, "", {{"slam.cameras", "front"}}).cameras,
@@ -147,4 +148,4 @@ TEST_F(ReplayTest, TheBenchmarkMeasuresFramesInMemory) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -14,7 +14,7 @@
 #include "tests/support/fakes.h"
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -27,7 +27,7 @@ class RunTest : public testing::Test {
     RunOptions options;
     options.stopped = stopped_;
     if (!folder_.empty() && fs::exists(folder_)) options.folder = folder_;
-    return run_lockstep_and_judge(fakes::scenario(), source, slam, options);
+    return run_lockstep_and_judge(fakes::trial(), source, slam, options);
   }
   std::string text_of(const char* name) const { return read_file(folder_ / name); }
   std::vector<Json> events() const {
@@ -49,7 +49,7 @@ void close_loop(Estimate& estimate) {
 }
 
 TEST_F(RunTest, WritesEveryFile) {
-  prepare_run_folder(folder_, fakes::scenario());
+  fakes::prepare_folder(folder_);
   const RunOutcome outcome = run(close_loop);
   EXPECT_FALSE(outcome.interrupted);
   EXPECT_EQ(read_tum(folder_ / "groundtruth.tum").size(), 201u);
@@ -95,7 +95,7 @@ TEST_F(RunTest, MetricsHaveEveryKey) {
 }
 
 TEST_F(RunTest, ImagesAreThoseOfTheSource) {
-  prepare_run_folder(folder_, fakes::scenario());
+  fakes::prepare_folder(folder_);
   run();
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "frames"), {}), 12 * 3);
   const cv::Mat bgr = cv::imread((folder_ / "frames/000200_side.png").string());
@@ -110,19 +110,19 @@ TEST_F(RunTest, ImagesAreLeftAsTheyAreForOtherSinks) {
     }
     std::vector<cv::Vec3b> seen;
   } pixels;
-  prepare_run_folder(folder_, fakes::scenario());
+  fakes::prepare_folder(folder_);
   fakes::Source source(7, 3);
   fakes::Slam slam;
   RunOptions options;
   options.folder = folder_;
   options.sinks = {&pixels};
-  run_lockstep_and_judge(fakes::scenario(), source, slam, options);
+  run_lockstep_and_judge(fakes::trial(), source, slam, options);
   ASSERT_EQ(pixels.seen.size(), 3u);
   EXPECT_EQ(pixels.seen[2], cv::Vec3b(7, 0, 2));  // red seed, green camera, blue frame
 }
 
 TEST_F(RunTest, EventsTellTheStory) {
-  prepare_run_folder(folder_, fakes::scenario());
+  fakes::prepare_folder(folder_);
   run([](Estimate& estimate) {
     close_loop(estimate);
     const double t = to_seconds(estimate.stamp);
@@ -195,11 +195,11 @@ TEST_F(RunTest, TheHashSeesEveryPixelAndEstimate) {
 }
 
 TEST_F(RunTest, AnInterruptedRunKeepsWhatItHas) {
-  prepare_run_folder(folder_, fakes::scenario());
+  fakes::prepare_folder(folder_);
   run();
   int asked = 0;
   stopped_ = [&] { return ++asked > 20; };
-  prepare_run_folder(folder_, fakes::scenario());
+  fakes::prepare_folder(folder_);
   const RunOutcome outcome = run();
   EXPECT_TRUE(outcome.interrupted);
   EXPECT_EQ(outcome.frames, 20);
@@ -208,7 +208,7 @@ TEST_F(RunTest, AnInterruptedRunKeepsWhatItHas) {
 }
 
 TEST_F(RunTest, ARunWithoutAnyPoseIsJudged) {
-  prepare_run_folder(folder_, fakes::scenario());
+  fakes::prepare_folder(folder_);
   const RunOutcome outcome = run([](Estimate& estimate) {
     estimate.T_map_body.reset();
     estimate.status = TrackingStatus::kInitializing;
@@ -221,7 +221,7 @@ TEST_F(RunTest, ARunWithoutAnyPoseIsJudged) {
 
 TEST_F(RunTest, AFolderBelowAFileIsAnError) {
   write_file_atomically(folder_, "a file");
-  EXPECT_THAT([&] { prepare_run_folder(folder_ / "run", fakes::scenario()); },
+  EXPECT_THAT([&] { fakes::prepare_folder(folder_ / "run"); },
               testing::ThrowsMessage<Error>(testing::AllOf(testing::HasSubstr("output folder"),
                                                            testing::HasSubstr("Not a directory"))));
 }
@@ -234,7 +234,7 @@ TEST_F(RunTest, ProgressOnATerminalIsOneLineElsewhereMany) {
     RunOptions options;
     options.progress = &out;
     options.terminal = terminal;
-    run_lockstep_and_judge(fakes::scenario(), source, slam, options);
+    run_lockstep_and_judge(fakes::trial(), source, slam, options);
     return out.str();
   };
   const std::string plain = progress(false);
@@ -253,4 +253,4 @@ TEST(MetricsTest, PercentilesLieBetweenNeighbours) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

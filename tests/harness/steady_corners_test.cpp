@@ -15,12 +15,12 @@
 
 #include "core/geometry/rig.h"
 #include "harness/benchmarks/render_benchmark.h"
-#include "harness/run_scenario.h"
+#include "harness/jobs/run_scenario.h"
 #include "sim/config_files.h"
 #include "sim/render/renderer.h"
 #include "slam/features/orb_extractor.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 const std::filesystem::path kSource = VINEBENCH_SOURCE_DIR;
@@ -41,29 +41,29 @@ struct Corners {
 
 class SteadyCornersTest : public testing::TestWithParam<const char*> {
  protected:
-  static Corners corners(const OrbExtractor& orb, Renderer& renderer, const PinholeCamera& camera,
-                         const Pose& T_world_cam) {
-    Renderer::Request request;
+  static Corners corners(const slam::OrbExtractor& orb, sim::Renderer& renderer,
+                         const PinholeCamera& camera, const Pose& T_world_cam) {
+    sim::Renderer::Request request;
     request.depth = true;
     const RenderedImage image = renderer.render(camera, T_world_cam, request);
     cv::Mat grey;
     cv::cvtColor(image.rgb, grey, cv::COLOR_RGB2GRAY);
     Corners found;
     found.depth = image.depth;
-    for (const Keypoint& keypoint : orb.extract(grey).features.keypoints) {
+    for (const slam::Keypoint& keypoint : orb.extract(grey).features.keypoints) {
       found.pixels.emplace_back(keypoint.x, keypoint.y);
     }
     return found;
   }
 
-  OrbExtractor selecting_{OrbConfig{}};
-  OrbExtractor finding_{OrbConfig{20000}};
+  slam::OrbExtractor selecting_{slam::OrbConfig{}};
+  slam::OrbExtractor finding_{slam::OrbConfig{20000}};
 };
 
 TEST_P(SteadyCornersTest, RepeatUnderAShiftOfAQuarterPixelNearAndFar) {
-  const WorldConfig world = load_world(kSource / "worlds" / GetParam());
+  const sim::WorldConfig world = sim::load_world(kSource / "worlds" / GetParam());
   const Rig rig = load_rig(kSource / "models" / "csl-rover" / "rig.yaml");
-  Renderer renderer(build_scene(world, 1, default_cache()), {});
+  sim::Renderer renderer(sim::build_scene(world, 1, default_cache()), {});
   int all = 0, again = 0, by_chance = 0;
   std::array<int, 3> at_depth{};  // below 1 m, 1 to 2 m, 2 to 10 m
   for (const Pose& T_world_body : aisle_route(world, 4)) {
@@ -99,4 +99,4 @@ INSTANTIATE_TEST_SUITE_P(Worlds, SteadyCornersTest,
                                          "typical-vineyard.yaml"));
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -9,28 +9,28 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/geometry/rig.h"
-#include "harness/run_scenario.h"
+#include "harness/jobs/run_scenario.h"
 #include "sim/config_files.h"
 #include "sim/render/renderer.h"
 #include "sim/world/world.h"
 #include "slam/tags/tag_detector.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 const std::filesystem::path kSource = VINEBENCH_SOURCE_DIR;
 
 class WorldImageTest : public testing::Test {
  protected:
-  WorldConfig world_ = load_world(kSource / "worlds" / "csl-vineyard.yaml");
+  sim::WorldConfig world_ = sim::load_world(kSource / "worlds" / "csl-vineyard.yaml");
   Rig rig_ = load_rig(kSource / "models" / "csl-rover" / "rig.yaml");
 };
 
 TEST_F(WorldImageTest, TheTagsCornersAreWhereTheSideCameraProjectsThem) {
-  Renderer renderer(build_scene(world_, 1, default_cache()), {});
+  sim::Renderer renderer(sim::build_scene(world_, 1, default_cache()), {});
   const RigCamera& side = rig_.cameras[static_cast<std::size_t>(rig_.tag_cameras.at(0))];
-  const WorldConfig::Tag& tag = world_.tags.at(0);
-  TagDetector detector({}, registered_tags(world_));
+  const sim::WorldConfig::Tag& tag = world_.tags.at(0);
+  slam::TagDetector detector({}, sim::registered_tags(world_));
   // The rover beside the tag; off to either side and turned, as it passes.
   const double h = tag.size / 2;
   const std::array<Eigen::Vector3d, 4> corners{
@@ -45,7 +45,7 @@ TEST_F(WorldImageTest, TheTagsCornersAreWhereTheSideCameraProjectsThem) {
     const std::vector<TagSighting> seen = detector.detect(grey, side.model, 4);
     ASSERT_EQ(seen.size(), 1u) << at.transpose();
     EXPECT_EQ(seen[0].id, 0);
-    const Pose T_cam_tag = T_world_cam.inverse() * tag_pose(tag);
+    const Pose T_cam_tag = T_world_cam.inverse() * sim::tag_pose(tag);
     double squares = 0;
     for (std::size_t c = 0; c < 4; ++c) {
       const double error = (seen[0].corners[c] - side.model.project(T_cam_tag * corners[c])).norm();
@@ -60,4 +60,4 @@ TEST_F(WorldImageTest, TheTagsCornersAreWhereTheSideCameraProjectsThem) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -12,7 +12,7 @@
 #include "sim/config_files.h"
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using testing::HasSubstr;
@@ -213,4 +213,4 @@ TEST_F(SimulationTest, UnknownCamerasAndNumbersThatAreNoneAreRefused) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -12,7 +12,7 @@
 #include "tests/support/synthetic_plane.h"
 #include "tests/support/synthetic_tag.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// The rover's arrangement with small images.
@@ -184,4 +184,4 @@ TEST_F(FrontEndTest, TellsTheTimeOfEachStage) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -14,7 +14,7 @@
 #include "tests/support/aisle_map.h"
 #include "tests/support/rigs.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using testing_support::AisleMap;
@@ -216,4 +216,4 @@ TEST_P(MotionAccuracyTest, OneWholeWrongViewIsOutvoted) {
 INSTANTIATE_TEST_SUITE_P(Pairs, MotionAccuracyTest, testing::Values(1, 2, 3));
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

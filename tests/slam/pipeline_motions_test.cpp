@@ -13,7 +13,7 @@
 #include "tests/support/aisle_map.h"
 #include "tests/support/rigs.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using testing_support::angle;
@@ -131,4 +131,4 @@ TEST(PipelineMotionsTest, DoesNotDriftInAMinuteOfRest) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -6,7 +6,7 @@
 
 #include "tests/support/synthetic_aisle.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using testing_support::SyntheticAisle;
@@ -337,4 +337,4 @@ TEST(PipelineTest, SameInputSameBits) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -9,7 +9,7 @@
 #include "tests/support/synthetic_texture.h"
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 // Two pairs look at two walls 1.5 m away (0.12 m of baseline at 200 px is 16 px) and move to their
@@ -163,4 +163,4 @@ TEST_F(SlamTest, TheCloudIsAPlyFile) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -15,14 +15,14 @@ namespace vinebench::testing_support {
 /// feature tied to its own.
 struct AisleMap {
   AisleMap(const SyntheticAisle& from, const std::vector<Pose>& poses)
-      : aisle(from), rig(from.rig, OrbConfig{}), map(OrbConfig{}.scale) {
+      : aisle(from), rig(from.rig, slam::OrbConfig{}), map(slam::OrbConfig{}.scale) {
     for (const Pose& pose : poses) {
       add(aisle.frame(static_cast<std::int64_t>(map.keyframes().size()), pose), pose);
     }
   }
 
   /// Adds a keyframe, ties what is known and makes landmarks of the rest. Returns its id.
-  int add(const std::shared_ptr<const FrameFeatures>& frame, const Pose& T_map_body) {
+  int add(const std::shared_ptr<const slam::FrameFeatures>& frame, const Pose& T_map_body) {
     const int id = map.add_keyframe(frame, T_map_body, associate(*frame));
     for (std::size_t v = 0; v < frame->views.size(); ++v) {
       const auto& descriptors = frame->views[v].features.descriptors;
@@ -38,8 +38,8 @@ struct AisleMap {
   }
 
   /// The true landmark of each feature, as far as the map has it.
-  Associations associate(const FrameFeatures& frame) const {
-    Associations associations = no_associations(frame);
+  slam::Associations associate(const slam::FrameFeatures& frame) const {
+    slam::Associations associations = slam::no_associations(frame);
     for (std::size_t v = 0; v < frame.views.size(); ++v) {
       for (std::size_t f = 0; f < associations[v].size(); ++f) {
         const auto found = landmark_of.find(aisle.point_of(frame.views[v].features.descriptors[f]));
@@ -50,8 +50,8 @@ struct AisleMap {
   }
 
   const SyntheticAisle& aisle;
-  EstimatorRig rig;
-  Map map;
+  slam::EstimatorRig rig;
+  slam::Map map;
   std::map<int, int> landmark_of;  ///< by point of the aisle
 };
 

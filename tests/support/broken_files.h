@@ -17,21 +17,21 @@
 namespace vinebench::test {
 
 /// A bent trunk with a few blades: two levels, two materials, an image of four by four.
-inline Asset small_plant() {
-  Asset asset;
-  asset.add(Texture{"leaf", cv::Mat(4, 4, CV_8UC4, cv::Scalar(40, 90, 30, 255)), true});
-  asset.add(make_material("leaf", Label::kLeaf, 0));
-  asset.add(make_material("bark", Label::kTrunk, -1));
+inline sim::Asset small_plant() {
+  sim::Asset asset;
+  asset.add(sim::Texture{"leaf", cv::Mat(4, 4, CV_8UC4, cv::Scalar(40, 90, 30, 255)), true});
+  asset.add(sim::make_material("leaf", Label::kLeaf, 0));
+  asset.add(sim::make_material("bark", Label::kTrunk, -1));
   asset.model.name = "plant";
   for (const int sides : {7, 4}) {
-    Primitive wood, blades;
+    sim::Primitive wood, blades;
     wood.material = 1;
-    MeshBuilder(wood).tube({{{0, 0, 0}, {0.02f, 0, 0.4f}, {0, 0, 0.8f}}, {0.03f, 0.02f, 0.02f}},
-                           sides, 1, true);
-    MeshBuilder builder(blades);
+    sim::MeshBuilder(wood).tube(
+        {{{0, 0, 0}, {0.02f, 0, 0.4f}, {0, 0, 0.8f}}, {0.03f, 0.02f, 0.02f}}, sides, 1, true);
+    sim::MeshBuilder builder(blades);
     for (int i = 0; i < 3; ++i) {
-      const auto axes = axes_along({0, static_cast<float>(i), 1}, Eigen::Vector3f::UnitX());
-      BladePlacement blade;
+      const auto axes = sim::axes_along({0, static_cast<float>(i), 1}, Eigen::Vector3f::UnitX());
+      sim::BladePlacement blade;
       blade.foot = {0.1f * static_cast<float>(i), 0, 0.7f};
       blade.axes = axes;
       blade.shading_normal = axes.z;
@@ -44,11 +44,11 @@ inline Asset small_plant() {
 }
 
 /// Puts the asset into a scene and looks whether all of it can be drawn.
-inline void expect_sound(const Asset& asset) {
-  Scene scene;
-  add_asset(scene, asset);
-  EXPECT_NO_THROW(check_scene(scene));
-  EXPECT_GT(triangle_count(asset.model.levels.at(0)), 0);
+inline void expect_sound(const sim::Asset& asset) {
+  sim::Scene scene;
+  sim::add_asset(scene, asset);
+  EXPECT_NO_THROW(sim::check_scene(scene));
+  EXPECT_GT(sim::triangle_count(asset.model.levels.at(0)), 0);
 }
 
 /// What is broken is either loaded whole or named.
@@ -57,8 +57,8 @@ class BrokenFiles : public testing::Test {
   /// The message for a file of that name and content, which it must name; empty where it loads.
   std::string message(const std::string& name, std::string_view content) const {
     const auto file = folder_.write(name, content);
-    std::optional<Asset> asset;
-    const std::string error = error_of([&] { asset = load_asset(file); });
+    std::optional<sim::Asset> asset;
+    const std::string error = error_of([&] { asset = sim::load_asset(file); });
     if (asset) {
       expect_sound(*asset);
     } else {

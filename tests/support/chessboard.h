@@ -19,7 +19,7 @@ struct Chessboard {
   static constexpr double kSquare = 0.05;  // m
 
   /// The board alone, in even light.
-  static Scene scene() {
+  static sim::Scene scene() {
     constexpr int kSide = 64;  // texels
     cv::Mat rgba(kRows * kSide, kColumns * kSide, CV_8UC4);
     for (int y = 0; y < rgba.rows; ++y) {
@@ -29,7 +29,7 @@ struct Chessboard {
             white ? cv::Vec4b(230, 230, 230, 255) : cv::Vec4b(20, 20, 20, 255);
       }
     }
-    Scene scene;
+    sim::Scene scene;
     const int material = add_material(scene, Label::kTag, Eigen::Vector3f::Ones(), rgba);
     add_instance(scene, add_model(scene, panel(material, kColumns * kSquare, kRows * kSquare)),
                  {0, 0, 0});

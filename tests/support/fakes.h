@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <numbers>
 
-#include "harness/experiment/scenario.h"
+#include "harness/judge/trial.h"
+#include "harness/report/run_folder.h"
 #include "harness/run/run_record.h"
 
 namespace vinebench::fakes {
@@ -111,18 +113,25 @@ inline Stamp seconds(double s) {
   return from_seconds(s);
 }
 
-/// A scenario for these fakes: one row, one tag of id 7 beside the start.
-inline ScenarioConfig scenario() {
-  ScenarioConfig scenario;
-  scenario.name = "fake";
-  WorldConfig& world = scenario.simulation.world;
-  world.rows = {{{-1, 1.5}, {1, 1.5}}};
-  world.tags.push_back({});
-  world.tags.back().id = 7;
-  world.tags.back().position = {1.3, 0, 0.5};
-  world.boxes.push_back({});
-  world.boxes.back().position = {-1.4, 0};
-  return scenario;
+/// A trial for these fakes: one row, one tag of id 7 beside the start.
+inline harness::Trial trial() {
+  harness::Trial trial;
+  trial.name = "fake";
+  trial.seed = 1;
+  trial.site.rows = {{{-1, 1.5}, {1, 1.5}}};
+  trial.site.vine_spacing = 1;
+  trial.site.tags = {
+      {"tag36h11", 7, 0.161, {from_roll_pitch_yaw({0, 0, -std::numbers::pi / 2}), {1.3, 0, 0.5}}}};
+  trial.site.objects = {{Label::kBox, {-1.4, 0}, {0.6, 0.4}}};
+  return trial;
+}
+
+/// Stands for the resolved scenario beside a run's results.
+inline constexpr const char* kSettings = "name: \"fake\"\n";
+
+/// A run folder for these fakes.
+inline void prepare_folder(const std::filesystem::path& folder) {
+  harness::prepare_run_folder(folder, "scenario.resolved.yaml", kSettings);
 }
 
 }  // namespace vinebench::fakes

@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "sim/truth/truth_images.h"
+#include "core/truth/truth_images.h"
 
 namespace vinebench::test {
 

@@ -105,9 +105,10 @@ inline fs::path write_euroc(const TestFolder& folder, int frames = 5) {
 }
 
 /// All samples of a recording.
-inline std::vector<Sample> play_all(const fs::path& folder, const RecordingOptions& options = {}) {
+inline std::vector<Sample> play_all(const fs::path& folder,
+                                    const harness::RecordingOptions& options = {}) {
   WorkerPool pool(2);
-  const auto source = play(open_recording(folder, options), pool);
+  const auto source = harness::play(harness::open_recording(folder, options), pool);
   std::vector<Sample> samples;
   while (auto sample = source->next()) samples.push_back(std::move(*sample));
   return samples;

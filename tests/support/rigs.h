@@ -10,8 +10,8 @@ namespace vinebench::testing_support {
 
 /// The rover's rig with its front pair, with its back pair too, or with a third one that is the
 /// front pair turned to the left.
-inline StereoRig rig_of_pairs(StereoRig rig, std::size_t pairs) {
-  RectifiedPair side = rig.pairs.front();
+inline slam::StereoRig rig_of_pairs(slam::StereoRig rig, std::size_t pairs) {
+  slam::RectifiedPair side = rig.pairs.front();
   const Pose turn{exp_so3({0, 0, std::numbers::pi / 2}), {0, 0, 0}};
   side.name = "third";
   side.T_body_cam = turn * side.T_body_cam;

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "harness/record.h"
+#include "harness/jobs/record.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::test {
@@ -48,16 +48,17 @@ duration: 0.34
     request_.options.threads = 2;
   }
 
-  RecordOutcome record(const std::vector<std::string>& formats, std::int64_t stop_after = -1) {
-    request_.options.formats = parse_formats(formats);
-    RecordWatch watch;
+  harness::RecordOutcome record(const std::vector<std::string>& formats,
+                                std::int64_t stop_after = -1) {
+    request_.options.formats = harness::parse_formats(formats);
+    harness::RecordWatch watch;
     std::int64_t asked = 0;
     if (stop_after >= 0) watch.stopped = [&asked, stop_after] { return asked++ >= stop_after; };
-    return record_dataset(request_, watch);
+    return harness::record_dataset(request_, watch);
   }
 
   TestFolder folder_;
-  RecordRequest request_;
+  harness::RecordRequest request_;
 };
 
 }  // namespace vinebench::test

@@ -23,13 +23,13 @@ class SyntheticAisle {
  public:
   SyntheticAisle(double noise_px, std::uint64_t seed, int landmarks = 6000)
       : noise_(noise_px), seed_(seed) {
-    rig = make_stereo_rig(load_rig(VINEBENCH_SOURCE_DIR "/models/csl-rover/rig.yaml"), {});
+    rig = slam::make_stereo_rig(load_rig(VINEBENCH_SOURCE_DIR "/models/csl-rover/rig.yaml"), {});
     RandomSequence random(RandomStream(seed, "aisle"));
     for (int i = 0; i < landmarks; ++i) {
       const double side = i % 2 == 0 ? 0.5 : -0.5;
       points_.emplace_back(random.uniform(-4, 8), side + random.uniform(-0.1, 0.1),
                            random.uniform(0.0, 1.4));
-      Descriptor descriptor;
+      slam::Descriptor descriptor;
       const RandomStream bits(seed, "descriptor", static_cast<std::uint64_t>(i));
       for (std::size_t w = 0; w < 4; ++w) descriptor[w] = bits.bits(w);
       descriptors_.push_back(descriptor);
@@ -38,30 +38,30 @@ class SyntheticAisle {
   }
 
   /// Which point a feature is of, and where that is in the world.
-  int point_of(const Descriptor& descriptor) const { return index_.at(descriptor); }
+  int point_of(const slam::Descriptor& descriptor) const { return index_.at(descriptor); }
   const Eigen::Vector3d& point(int index) const { return points_[static_cast<std::size_t>(index)]; }
 
   /// Pairs listed in `blind` see nothing.
-  std::shared_ptr<FrameFeatures> frame(std::int64_t index, const Pose& T_world_body,
-                                       const std::vector<std::size_t>& blind = {}) const {
-    auto features = std::make_shared<FrameFeatures>();
+  std::shared_ptr<slam::FrameFeatures> frame(std::int64_t index, const Pose& T_world_body,
+                                             const std::vector<std::size_t>& blind = {}) const {
+    auto features = std::make_shared<slam::FrameFeatures>();
     features->index = index;
     features->stamp = stamp_of_frame(index, 15);
     features->views.resize(rig.pairs.size());
     for (std::size_t v = 0; v < rig.pairs.size(); ++v) {
       const bool sees = std::find(blind.begin(), blind.end(), v) == blind.end();
       if (sees) fill(*features, v, T_world_body);
-      StereoView& view = features->views[v];
-      view.grid =
-          FeatureGrid(view.features.keypoints, rig.pairs[v].lens.width, rig.pairs[v].lens.height);
+      slam::StereoView& view = features->views[v];
+      view.grid = slam::FeatureGrid(view.features.keypoints, rig.pairs[v].lens.width,
+                                    rig.pairs[v].lens.height);
     }
     return features;
   }
 
   /// The same with a tag in the side camera's view.
-  std::shared_ptr<FrameFeatures> frame_with_tag(std::int64_t index, const Pose& T_world_body,
-                                                const Pose& T_world_tag) const {
-    auto features = std::make_shared<FrameFeatures>(*frame(index, T_world_body));
+  std::shared_ptr<slam::FrameFeatures> frame_with_tag(std::int64_t index, const Pose& T_world_body,
+                                                      const Pose& T_world_tag) const {
+    auto features = std::make_shared<slam::FrameFeatures>(*frame(index, T_world_body));
     const int camera = rig.tag_cameras.front();
     const RigCamera& side = rig.cameras[static_cast<std::size_t>(camera)];
     TagSighting sighting;
@@ -78,15 +78,15 @@ class SyntheticAisle {
     return features;
   }
 
-  StereoRig rig;
+  slam::StereoRig rig;
 
  private:
-  void fill(FrameFeatures& features, std::size_t v, const Pose& T_world_body) const {
-    const RectifiedPair& camera = rig.pairs[v];
+  void fill(slam::FrameFeatures& features, std::size_t v, const Pose& T_world_body) const {
+    const slam::RectifiedPair& camera = rig.pairs[v];
     const Pose T_cam_world = camera.T_cam_body * T_world_body.inverse();
     const RandomStream draw(seed_, "noise" + std::to_string(v),
                             static_cast<std::uint64_t>(features.index));
-    StereoView& view = features.views[v];
+    slam::StereoView& view = features.views[v];
     for (std::size_t i = 0; i < points_.size() && view.features.size() < 1000; ++i) {
       const Eigen::Vector3d p = T_cam_world * points_[i];
       if (p.z() < 0.15 || p.z() > 4.8) continue;
@@ -95,13 +95,13 @@ class SyntheticAisle {
       const int level =
           std::clamp(static_cast<int>(std::lround(std::log(2.0 / p.norm()) / std::log(1.2))), 0, 7);
       const double sigma = noise_ * std::pow(1.2, level);
-      Keypoint keypoint;
+      slam::Keypoint keypoint;
       keypoint.x = static_cast<float>(pixel.x() + sigma * draw.normal(3 * i));
       keypoint.y = static_cast<float>(pixel.y() + sigma * draw.normal(3 * i + 1));
       keypoint.level = level;
       const double disparity =
           camera.lens.fx * camera.baseline / p.z() + 0.5 * sigma * draw.normal(3 * i + 2);
-      StereoMatch match;
+      slam::StereoMatch match;
       match.x_right = static_cast<float>(keypoint.x - disparity);
       match.depth = static_cast<float>(camera.lens.fx * camera.baseline / disparity);
       view.features.keypoints.push_back(keypoint);
@@ -113,8 +113,8 @@ class SyntheticAisle {
   double noise_;
   std::uint64_t seed_;
   std::vector<Eigen::Vector3d> points_;
-  std::vector<Descriptor> descriptors_;
-  std::map<Descriptor, int> index_;
+  std::vector<slam::Descriptor> descriptors_;
+  std::map<slam::Descriptor, int> index_;
 };
 
 }  // namespace vinebench::testing_support

@@ -29,7 +29,7 @@ inline std::array<Eigen::Vector3d, 4> tag_corners(double size) {
 }
 
 /// Detector with refined edges on the whole, undecimated image (CV_8UC1).
-inline std::vector<ReadTag> read_tags(const cv::Mat& grey, const TagFamily& family) {
+inline std::vector<ReadTag> read_tags(const cv::Mat& grey, const sim::TagFamily& family) {
   const std::unique_ptr<apriltag_detector_t, void (*)(apriltag_detector_t*)> detector(
       apriltag_detector_create(), apriltag_detector_destroy);
   apriltag_detector_add_family(detector.get(), const_cast<apriltag_family_t*>(family.get()));

@@ -32,9 +32,9 @@ inline Pose look_at(const Eigen::Vector3d& camera, const Eigen::Vector3d& target
   return {Eigen::Quaterniond(R_world_cam * about_axis), camera};
 }
 
-inline int add_material(Scene& scene, Label label, const Eigen::Vector3f& colour,
+inline int add_material(sim::Scene& scene, Label label, const Eigen::Vector3f& colour,
                         const cv::Mat& rgba = {}) {
-  Material material;
+  sim::Material material;
   material.name = "material " + std::to_string(scene.materials.size());
   material.label = label;
   material.colour = colour;
@@ -48,11 +48,11 @@ inline int add_material(Scene& scene, Label label, const Eigen::Vector3f& colour
 
 /// A rectangle of the plane y = 0 around the origin that faces -y, as a sheet of paper held before
 /// a camera that looks along +y: the image's top left is at (-width / 2, 0, height / 2).
-inline Primitive panel(int material, double width, double height) {
+inline sim::Primitive panel(int material, double width, double height) {
   const auto w = static_cast<float>(width / 2);
   const auto h = static_cast<float>(height / 2);
   const Eigen::Vector3f normal = -Eigen::Vector3f::UnitY();
-  Primitive p;
+  sim::Primitive p;
   p.material = material;
   p.vertices = {{{-w, 0, h}, normal, {0, 0}, 1},
                 {{-w, 0, -h}, normal, {0, 1}, 1},
@@ -62,15 +62,15 @@ inline Primitive panel(int material, double width, double height) {
   return p;
 }
 
-inline int add_model(Scene& scene, const Primitive& primitive) {
-  Model model;
+inline int add_model(sim::Scene& scene, const sim::Primitive& primitive) {
+  sim::Model model;
   model.levels.push_back({1e9, {primitive}});
-  for (const Vertex& vertex : primitive.vertices) model.bounds.extend(vertex.position);
+  for (const sim::Vertex& vertex : primitive.vertices) model.bounds.extend(vertex.position);
   scene.models.push_back(model);
   return static_cast<int>(scene.models.size()) - 1;
 }
 
-inline void add_instance(Scene& scene, int model, const Eigen::Vector3d& position) {
+inline void add_instance(sim::Scene& scene, int model, const Eigen::Vector3d& position) {
   scene.instances.push_back({model,
                              {Eigen::Quaterniond::Identity(), position},
                              1.0f,
@@ -78,7 +78,7 @@ inline void add_instance(Scene& scene, int model, const Eigen::Vector3d& positio
 }
 
 /// Even light from everywhere, so that colours are what the textures say.
-inline void light_evenly(Scene& scene) {
+inline void light_evenly(sim::Scene& scene) {
   scene.light.sun.setZero();
   scene.light.sky.setOnes();
   scene.light.bounce.setOnes();

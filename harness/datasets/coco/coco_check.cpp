@@ -14,7 +14,7 @@
 #include "core/util/files.h"
 #include "harness/datasets/labels/mask_rle.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -154,4 +154,4 @@ std::vector<DatasetFault> check_coco(const fs::path& folder) {
   return Checker(folder).run();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

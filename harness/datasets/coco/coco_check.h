@@ -7,7 +7,7 @@
 
 #include "harness/datasets/dataset_check.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Reads a COCO folder of ours strictly: ids are unique and known, images are there, every mask
 /// decompresses to its image's size, and its area and box are the annotation's; in the first
@@ -15,4 +15,4 @@ namespace vinebench {
 /// Throws Error for files that are no JSON.
 std::vector<DatasetFault> check_coco(const std::filesystem::path& folder);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

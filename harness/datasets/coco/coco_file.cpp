@@ -14,7 +14,7 @@
 #include "core/util/error.h"
 #include "vinebench/version.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -160,4 +160,4 @@ void merge_coco(const fs::path& folder, const std::vector<std::string>& parts,
              lists_of(folder, parts, "panoptic.json", "annotations", "panoptic/"));
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -9,7 +9,7 @@
 
 #include "harness/datasets/labels/label_table.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 // COCO's two files, instances.json and panoptic.json. They may be larger than memory: every item
 // of their lists has a line of its own, and lines are copied.
@@ -24,4 +24,4 @@ void write_coco_from_lists(const std::filesystem::path& folder,
 void merge_coco(const std::filesystem::path& folder, const std::vector<std::string>& parts,
                 const std::set<Category>& categories);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

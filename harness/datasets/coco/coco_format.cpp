@@ -12,7 +12,7 @@
 #include "harness/datasets/coco/coco_file.h"
 #include "harness/datasets/labels/label_formats.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -154,4 +154,4 @@ void CocoFormat::finish() {
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -9,7 +9,7 @@
 #include "harness/datasets/format/dataset_format.h"
 #include "harness/datasets/labels/image_labels.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 struct CocoOptions {
   ImageKind kind = ImageKind::kPng;
@@ -56,4 +56,4 @@ std::int64_t coco_image_id(const CocoOptions& options, std::int64_t frame, std::
 /// Ids of images of one sequence stay below this; the next one's begin there.
 inline constexpr std::int64_t kCocoImagesPerSequence = 10'000'000;
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -12,7 +12,7 @@
 #include "harness/datasets/format/slam_settings.h"
 #include "harness/datasets/format/tags_in_view.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -107,12 +107,11 @@ std::vector<FileTask> DcvslamFormat::files(const std::shared_ptr<const DatasetFr
   std::vector<FileTask> tasks;
   for (std::size_t pair = 0; pair < pairs_of(rig_); ++pair) {
     const std::array cameras{rig_.stereo_pairs[pair].left, rig_.stereo_pairs[pair].right};
-    for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
-      const auto camera = static_cast<std::size_t>(cameras[camera]);
+    for (std::size_t side = 0; side < cameras.size(); ++side) {
+      const auto camera = static_cast<std::size_t>(cameras[side]);
       if (frame->frame.images[camera].empty()) continue;
-      tasks.push_back(
-          camera_image(frame, camera, colour_,
-                       folder_ / kFolders[pair][camera] / numbered(frame->number, "png")));
+      tasks.push_back(camera_image(
+          frame, camera, colour_, folder_ / kFolders[pair][side] / numbered(frame->number, "png")));
     }
   }
   return tasks;
@@ -137,4 +136,4 @@ void DcvslamFormat::append_tags(const DatasetFrame& frame) {
   tags_.append(rows);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -5,7 +5,7 @@
 #include "harness/datasets/files/append_file.h"
 #include "harness/datasets/format/dataset_format.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// What DC-VSLAM reads without ROS (its programs SingleCam and DualCam, run in this folder):
 /// config.yaml, the images of the first pair in left and right, of a second one in leftBack and
@@ -29,4 +29,4 @@ class DcvslamFormat : public DatasetFormat {
   AppendFile tags_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

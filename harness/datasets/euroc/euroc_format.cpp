@@ -10,7 +10,7 @@
 #include "harness/datasets/format/slam_settings.h"
 #include "harness/datasets/format/tag_list.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,7 +86,7 @@ void EurocFormat::describe(const fs::path& folder, const RecordingNotes& notes) 
   write_file_atomically(folder / "rig.yaml", format_yaml(notes.rig));
   write_file_atomically(folder / "tags.yaml", format_tags(notes.tags));
   write_file_atomically(folder / "slam.yaml", format_yaml(notes.slam));
-  write_file_atomically(mav_ / "body.yaml", fmt::format("comment: {}\n", notes.comment));
+  write_file_atomically(mav_ / "body.yaml", fmt::format("comment: {}\n", notes.scenario));
   write_file_atomically(mav_ / "imu0/sensor.yaml", describe_imu(notes));
   write_file_atomically(
       mav_ / "state_groundtruth_estimate0/sensor.yaml",
@@ -168,4 +168,4 @@ void EurocFormat::append_truth(const StampedPose& at, const StampedPose& from,
                             p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), v.x(), v.y(), v.z()));
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

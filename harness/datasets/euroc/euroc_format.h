@@ -9,7 +9,7 @@
 #include "harness/datasets/files/append_file.h"
 #include "harness/datasets/format/dataset_format.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// EuRoC/ASL: mav0 with cam0, cam1, … in the order of the rig (grey or RGB, PNG), imu0, wheels0,
 /// state_groundtruth_estimate0; beside mav0 times.txt (ns of the frames that both cameras of the
@@ -42,4 +42,4 @@ class EurocFormat : public DatasetFormat {
   std::deque<StampedPose> poses_;  ///< the last two
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -9,7 +9,7 @@
 #include "harness/datasets/reading/dataset_readers.h"
 #include "harness/datasets/reading/image_association.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -201,4 +201,4 @@ Recording read_euroc(const fs::path& named, const RecordingOptions& options) {
   return recording;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

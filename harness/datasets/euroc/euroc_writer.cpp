@@ -5,7 +5,7 @@
 #include "harness/datasets/euroc/euroc_format.h"
 #include "harness/datasets/format/dataset_folder.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr int kThreads = 1;
@@ -30,4 +30,4 @@ void EurocWriter::on_finish(const SlamSummary&) {
   encoder_.finish();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

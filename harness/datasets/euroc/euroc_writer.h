@@ -8,7 +8,7 @@
 #include "harness/datasets/format/recording_notes.h"
 #include "harness/run/sink.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Writes a run as one EurocFormat, without a data set's card around it. A replay of it gives the
 /// run's estimate to the bit. A frame is in the lists once its images are whole, so that an
@@ -26,4 +26,4 @@ class EurocWriter : public Sink {
   DatasetEncoder encoder_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

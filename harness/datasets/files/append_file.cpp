@@ -8,7 +8,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 AppendFile::AppendFile(std::filesystem::path file)
     : file_(std::move(file)), out_(file_, std::ios::binary | std::ios::trunc) {
@@ -27,4 +27,4 @@ void AppendFile::append(std::string_view part) {
   size_ += part.size();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string_view>
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// A text file that grows by whole parts: what was appended is on its way to the disk at once, and
 /// a part that does not fit is taken back. Throws Error with the system's reason.
@@ -22,4 +22,4 @@ class AppendFile {
   std::uintmax_t size_ = 0;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

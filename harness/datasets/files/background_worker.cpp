@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace vinebench {
+namespace vinebench::harness {
 
 BackgroundWorker::BackgroundWorker(std::size_t capacity)
     : capacity_(capacity), thread_([this] { work(); }) {}
@@ -61,4 +61,4 @@ void BackgroundWorker::work() {
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -9,7 +9,7 @@
 #include <mutex>
 #include <thread>
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// One thread that does jobs in their order, beside the caller. At most `capacity` wait; the caller
 /// of one more waits too, so that memory is bounded.
@@ -40,4 +40,4 @@ class BackgroundWorker {
   std::thread thread_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -16,7 +16,7 @@
 #include "core/util/error.h"
 #include "core/util/files.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -110,4 +110,4 @@ std::vector<ListedFile> read_manifest(const fs::path& file) {
   return files;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -11,7 +11,7 @@
 
 #include "harness/datasets/files/append_file.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// XXH3 of 128 bits as 32 digits, as `xxhsum -H128` prints it.
 std::string xxh128(std::string_view bytes);
@@ -55,4 +55,4 @@ std::vector<ListedFile> read_manifest(const std::filesystem::path& file);
 /// All files below a folder, relative to it, by name.
 std::vector<std::string> files_below(const std::filesystem::path& folder);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

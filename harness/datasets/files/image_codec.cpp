@@ -13,7 +13,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, ".npy and .flo are little-endian here");
@@ -98,4 +98,4 @@ std::string encode_flo(const cv::Mat& flow) {
   return bytes;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -8,7 +8,7 @@
 
 #include "harness/datasets/files/png_writer.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// How images for people and networks are stored. Labels are always PNG.
 enum class ImageKind { kPng, kJpeg, kWebp };
@@ -29,4 +29,4 @@ std::string encode_npy(const cv::Mat& image);
 /// Middlebury's .flo of a flow (CV_32FC2, px; 1e10 for NaN).
 std::string encode_flo(const cv::Mat& flow);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -15,7 +15,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr int kLevel = 1;               // libdeflate's fastest that compresses
@@ -107,4 +107,4 @@ std::string encode_png(const cv::Mat& image) {
   return bytes;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

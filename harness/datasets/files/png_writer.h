@@ -5,7 +5,7 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// The bytes of a PNG: 8 or 16 bits a channel, one channel (grey) or three (RGB, not BGR). Every
 /// row is filtered by its left neighbours ("Sub") and all is compressed at libdeflate's fastest
@@ -13,4 +13,4 @@ namespace vinebench {
 /// Throws Error for other images.
 std::string encode_png(const cv::Mat& image);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -10,7 +10,7 @@
 #include "core/util/error.h"
 #include "core/util/files.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr const char* kBlank = " \t\r";
@@ -85,4 +85,4 @@ std::vector<TableRow> read_table(const std::filesystem::path& file) {
   return rows;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -8,7 +8,7 @@
 
 #include "core/time.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// One line of a text file of columns, with what it takes to say where a fault is.
 struct TableRow {
@@ -33,4 +33,4 @@ std::vector<TableRow> read_table(const std::filesystem::path& file);
 /// Whether the text is a finite number, all of it.
 bool is_number(const std::string& text);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

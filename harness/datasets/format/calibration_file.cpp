@@ -8,7 +8,7 @@
 #include "core/config/yaml_writer.h"
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 struct CalibrationConfig {
@@ -81,4 +81,4 @@ Rig read_calibration(const std::filesystem::path& file) {
   return rig;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

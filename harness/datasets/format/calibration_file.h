@@ -8,7 +8,7 @@
 
 #include "core/geometry/rig.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Cameras as they truly are, which labels agree with: `cameras`, a list of name, size, intrinsics,
 /// position (m) and rotation (qx qy qz qw) in the body, and `stereo_pairs` as in a rig. Reading
@@ -18,4 +18,4 @@ std::string format_calibration(const Rig& rig);
 /// Throws Error that names file, line and key.
 Rig read_calibration(const std::filesystem::path& file);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

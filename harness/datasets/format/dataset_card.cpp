@@ -8,7 +8,7 @@
 #include "core/config/yaml_writer.h"
 #include "core/util/files.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 DatasetCard read_card(const std::filesystem::path& folder) {
   return YamlDocument::load(folder / DatasetCard::kName).read<DatasetCard>();
@@ -23,4 +23,4 @@ bool has_card(const std::filesystem::path& folder) {
   return std::filesystem::is_regular_file(folder / DatasetCard::kName, ignored);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

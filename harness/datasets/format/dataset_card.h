@@ -9,7 +9,7 @@
 
 #include "core/config/config_field.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// What dataset.yaml says of a data set: of one sequence, or of a folder of several.
 struct DatasetCard {
@@ -64,4 +64,4 @@ void write_card(const std::filesystem::path& folder, const DatasetCard& card);
 
 bool has_card(const std::filesystem::path& folder);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

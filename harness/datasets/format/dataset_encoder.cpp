@@ -10,7 +10,7 @@
 
 #include "core/util/files.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -100,4 +100,4 @@ void DatasetEncoder::finish() {
   for (const auto& format : formats_) format->finish();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -15,7 +15,7 @@
 #include "harness/datasets/files/file_manifest.h"
 #include "harness/datasets/format/dataset_format.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Writes frames in several formats side by side, beside the loop that makes them: the files of a
 /// frame on a few threads, then the formats' lists, frame after frame. Few frames wait, so that
@@ -55,4 +55,4 @@ class DatasetEncoder {
 /// The images of a frame in memory of their own: a source may use its own for the next frame.
 DatasetFrame own_frame(const Sample& sample, std::int64_t number);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

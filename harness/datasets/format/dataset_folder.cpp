@@ -12,7 +12,7 @@
 #include "core/util/error.h"
 #include "harness/datasets/format/dataset_format.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 std::filesystem::path claim_folder(const std::filesystem::path& folder) {
   make_folder(folder);
@@ -40,4 +40,4 @@ void clear_folder(const std::filesystem::path& folder) {
   if (error) fail("recording {}: cannot be cleared: {}", folder.string(), error.message());
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Makes a folder that is ours alone to fill, and returns it. Throws Error for one that cannot be
 /// made, cannot be written to, or has something in it.
@@ -13,4 +13,4 @@ std::filesystem::path claim_folder(const std::filesystem::path& folder);
 /// Removes what is in a folder, and leaves the folder. Throws Error.
 void clear_folder(const std::filesystem::path& folder);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

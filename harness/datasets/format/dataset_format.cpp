@@ -10,7 +10,7 @@
 #include "core/util/error.h"
 #include "harness/datasets/files/image_codec.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 std::string numbered(std::int64_t number, const std::string& ending) {
   return fmt::format("{:06}.{}", number, ending);
@@ -32,4 +32,4 @@ std::filesystem::path make_folder(const std::filesystem::path& folder) {
   return folder;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "core/truth/frame_source.h"
 #include "harness/datasets/format/recording_notes.h"
-#include "sim/simulation.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// One frame on its way to the disk. Cameras are those of the data set, in its order.
 struct DatasetFrame {
@@ -52,4 +52,4 @@ FileTask camera_image(const std::shared_ptr<const DatasetFrame>& frame, std::siz
 /// Makes a folder and those above it. Throws Error with the system's reason.
 std::filesystem::path make_folder(const std::filesystem::path& folder);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -10,7 +10,7 @@
 #include "core/util/error.h"
 #include "harness/datasets/ros/rosbag/ros_bag.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 /// A whole number without sign and nothing else; -1 for other text.
@@ -110,4 +110,4 @@ std::pair<std::int64_t, std::int64_t> parse_span(const std::string& text, const 
   return {first, last};
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "core/truth/frame_source.h"
 #include "harness/datasets/files/image_codec.h"
 #include "harness/datasets/labels/label_table.h"
-#include "sim/simulation.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// In what form a run is recorded; docs/datasets.md says what each is and who reads it.
 enum class RecordFormat {
@@ -75,4 +75,4 @@ std::set<Category> parse_categories(const std::vector<std::string>& names);
 /// "3..12" or "3": first and last. `what` names the option in the error.
 std::pair<std::int64_t, std::int64_t> parse_span(const std::string& text, const std::string& what);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -6,25 +6,9 @@
 
 #include <algorithm>
 
-#include "core/config/yaml.h"
 #include "core/util/error.h"
 
-namespace vinebench {
-
-RecordingNotes notes_of(const ScenarioConfig& scenario) {
-  RecordingNotes notes;
-  notes.rig = YamlDocument::load(scenario.simulation.rover.rig).read<RigConfig>();
-  notes.tags = registered_tags(scenario.simulation.world);
-  notes.slam = scenario.slam;
-  notes.imu_rate_hz = scenario.simulation.rover.imu_rate_hz;
-  notes.imu = scenario.simulation.sensors.inertial;
-  notes.comment = scenario.name;
-  notes.world_tags = scenario.simulation.world.tags;
-  notes.true_cameras = true_rig(notes.rig.make(), scenario.simulation.sensors.calibration,
-                                static_cast<std::uint64_t>(scenario.seed))
-                           .cameras;
-  return notes;
-}
+namespace vinebench::harness {
 
 RecordingNotes with_cameras(RecordingNotes notes, const std::vector<std::string>& names) {
   if (names.empty()) return notes;
@@ -47,4 +31,4 @@ RecordingNotes with_cameras(RecordingNotes notes, const std::vector<std::string>
   return notes;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

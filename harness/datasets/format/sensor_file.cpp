@@ -10,7 +10,7 @@
 #include "core/util/error.h"
 #include "core/util/files.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 /// Some writers begin with OpenCV's "%YAML:1.0", which is no YAML.
@@ -110,4 +110,4 @@ std::optional<double> SensorFile::rate_hz() const {
   return rate;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

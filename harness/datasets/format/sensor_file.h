@@ -12,7 +12,7 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// A sensor.yaml of an EuRoC/ASL folder. Other people's files have keys that are none of our
 /// business, so unknown ones are let pass; what is read is checked. Throws Error with file and
@@ -35,4 +35,4 @@ class SensorFile {
   YAML::Node root_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

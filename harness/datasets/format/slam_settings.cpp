@@ -10,7 +10,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr double kFarthest = 40;      // baselines, beyond which a depth does not count
@@ -262,4 +262,4 @@ std::vector<SettingsFile> slam_settings(const RecordingNotes& notes) {
   return files;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -7,7 +7,7 @@
 
 #include "harness/datasets/format/recording_notes.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 struct SettingsFile {
   std::string name;
@@ -24,4 +24,4 @@ std::vector<SettingsFile> slam_settings(const RecordingNotes& notes);
 /// equal fx, fy and cy: to 1e-6 rad and 1e-9 px.
 bool is_rectified(const Rig& rig, const StereoPair& pair);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

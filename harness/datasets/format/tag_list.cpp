@@ -7,7 +7,7 @@
 #include "core/config/yaml.h"
 #include "core/config/yaml_writer.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 struct TagListConfig {
@@ -55,4 +55,4 @@ std::vector<RegisteredTag> read_tags(const std::filesystem::path& file) {
   return tags;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

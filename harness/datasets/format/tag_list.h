@@ -8,7 +8,7 @@
 
 #include "core/slam_system.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Registered tags as a recording keeps them: `tags`, a list of family, id, size (m), position (m)
 /// and rotation (qx qy qz qw) in the world. Reading what was written gives the same bits.
@@ -17,4 +17,4 @@ std::string format_tags(const std::vector<RegisteredTag>& tags);
 /// Throws Error that names file, line and key.
 std::vector<RegisteredTag> read_tags(const std::filesystem::path& file);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

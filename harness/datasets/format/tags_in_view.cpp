@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 std::array<Eigen::Vector2d, 4> corners_of(const PinholeCamera& camera, const Pose& T_cam_tag,
@@ -22,12 +22,12 @@ std::vector<TagInView> tags_in_view(const DatasetFrame& frame, const RecordingNo
   std::vector<TagInView> found;
   const Rig rig = notes.rig.make();
   for (const int index : frame.truth.visible_tags) {
-    const WorldConfig::Tag& tag = notes.world_tags.at(static_cast<std::size_t>(index));
+    const WorldTag& tag = notes.world_tags.at(static_cast<std::size_t>(index));
     for (const int number : rig.tag_cameras) {
       const auto camera = static_cast<std::size_t>(number);
       const RigCamera& mounted = notes.true_cameras.at(camera);
       const Pose T_cam_tag =
-          (frame.truth.T_world_body * mounted.T_body_cam).inverse() * tag_pose(tag);
+          (frame.truth.T_world_body * mounted.T_body_cam).inverse() * tag.T_world_tag;
       if (T_cam_tag.translation.z() <= 0) continue;
       const auto corners = corners_of(mounted.model, T_cam_tag, tag.size);
       const auto inside = [&](const Eigen::Vector2d& c) { return mounted.model.contains(c); };
@@ -37,4 +37,4 @@ std::vector<TagInView> tags_in_view(const DatasetFrame& frame, const RecordingNo
   return found;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -7,12 +7,12 @@
 
 #include "harness/datasets/format/dataset_format.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// A tag that is wholly in a tag camera's image, as it truly is.
 struct TagInView {
   std::size_t camera = 0;  ///< of the data set
-  WorldConfig::Tag tag;
+  WorldTag tag;
   Pose T_cam_tag;
   /// Bottom left first, then anticlockwise on the printed face, px.
   std::array<Eigen::Vector2d, 4> corners;
@@ -21,4 +21,4 @@ struct TagInView {
 /// What Truth::visible_tags says, by camera.
 std::vector<TagInView> tags_in_view(const DatasetFrame& frame, const RecordingNotes& notes);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -9,7 +9,7 @@
 #include "core/util/files.h"
 #include "harness/datasets/format/slam_settings.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -89,4 +89,4 @@ void KittiFormat::commit(const DatasetFrame& frame) {
   poses_.append(twelve(T_first_left.matrix().topRows<3>()) + "\n");
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -7,7 +7,7 @@
 #include "harness/datasets/files/append_file.h"
 #include "harness/datasets/format/dataset_format.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// KITTI odometry of the first pair: image_0 and image_1 (grey), with colour image_2 and image_3
 /// too, calib.txt (P0 to P3), times.txt (s), poses.txt (the left camera against its first place);
@@ -30,4 +30,4 @@ class KittiFormat : public DatasetFormat {
   std::optional<Pose> T_world_first_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

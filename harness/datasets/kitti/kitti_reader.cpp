@@ -9,7 +9,7 @@
 #include "harness/datasets/reading/dataset_readers.h"
 #include "harness/datasets/reading/recorded_images.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -233,4 +233,4 @@ Recording read_kitti(const fs::path& folder, const RecordingOptions& options) {
   return recording;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

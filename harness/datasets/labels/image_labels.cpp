@@ -10,7 +10,7 @@
 
 #include "harness/datasets/labels/label_formats.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr double kNearest = 0.03;  // m before the camera; nearer points are not in the image
@@ -144,4 +144,4 @@ ImageLabels label_things(const TruthView& view, const SceneIndex& scene) {
   return labels;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -6,12 +6,12 @@
 #include <optional>
 #include <vector>
 
+#include "core/truth/scene_index.h"
+#include "core/truth/truth_images.h"
 #include "harness/datasets/labels/label_table.h"
 #include "harness/datasets/labels/mask_rle.h"
-#include "sim/scene/scene_index.h"
-#include "sim/truth/truth_images.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// One thing of an image, or what of a category a plant has there.
 struct ThingLabel {
@@ -43,4 +43,4 @@ struct ImageLabels {
 /// and of the others the share whose pixel shows the thing. In wind they are those of still air.
 ImageLabels label_things(const TruthView& view, const SceneIndex& scene);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

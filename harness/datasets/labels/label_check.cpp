@@ -9,12 +9,12 @@
 #include <opencv2/imgcodecs.hpp>
 #include <system_error>
 
+#include "core/truth/labels.h"
 #include "harness/datasets/coco/coco_check.h"
 #include "harness/datasets/format/calibration_file.h"
 #include "harness/datasets/format/dataset_format.h"
-#include "sim/scene/scene.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -210,4 +210,4 @@ LabelCheck check_labels(const fs::path& sequence, const std::vector<RecordedPose
   return Checker(sequence, frames).run();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -9,7 +9,7 @@
 #include "core/time.h"
 #include "harness/datasets/dataset_check.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// A line of frames.csv.
 struct RecordedPose {
@@ -34,4 +34,4 @@ struct LabelCheck {
 LabelCheck check_labels(const std::filesystem::path& sequence,
                         const std::vector<RecordedPose>& frames);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

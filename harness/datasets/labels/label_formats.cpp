@@ -6,14 +6,14 @@
 
 #include <cmath>
 
+#include "core/truth/rover_flow.h"
 #include "core/util/error.h"
 #include "core/util/files.h"
 #include "harness/datasets/format/slam_settings.h"
 #include "harness/datasets/labels/label_table.h"
 #include "harness/datasets/labels/truth_colours.h"
-#include "sim/rover/rover_flow.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -308,4 +308,4 @@ std::vector<FileTask> InstanceFormat::files(const std::shared_ptr<const DatasetF
   return tasks;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -9,7 +9,7 @@
 #include "harness/datasets/files/image_codec.h"
 #include "harness/datasets/format/dataset_format.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 // Images a camera: FOLDER/<camera>/000012.png and so on. Docs: docs/datasets.md.
 
@@ -118,4 +118,4 @@ cv::Mat id_colours(const cv::Mat& ids);
 /// The id that a number of RenderedImage::instances has in images. Throws Error above 2^24 - 1.
 std::int32_t instance_id(const SceneIndex& scene, std::int32_t number);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 struct Entry {
@@ -63,4 +63,4 @@ Category category_of(Label label) {
   return entries().at(static_cast<std::size_t>(label)).category;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -7,9 +7,9 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
-#include "sim/scene/scene.h"
+#include "core/truth/labels.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 inline constexpr std::size_t kLabels = 13;
 
@@ -54,4 +54,4 @@ inline bool is_thing(Category category) {
   return category < Category::kWire;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

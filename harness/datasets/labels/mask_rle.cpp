@@ -6,7 +6,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr int kGroupBits = 5;
@@ -119,4 +119,4 @@ cv::Mat mask_of(const Runs& runs, const cv::Size& size) {
   return mask;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

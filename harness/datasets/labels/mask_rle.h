@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Pixels of a mask in a row, counted down the columns of an image, left column first.
 struct Run {
@@ -37,4 +37,4 @@ Runs decompress(const std::string& text, std::int64_t pixels);
 /// The mask as an image, CV_8UC1 of 255 and 0.
 cv::Mat mask_of(const Runs& runs, const cv::Size& size);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

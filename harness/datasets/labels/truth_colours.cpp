@@ -13,9 +13,9 @@
 #include "core/util/files.h"
 #include "core/util/random.h"
 #include "harness/datasets/files/image_codec.h"
-#include "harness/snapshot.h"
+#include "harness/jobs/snapshot.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 bool is_known(const cv::Vec2f& flow) {
@@ -110,4 +110,4 @@ cv::Mat kitti_disparity(const cv::Mat& disparity) {
   return codes;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

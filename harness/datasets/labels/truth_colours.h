@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// The colour of one of RenderedImage::instances' numbers, RGB: black for none, else not dark.
 cv::Vec3b instance_colour(std::int32_t number);
@@ -30,4 +30,4 @@ void write_flow(const std::filesystem::path& file, const cv::Mat& flow);
 /// Disparity (CV_32FC1, px) as KITTI stores it: CV_16UC1 of 1/256 px, 0 for none.
 cv::Mat kitti_disparity(const cv::Mat& disparity);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

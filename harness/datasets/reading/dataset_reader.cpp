@@ -9,7 +9,7 @@
 #include "harness/datasets/reading/dataset_readers.h"
 #include "harness/datasets/reading/recorded_images.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -169,4 +169,4 @@ std::unique_ptr<FrameSource> play(Recording recording, WorkerPool& pool) {
   return std::make_unique<RecordingSource>(std::move(recording), pool);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/slam_system.h"
-#include "sim/simulation.h"
+#include "core/truth/frame_source.h"
 #include "slam/slam.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// The images of one instant, by name.
 struct RecordedFrame {
@@ -57,4 +57,4 @@ std::unique_ptr<FrameSource> play(Recording recording, WorkerPool& pool);
 /// neighbours. Nothing before the first, after the last, and in gaps longer than `max_gap`.
 std::optional<Pose> pose_at(const Trajectory& trajectory, Stamp stamp, Stamp max_gap);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -4,7 +4,7 @@
 
 #include "harness/datasets/reading/dataset_reader.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 // A reader a format; open_recording() chooses. Each finds out whether a folder is of its format,
 // and reads it without its ground truth where the options name another.
@@ -31,4 +31,4 @@ Trajectory read_groundtruth(const std::filesystem::path& file, Recording& record
 /// body. Throws Error that names file and line.
 Trajectory read_euroc_poses(const std::filesystem::path& file, const Pose& T_body_sensor);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

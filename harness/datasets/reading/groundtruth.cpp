@@ -7,7 +7,7 @@
 #include "harness/datasets/files/text_table.h"
 #include "harness/datasets/reading/dataset_readers.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr std::size_t kKittiColumns = 12;
@@ -84,4 +84,4 @@ Trajectory read_groundtruth(const std::filesystem::path& file, Recording& record
        file.string(), rows.front().line, columns);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

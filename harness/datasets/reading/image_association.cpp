@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 void add_events(RecordedFrame& frame, const SourceEvent& event, int count) {
@@ -118,4 +118,4 @@ std::vector<RecordedFrame> associate_images(const std::vector<ImageList>& lists,
   return frames;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -8,7 +8,7 @@
 
 #include "harness/datasets/reading/dataset_reader.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// What one camera of a recording took, as its list has it.
 struct ImageList {
@@ -36,4 +36,4 @@ std::vector<Stamp> instants_of(const ImageList& list);
 /// The median time between neighbours, ns; 0 for less than two.
 Stamp median_period(const std::vector<Stamp>& instants);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -5,7 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-namespace vinebench {
+namespace vinebench::harness {
 
 cv::Mat read_grey(const std::filesystem::path& file) {
   cv::Mat image;
@@ -29,4 +29,4 @@ cv::Size first_image_size(const Recording& recording, std::size_t camera) {
   return {};
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

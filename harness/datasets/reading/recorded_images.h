@@ -6,7 +6,7 @@
 
 #include "harness/datasets/reading/dataset_reader.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// An image file in eight bits of grey, as the SLAM core would make it grey; empty where the file
 /// is no whole image.
@@ -15,4 +15,4 @@ cv::Mat read_grey(const std::filesystem::path& file);
 /// Of the first image of that camera that can be read; empty where none can.
 cv::Size first_image_size(const Recording& recording, std::size_t camera);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

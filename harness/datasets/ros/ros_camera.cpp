@@ -12,7 +12,7 @@
 #include "harness/datasets/format/slam_settings.h"
 #include "slam/camera/rectification.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 bool is_letter(char c) {
@@ -59,15 +59,15 @@ RosCamera alone(const RigCamera& camera) {
 void rectify(const Rig& rig, const StereoPair& pair, std::vector<RosCamera>& cameras) {
   const auto left = static_cast<std::size_t>(pair.left);
   const auto right = static_cast<std::size_t>(pair.right);
-  const Rectification view(rig.cameras[left], rig.cameras[right],
-                           fmt::format("ros: pair '{}'", pair.name));
-  for (const std::size_t camera : {left, right}) {
-    const RigCamera& camera = rig.cameras[camera];
-    cameras[camera].images = fmt::format("/{}/image_raw", camera.name);
-    cameras[camera].calibration.R = rows_of(
+  const slam::Rectification view(rig.cameras[left], rig.cameras[right],
+                                 fmt::format("ros: pair '{}'", pair.name));
+  for (const std::size_t index : {left, right}) {
+    const RigCamera& camera = rig.cameras[index];
+    cameras[index].images = fmt::format("/{}/image_raw", camera.name);
+    cameras[index].calibration.R = rows_of(
         (view.T_body_left().rotation.conjugate() * camera.T_body_cam.rotation).toRotationMatrix());
-    const double shift = camera == right ? -view.lens().fx * view.baseline() : 0;
-    cameras[camera].calibration.P = projection(view.lens(), shift);
+    const double shift = index == right ? -view.lens().fx * view.baseline() : 0;
+    cameras[index].calibration.P = projection(view.lens(), shift);
   }
 }
 
@@ -91,4 +91,4 @@ std::vector<RosCamera> ros_cameras(const Rig& rig) {
   return cameras;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -8,7 +8,7 @@
 #include "core/geometry/rig.h"
 #include "harness/datasets/ros/rosbag/ros_bag.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// How ROS knows a camera of a rig.
 struct RosCamera {
@@ -23,4 +23,4 @@ struct RosCamera {
 /// Throws Error for a name that ROS cannot have in a topic, and a pair that cannot be rectified.
 std::vector<RosCamera> ros_cameras(const Rig& rig);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -8,7 +8,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr const char* kWorld = "world";
@@ -30,7 +30,7 @@ RosPose message(const Pose& T) {
   return {message(T.translation), {q.x(), q.y(), q.z(), q.w()}};
 }
 
-double variance(const InertialAxesConfig& axes, double rate_hz) {
+double variance(const ImuNoise::Axes& axes, double rate_hz) {
   return axes.noise_density * axes.noise_density * rate_hz;
 }
 
@@ -70,8 +70,8 @@ FileTask RosFormat::image_task(const std::shared_ptr<const DatasetFrame>& frame,
   return {fmt::format("{} {} {}", colour_ ? "rgb" : "grey", coding, camera),
           {},
           [frame, camera, colour = colour_, kind = kind_] {
-            const cv::Mat& image = frame->frame.images[camera];
-            const cv::Mat image = colour ? image : to_grey(image);
+            const cv::Mat& taken = frame->frame.images[camera];
+            const cv::Mat image = colour ? taken : to_grey(taken);
             return kind ? encode_image(image, *kind) : raw_bytes(image);
           },
           [this, camera](const std::string& bytes) { images_[camera] = bytes; }};
@@ -185,4 +185,4 @@ void RosFormat::write_tags(const Frame& frame) {
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

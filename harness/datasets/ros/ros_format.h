@@ -11,7 +11,7 @@
 #include "harness/datasets/ros/rosbag/ros_bag.h"
 #include "slam/tags/tag_detector.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// A bag of ROS 1, run.bag: images and calibration of each camera, inertial and wheel readings,
 /// the tags that the SLAM core's detector finds, the clock and the rig's transforms; and the truth,
@@ -48,10 +48,10 @@ class RosFormat : public DatasetFormat {
   std::optional<ImageKind> kind_;
   std::vector<RosCamera> cameras_;
   std::vector<std::string> images_;  ///< of the frame that is being written, a camera each
-  TagDetector detector_;
+  slam::TagDetector detector_;
   std::optional<StampedPose> before_;  ///< the true pose
   std::int64_t clock_ = 0;             ///< what was told of it
   RosBag bag_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

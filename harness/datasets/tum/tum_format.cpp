@@ -4,7 +4,7 @@
 
 #include "core/trajectory.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 TumFormat::TumFormat(const std::filesystem::path& folder, const RecordingNotes& notes) {
   make_folder(folder);
@@ -23,4 +23,4 @@ void TumFormat::commit(const DatasetFrame& frame) {
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

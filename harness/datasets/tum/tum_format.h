@@ -5,7 +5,7 @@
 #include "harness/datasets/files/append_file.h"
 #include "harness/datasets/format/dataset_format.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// True trajectories in TUM format, `t x y z qx qy qz qw`: body.txt, and of every camera its own.
 class TumFormat : public DatasetFormat {
@@ -20,4 +20,4 @@ class TumFormat : public DatasetFormat {
   std::vector<AppendFile> files_;  ///< of these sensors
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

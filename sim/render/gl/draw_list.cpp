@@ -6,7 +6,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 struct Visible {
@@ -119,4 +119,4 @@ DrawList make_draw_list(const GpuScene& scene, const PinholeCamera& camera, cons
   return view.list();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -10,7 +10,7 @@
 #include "sim/render/gl/gpu_scene.h"
 #include "sim/render/gl/shadows/rover_shadow.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Instances of one model at one level of detail that are drawn by one call a primitive.
 struct DrawBatch {
@@ -40,4 +40,4 @@ struct RoverInView {
 DrawList make_draw_list(const GpuScene& scene, const PinholeCamera& camera, const Pose& T_world_cam,
                         double lod_scale, const RoverInView& rover);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

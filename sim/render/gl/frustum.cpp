@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace vinebench {
+namespace vinebench::sim {
 
 Eigen::Matrix4d clip_from_cam(const PinholeCamera& camera) {
   const double w = camera.width;
@@ -55,4 +55,4 @@ bool Frustum::may_see(const Eigen::Vector3d& centre, double radius) const {
   return true;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

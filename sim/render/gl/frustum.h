@@ -9,7 +9,7 @@
 
 #include "core/geometry/camera.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 inline constexpr double kNearPlane = 0.03;  ///< m along the optical axis
 inline constexpr double kFarPlane = 200.0;  ///< m
@@ -36,4 +36,4 @@ class Frustum {
   std::array<Eigen::Vector4d, 6> planes_;  // inside where the dot product is positive
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -11,7 +11,7 @@
 #include "sim/render/gl/mip_levels.h"
 #include "sim/scene/scene_check.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr std::size_t kSmall = 32;    // triangles; fewer are not worth an order
@@ -285,4 +285,4 @@ void GpuScene::draw(const GpuPrimitive& primitive, int order, std::size_t first,
       primitive.first_vertex, static_cast<GLuint>(first));
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -9,7 +9,7 @@
 #include "sim/render/gl/platform/gl_objects.h"
 #include "sim/scene/scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Directions, in the model's frame, along which a primitive's triangles are kept sorted, so that
 /// those towards the camera can be drawn first: +x, -x, +y, -y.
@@ -105,4 +105,4 @@ struct GpuScene {
   GlBuffer rows_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -4,7 +4,7 @@
 
 #include "sim/render/gl/view_block.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 /// How far the wind moves it, against a leaf.
@@ -76,4 +76,4 @@ const MeshProgram& MeshPrograms::get(const MeshShader& shader) {
   return programs_.try_emplace(shader.key(), shader).first->second;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

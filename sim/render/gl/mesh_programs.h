@@ -8,7 +8,7 @@
 #include "sim/render/gl/shaders.h"
 #include "sim/scene/scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Texture units of all programs.
 inline constexpr GLint kImageUnit = 0;
@@ -48,4 +48,4 @@ class MeshPrograms {
   std::map<int, MeshProgram> programs_;  // by MeshShader::key()
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

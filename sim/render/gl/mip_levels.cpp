@@ -6,7 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr double kGamma = 2.2;  // the same power as the shaders'
@@ -79,4 +79,4 @@ std::vector<cv::Mat> mip_levels(const cv::Mat& rgba, bool cutout) {
   return levels;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

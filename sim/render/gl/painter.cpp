@@ -6,7 +6,7 @@
 
 #include "sim/render/gl/sky.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 /// Draws into the image, or not, and into what is asked for of the truth.
@@ -173,4 +173,4 @@ void Painter::draw(const GlTarget& target, const PinholeCamera& camera, const Po
   gl.BindVertexArray(0);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

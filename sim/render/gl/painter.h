@@ -11,7 +11,7 @@
 #include "sim/render/gl/view_block.h"
 #include "sim/render/gl/visible_wires.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// What a view draws beside its image. Depth of wires comes with any of it.
 struct TruthParts {
@@ -59,4 +59,4 @@ class Painter {
   double ground_light_ = 1;  ///< brightness of the light map, encoded
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/render/gl/shaders.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr const char* kVersion = "#version 420 core\n";
@@ -398,4 +398,4 @@ std::string wire_fragment_shader(bool truth) {
   return std::string(kVersion) + (truth ? "#define TRUTH\n" : "") + kView + kWireFragment;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

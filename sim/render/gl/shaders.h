@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// What a mesh's shader has to do; fragments are the cost of software rendering, so each material
 /// gets the leanest one.
@@ -55,4 +55,4 @@ std::string sky_fragment_shader();
 std::string wire_vertex_shader();
 std::string wire_fragment_shader(bool truth);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

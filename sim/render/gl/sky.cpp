@@ -8,7 +8,7 @@
 #include "core/util/random.h"
 #include "sim/render/gl/view_block.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr int kSize = 512;      // pixels a side
@@ -103,4 +103,4 @@ cv::Mat sky_image(const Light& light, std::uint64_t seed) {
   return image;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

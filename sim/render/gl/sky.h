@@ -7,7 +7,7 @@
 
 #include "sim/scene/scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Light that the sky's image stores as 1, encoded.
 inline constexpr double kSkyBrightest = 1.2;
@@ -17,4 +17,4 @@ inline constexpr double kSkyBrightest = 1.2;
 /// uv = 0.5 + 0.5 / 1.4 * (x, y) / (1 + z).
 cv::Mat sky_image(const Light& light, std::uint64_t seed);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -8,7 +8,7 @@
 #include "core/util/random.h"
 #include "sim/render/gl/frustum.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr GLuint kViewBinding = 0;
@@ -71,4 +71,4 @@ void ViewBuffer::set(const ViewBlock& block) const {
   gl.BufferData(GL_UNIFORM_BUFFER, sizeof(ViewBlock), &block, GL_STREAM_DRAW);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -9,7 +9,7 @@
 #include "sim/render/gl/platform/gl_objects.h"
 #include "sim/scene/scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// The uniform block that all shaders share, in std140's layout; colours are linear unless said.
 struct ViewBlock {
@@ -59,4 +59,4 @@ class ViewBuffer {
   GlBuffer buffer_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

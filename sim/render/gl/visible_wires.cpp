@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace vinebench {
+namespace vinebench::sim {
 
 std::vector<VisibleWires> visible_wires(const GpuScene& scene, const PinholeCamera& camera,
                                         const Pose& T_world_cam) {
@@ -32,4 +32,4 @@ std::vector<VisibleWires> visible_wires(const GpuScene& scene, const PinholeCame
   return visible;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -8,7 +8,7 @@
 #include "sim/render/gl/frustum.h"
 #include "sim/render/gl/gpu_scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// A run of vertices of GpuScene::wires[wires].
 struct VisibleWires {
@@ -21,4 +21,4 @@ struct VisibleWires {
 std::vector<VisibleWires> visible_wires(const GpuScene& scene, const PinholeCamera& camera,
                                         const Pose& T_world_cam);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

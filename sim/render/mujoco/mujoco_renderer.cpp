@@ -16,7 +16,7 @@
 #include "core/util/error.h"
 #include "sim/render/mujoco/mujoco_scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr float kNear = 0.05f;  // m
@@ -197,4 +197,4 @@ std::string MujocoRenderer::platform() {
   return CompatibilityContext::kPlatform;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

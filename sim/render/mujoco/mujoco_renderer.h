@@ -10,7 +10,7 @@
 #include "core/geometry/pose.h"
 #include "sim/scene/scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 struct MujocoRendererConfig {
   int width = 752;            ///< px, of the largest image
@@ -40,4 +40,4 @@ class MujocoRenderer {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

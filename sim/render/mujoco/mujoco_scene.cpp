@@ -12,7 +12,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using Bytes = std::vector<char>;
@@ -246,4 +246,4 @@ std::int64_t MujocoScene::triangles() const {
   return sum;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

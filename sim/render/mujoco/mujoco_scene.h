@@ -9,7 +9,7 @@
 
 #include "sim/scene/scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// A scene as MuJoCo holds it: a model of static geoms and its state.
 class MujocoScene {
@@ -37,4 +37,4 @@ class MujocoScene {
   std::unique_ptr<mjData, Free> state_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -7,7 +7,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 /// Channel of each filter of the square of two by two.
@@ -62,4 +62,4 @@ cv::Mat demosaic(const cv::Mat& mosaic, BayerPattern pattern) {
   return rgb;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

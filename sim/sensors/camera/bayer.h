@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// The colour filters over a sensor's pixels, row by row from the top left one.
 enum class BayerPattern { kNone, kRggb, kGrbg, kGbrg, kBggr };
@@ -21,4 +21,4 @@ cv::Mat mosaic(const cv::Mat& rgb, BayerPattern pattern);
 /// Full colours of a mosaic by OpenCV's edge-aware interpolation, CV_8UC3 RGB.
 cv::Mat demosaic(const cv::Mat& mosaic, BayerPattern pattern);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -10,7 +10,7 @@
 
 #include "sim/sensors/camera/light.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using Layer = cv::Mat RenderedImage::*;
@@ -156,4 +156,4 @@ void CameraSensor::dim_and_cover(cv::Mat& light, const Shot& shot) const {
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -19,7 +19,7 @@
 #include "sim/sensors/camera/photon_transfer.h"
 #include "sim/sensors/camera/vignette.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// How the cameras make images of what is before them. Only the noise is on by default.
 struct CameraSensorConfig {
@@ -105,4 +105,4 @@ class CameraSensor {
   PhotonTransfer photon_transfer_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

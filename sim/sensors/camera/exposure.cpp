@@ -8,7 +8,7 @@
 
 #include "sim/sensors/camera/light.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr double kDarkest = 1;  // grey levels; a black image must not ask for endless light
@@ -79,4 +79,4 @@ double mean_brightness(const cv::Mat& image) {
   return count > 0 ? static_cast<double>(sum) / static_cast<double>(count) : 0;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -8,7 +8,7 @@
 #include "core/config/config_field.h"
 #include "core/geometry/rig.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// How long an image is exposed and how much its signal is amplified. The scene as it is rendered
 /// is what `reference_time` at 0 dB makes of it.
@@ -77,4 +77,4 @@ class ExposureControl {
 /// Mean of an image's codes (CV_8U, any channels), over every fourth row.
 double mean_brightness(const cv::Mat& image);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -9,7 +9,7 @@
 
 #include "core/util/random.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 /// A normal draw a pixel; empty where sigma is 0.
@@ -61,4 +61,4 @@ void FixedPattern::apply(cv::Mat& light, double exposure_time, double white) con
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -8,7 +8,7 @@
 
 #include "core/config/config_field.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// What a sensor's pixels have each of their own, the same in every image. Off by default.
 struct FixedPatternConfig {
@@ -45,4 +45,4 @@ class FixedPattern {
   std::vector<HotPixel> hot_pixels_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr double kGamma = 2.2;
@@ -87,4 +87,4 @@ void add_glare(cv::Mat& rgb, const cv::Mat& labels, const PinholeCamera& camera,
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

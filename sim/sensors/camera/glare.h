@@ -8,7 +8,7 @@
 #include "core/geometry/camera.h"
 #include "sim/scene/scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Light that a sun in the image scatters inside the lens: a saturated disc, a bloom around it
 /// and a veil over everything, by the share of the disc that no leaf covers. `rgb` CV_8UC3 and
@@ -17,4 +17,4 @@ namespace vinebench {
 void add_glare(cv::Mat& rgb, const cv::Mat& labels, const PinholeCamera& camera,
                const Eigen::Vector3d& towards_sun, const Light& light, double exposure);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -8,7 +8,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr int kLargestView = 8192;  // pixels a side
@@ -147,4 +147,4 @@ std::vector<LensBand> make_lens_bands(const PinholeCamera& camera, int count) {
   return bands;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -7,7 +7,7 @@
 
 #include "core/geometry/camera.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Some rows of a camera's image and the ideal pinhole view that shows them.
 struct LensBand {
@@ -28,4 +28,4 @@ struct LensBand {
 /// needs a view of more than 8192 pixels a side.
 std::vector<LensBand> make_lens_bands(const PinholeCamera& camera, int count);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

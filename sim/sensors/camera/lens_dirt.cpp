@@ -10,7 +10,7 @@
 
 #include "core/util/random.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr int kShift = 4;  // fraction bits of the drawing functions' coordinates
@@ -117,4 +117,4 @@ LensCover make_lens_leaf(const LensLeafConfig& config, cv::Size size) {
   return cover;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

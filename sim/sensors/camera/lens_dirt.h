@@ -10,7 +10,7 @@
 #include "core/config/config_field.h"
 #include "sim/sensors/fault_scope.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Specks of dust and mud on the front glass, far out of focus; where they are is drawn by seed and
 /// camera.
@@ -68,4 +68,4 @@ LensCover make_lens_dirt(const LensDirtConfig& config, cv::Size size, std::uint6
                          int camera);
 LensCover make_lens_leaf(const LensLeafConfig& config, cv::Size size);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

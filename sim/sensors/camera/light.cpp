@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using LightTable = std::array<float, 256>;
@@ -84,4 +84,4 @@ void add_light(const cv::Mat& codes, float share, cv::Mat& sum) {
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

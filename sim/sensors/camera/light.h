@@ -4,7 +4,7 @@
 
 #include <opencv2/core/mat.hpp>
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// The renderer's encoding of light (1 is white): code / 255 = light^(1 / 2.2).
 inline constexpr double kImageGamma = 2.2;
@@ -21,4 +21,4 @@ cv::Mat to_codes(const cv::Mat& light);
 /// Adds the light of an image of codes, times `share`, to `sum` (begun with zeros where empty).
 void add_light(const cv::Mat& codes, float share, cv::Mat& sum);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

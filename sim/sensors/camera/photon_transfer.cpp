@@ -7,7 +7,7 @@
 #include "core/util/error.h"
 #include "sim/sensors/camera/light.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr int kClasses = 256;
@@ -102,4 +102,4 @@ void PhotonTransfer::apply(cv::Mat& image, const RandomStream& stream) const {
   }
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -9,7 +9,7 @@
 #include "core/config/config_field.h"
 #include "core/util/random.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Shot and read noise. The defaults are those of a pixel of about 3 um and give 1.5 grey levels at
 /// mid grey.
@@ -58,4 +58,4 @@ class PhotonTransfer {
   std::array<std::uint8_t, 256 * kDraws> table_{};
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

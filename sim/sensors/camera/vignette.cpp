@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 double squared_distance(const PinholeCamera& camera, double x, double y) {
@@ -37,4 +37,4 @@ cv::Mat vignette(const VignettingConfig& config, const PinholeCamera& camera) {
   return share;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -8,7 +8,7 @@
 #include "core/config/config_field.h"
 #include "core/geometry/camera.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// How light falls off towards the image's corners; both laws multiply.
 struct VignettingConfig {
@@ -28,4 +28,4 @@ struct VignettingConfig {
 /// What share of its light each pixel gets, CV_32FC1, at least 0.
 cv::Mat vignette(const VignettingConfig& config, const PinholeCamera& camera);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -6,7 +6,7 @@
 
 #include "tests/support/small_scenario.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using RecordBenchmarkTest = test::SmallScenario;
@@ -34,4 +34,4 @@ TEST_F(RecordBenchmarkTest, TellsWhatEachKindOfRecordingCosts) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

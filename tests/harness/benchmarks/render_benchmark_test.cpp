@@ -12,7 +12,7 @@
 #include "harness/benchmarks/measurement.h"
 #include "harness/benchmarks/render_report.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using testing::HasSubstr;
@@ -30,7 +30,7 @@ void expect_pose(const Pose& pose, const Eigen::Vector3d& at, double yaw) {
 
 TEST(AisleRouteTest, DrivesTheMiddleAisleLookingAheadAndBackByTurns) {
   // Three rows: the aisle of rows 0 and 1. Two places at a quarter and three quarters of 4 m.
-  WorldConfig world;
+  sim::WorldConfig world;
   world.rows = {{{0, -1}, {4, -1}}, {{0, 1}, {4, 1}}, {{0, 3}, {4, 3}}};
   const std::vector<Pose> route = aisle_route(world, 2);
   ASSERT_EQ(route.size(), 2u);
@@ -41,28 +41,28 @@ TEST(AisleRouteTest, DrivesTheMiddleAisleLookingAheadAndBackByTurns) {
 TEST(AisleRouteTest, ExpandsABlock) {
   // Rows to the north at x = 0, -2, -4, -6 (each to the left of the one before): the middle aisle
   // is at x = -3.
-  WorldConfig world;
-  world.block = WorldConfig::Block{4, 10, 2, 90, {0, 0}};
+  sim::WorldConfig world;
+  world.block = sim::WorldConfig::Block{4, 10, 2, 90, {0, 0}};
   expect_pose(aisle_route(world, 1).at(0), {-3, 5, 0}, std::numbers::pi / 2);
   world.place();
   expect_pose(aisle_route(world, 1).at(0), {-3, 5, 0}, std::numbers::pi / 2);
 }
 
 TEST(AisleRouteTest, RowsMayRunAgainstEachOther) {
-  WorldConfig world;
+  sim::WorldConfig world;
   world.rows = {{{4, -1}, {0, -1}}, {{0, 1}, {4, 1}}};
   expect_pose(aisle_route(world, 1).at(0), {2, 0, 0}, 0);
 }
 
 TEST(AisleRouteTest, StaysBesideALoneRow) {
-  WorldConfig world;
+  sim::WorldConfig world;
   world.rows = {{{0, 0}, {4, 0}}};
   expect_pose(aisle_route(world, 1).at(0), {2, -1, 0}, 0);
 }
 
 TEST(AisleRouteTest, LiesOnTheGround) {
   // A slope of 10 % up along the rows, level at the rows' middle: 0.1 m per metre.
-  WorldConfig world;
+  sim::WorldConfig world;
   world.rows = {{{0, -1}, {4, -1}}, {{0, 1}, {4, 1}}};
   world.terrain.slope_percent = 10;
   const std::vector<Pose> route = aisle_route(world, 2);
@@ -108,4 +108,4 @@ TEST(RenderTableTest, NamesEveryFigure) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

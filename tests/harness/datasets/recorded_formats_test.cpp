@@ -15,11 +15,11 @@
 
 #include "core/trajectory.h"
 #include "harness/datasets/reading/dataset_reader.h"
-#include "harness/run_scenario.h"
+#include "harness/jobs/run_scenario.h"
 #include "tests/support/recorded_folders.h"
 #include "tests/support/small_scenario.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr std::size_t kFrames = 6;
@@ -189,7 +189,7 @@ TEST_F(RecordedFormatsTest, AReplayGivesTheFramesOfTheRun) {
   record({"euroc", "kitti"});
   const ScenarioConfig scenario = load_scenario(request_.scenario);
   WorkerPool pool(1);
-  const auto source = make_simulation(scenario.simulation, 1, default_cache(), pool);
+  const auto source = sim::make_simulation(scenario.simulation, 1, default_cache(), pool);
   const std::vector<Sample> euroc = test::play_all(out() / "euroc");
   const std::vector<Sample> kitti = test::play_all(out() / "kitti");
   ASSERT_EQ(euroc.size(), kFrames);
@@ -246,4 +246,4 @@ TEST_F(RecordedFormatsTest, InertialReadingsIntegrateToTheTrajectory) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

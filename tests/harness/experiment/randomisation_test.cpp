@@ -10,7 +10,7 @@
 
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using test::error_of;
@@ -90,4 +90,4 @@ TEST_F(RandomisationTest, FaultsNameFileLineAndKey) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

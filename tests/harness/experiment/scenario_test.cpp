@@ -10,7 +10,7 @@
 #include "core/util/files.h"
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -202,4 +202,4 @@ TEST(ShippedScenariosTest, AreValid) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -7,7 +7,7 @@
 
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using testing::AllOf;
@@ -116,4 +116,4 @@ TEST(StudentTest, JoinsItsTableAndTheNormalDistribution) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

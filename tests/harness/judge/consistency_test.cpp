@@ -6,7 +6,7 @@
 
 #include "tests/support/fakes.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 /// Poses off by `offset` along the body's x axis, said to be known to a centimetre and a
@@ -14,7 +14,7 @@ namespace {
 RunRecord record_of(const std::vector<double>& offsets) {
   RunRecord record;
   record.rig = fakes::rig();
-  record.tags = fakes::scenario().simulation.world.tags;
+  record.tags = fakes::trial().site.tags;
   for (std::size_t i = 0; i < offsets.size(); ++i) {
     Tick tick;
     tick.stamp = stamp_of_frame(static_cast<std::int64_t>(i), fakes::kRate);
@@ -58,4 +58,4 @@ TEST(ConsistencyTest, NeedsARegisteredTagInTheFirstFrame) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -9,7 +9,7 @@
 #include "harness/run/lockstep.h"
 #include "tests/support/fakes.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using testing::ElementsAre;
@@ -23,7 +23,7 @@ class DiagnosisTest : public testing::Test {
     record_.rig = fakes::rig();
     record_.rig.stereo_pairs = {{"front", 0, 1}};
     for (RigCamera& camera : record_.rig.cameras) camera.model.fx = 300;
-    record_.tags = scenario_.simulation.world.tags;
+    record_.tags = trial_.site.tags;
     for (std::int64_t i = 0; i <= 200; ++i) {
       Tick tick;
       tick.index = i;
@@ -58,7 +58,7 @@ class DiagnosisTest : public testing::Test {
     }
   }
   std::vector<DegradedSegment> found() const {
-    return diagnose(record_, measure(record_, {}), scenario_);
+    return diagnose(record_, measure(record_, {}), trial_);
   }
   std::vector<Cause> causes() const {
     std::vector<Cause> list;
@@ -66,7 +66,7 @@ class DiagnosisTest : public testing::Test {
     return list;
   }
 
-  ScenarioConfig scenario_ = fakes::scenario();
+  Trial trial_ = fakes::trial();
   RunRecord record_;
 };
 
@@ -77,7 +77,7 @@ void weaken(Tick& tick) {
 TEST_F(DiagnosisTest, AGoodRunHasNothingToExplain) {
   EXPECT_TRUE(found().empty());
   EXPECT_THAT(format_diagnosis(record_, {}), HasSubstr("nowhere"));
-  EXPECT_TRUE(diagnose({}, {}, scenario_).empty());
+  EXPECT_TRUE(diagnose({}, {}, trial_).empty());
 }
 
 TEST_F(DiagnosisTest, WeakTrackingBehindACartonIsOcclusion) {
@@ -153,15 +153,15 @@ TEST_F(DiagnosisTest, ARightCorrectionIsNoGrowth) {
   for (std::size_t i = 100; i < record_.ticks.size(); ++i) {
     record_.ticks[i].estimate.T_map_body->translation.y() = i < 110 ? 0 : 0.1;
   }
-  EXPECT_TRUE(diagnose(record_, results, scenario_).empty());
+  EXPECT_TRUE(diagnose(record_, results, trial_).empty());
   closure.correct = false;
-  const auto list = diagnose(record_, results, scenario_);
+  const auto list = diagnose(record_, results, trial_);
   ASSERT_FALSE(list.empty());
   EXPECT_EQ(list[0].cause, Cause::kWrongTag);
 }
 
 TEST_F(DiagnosisTest, AMiscalibratedRigIsBlamedForWhatNothingElseExplains) {
-  scenario_.simulation.sensors.calibration.rotation_deg = 0.5;
+  trial_.miscalibrated = true;
   slide();
   EXPECT_THAT(causes(), ElementsAre(Cause::kCalibrationError));
   meanwhile([](Tick& tick) { tick.truth.box_share = {0.9, 0.9, 0}; });
@@ -171,7 +171,7 @@ TEST_F(DiagnosisTest, AMiscalibratedRigIsBlamedForWhatNothingElseExplains) {
 // A map 2 % too large: 10 mm in each second of 0.5 m, and never more than usual.
 TEST_F(DiagnosisTest, ASteadyDriftOfTheWholeRunIsSuffering) {
   for (Tick& tick : record_.ticks) tick.estimate.T_map_body->translation *= 1.02;
-  scenario_.simulation.sensors.calibration.focal_px = 5;
+  trial_.miscalibrated = true;
   const auto list = found();
   ASSERT_EQ(list.size(), 1u);
   EXPECT_EQ(list[0].cause, Cause::kCalibrationError);
@@ -231,4 +231,4 @@ TEST_F(DiagnosisTest, TheTrueMotionIsThatOfTheBody) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

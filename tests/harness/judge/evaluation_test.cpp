@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr double kRounding = 1e-12;  // m
@@ -125,4 +125,4 @@ TEST(RelativeErrorTest, SegmentsEndNearestToOneMetre) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

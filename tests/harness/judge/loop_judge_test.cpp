@@ -7,13 +7,13 @@
 #include "harness/run/lockstep.h"
 #include "tests/support/fakes.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 RunRecord record_of(fakes::Slam::Change change) {
   fakes::Source source;
   fakes::Slam slam(std::move(change));
-  RunRecorder recorder(source.rig(), fakes::scenario().simulation.world.tags);
+  RunRecorder recorder(source.rig(), fakes::trial().site.tags);
   run_lockstep(source, slam, {&recorder});
   return recorder.record();
 }
@@ -137,4 +137,4 @@ TEST(LoopJudgeTest, AVisitNeedsAWayWithoutTheTag) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

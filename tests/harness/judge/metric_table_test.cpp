@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 TEST(MetricTableTest, AreFoundInMetricsInTheirUnits) {
@@ -30,4 +30,4 @@ TEST(MetricTableTest, TablesLineUp) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

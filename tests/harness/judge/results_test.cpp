@@ -10,13 +10,13 @@
 #include "harness/run/lockstep.h"
 #include "tests/support/fakes.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 RunRecord record_of(fakes::Slam::Change change) {
   fakes::Source source;
   fakes::Slam slam(std::move(change));
-  RunRecorder recorder(source.rig(), fakes::scenario().simulation.world.tags);
+  RunRecorder recorder(source.rig(), fakes::trial().site.tags);
   run_lockstep(source, slam, {&recorder});
   return recorder.record();
 }
@@ -47,10 +47,10 @@ Expectations everything() {
   return expectations;
 }
 
-ScenarioConfig asking(const Expectations& expectations) {
-  ScenarioConfig scenario = fakes::scenario();
-  scenario.expectations = expectations;
-  return scenario;
+Trial asking(const Expectations& expectations) {
+  Trial trial = fakes::trial();
+  trial.expectations = expectations;
+  return trial;
 }
 
 TEST(ResultsTest, PerfectRunHasNoErrors) {
@@ -119,14 +119,13 @@ TEST(ResultsTest, StandingInFrontOfTheBoxDoesNotCount) {
 
 // The circle's last point is its first, (1, 0).
 TEST(ResultsTest, MeasuresHowFarFromTheRoutesEndTheBodyStops) {
-  ScenarioConfig scenario = fakes::scenario();
-  EXPECT_FALSE(measure(record_of({}), scenario).end_error);
-  scenario.simulation.route.waypoints = {{}, {}};
-  scenario.simulation.route.waypoints.back().position = {1.03, -0.04};
-  const RunResults results = measure(record_of({}), scenario);
+  Trial trial = fakes::trial();
+  EXPECT_FALSE(measure(record_of({}), trial).end_error);
+  trial.route_end = {1.03, -0.04};
+  const RunResults results = measure(record_of({}), trial);
   EXPECT_NEAR(results.end_error.value(), 0.05, 1e-12);
-  scenario.expectations.end_error_max = 0.04;
-  EXPECT_FALSE(all_hold(check_expectations(scenario.expectations, results)));
+  trial.expectations.end_error_max = 0.04;
+  EXPECT_FALSE(all_hold(check_expectations(trial.expectations, results)));
 }
 
 TEST(ResultsTest, UnknownCameraIsAnError) {
@@ -183,4 +182,4 @@ TEST(VerdictTest, NothingAskedHolds) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

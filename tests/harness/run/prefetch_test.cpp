@@ -10,7 +10,7 @@
 #include "core/util/error.h"
 #include "tests/support/fakes.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 TEST(PrefetchTest, GivesTheSourcesSamplesInOrder) {
@@ -60,4 +60,4 @@ TEST(PrefetchTest, AnErrorComesInItsTurn) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -13,7 +13,7 @@
 #include "core/util/error.h"
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 std::map<std::size_t, ChildOutcome> run_all(ChildJobs jobs) {
@@ -93,4 +93,4 @@ TEST(RunInChildrenTest, AStopEndsTheRunningAndStartsNoFurther) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -11,10 +11,10 @@
 #include "core/util/error.h"
 #include "harness/sets/junit.h"
 #include "harness/sets/set_report.h"
-#include "tests/support/fakes.h"
+#include "tests/support/fake_scenario.h"
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using testing::HasSubstr;
@@ -26,7 +26,7 @@ RunOutcome slide(const ScenarioConfig& scenario, int, const RunOptions& options)
   fakes::Slam slam([&](Estimate& estimate) {
     if (estimate.stamp > 0) estimate.T_map_body->translation.z() += offset;
   });
-  return run_lockstep_and_judge(scenario, source, slam, options);
+  return run_lockstep_and_judge(trial_of(scenario), source, slam, options);
 }
 
 class RunSetTest : public testing::Test {
@@ -164,4 +164,4 @@ TEST_F(RunSetTest, ABrokenExpectationIsInEveryReport) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

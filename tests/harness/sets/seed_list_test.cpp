@@ -7,7 +7,7 @@
 
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using testing::ElementsAre;
@@ -30,4 +30,4 @@ TEST(SeedListTest, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

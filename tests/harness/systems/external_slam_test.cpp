@@ -13,7 +13,7 @@
 #include "tests/support/fakes.h"
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,13 +40,13 @@ class ExternalSlamTest : public testing::Test {
   RunOutcome run(const std::string& script) {
     config_.program = folder_.write("slam.sh", "#!/bin/sh\n" + script + "\n");
     fs::permissions(config_.program, fs::perms::owner_all);
-    prepare_run_folder(folder_.path(), fakes::scenario());
+    fakes::prepare_folder(folder_.path());
     fakes::Source source(1, 21);
     const auto slam = make_external_slam(config_, notes(), folder_.path(), stopped_);
     RunOptions options;
     options.folder = folder_.path();
     options.stopped = stopped_;
-    return run_lockstep_and_judge(fakes::scenario(), source, *slam, options);
+    return run_lockstep_and_judge(fakes::trial(), source, *slam, options);
   }
   std::string error(const std::string& script) {
     return test::error_of([&] { run(script); });
@@ -128,4 +128,4 @@ TEST_F(ExternalSlamTest, AStopEndsTheProgram) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

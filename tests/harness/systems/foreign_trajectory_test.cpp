@@ -9,7 +9,7 @@
 
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using testing::HasSubstr;
@@ -80,4 +80,4 @@ TEST(ForeignTrajectoryTest, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -8,7 +8,7 @@
 #include "tests/support/fakes.h"
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using testing::HasSubstr;
@@ -80,4 +80,4 @@ TEST_F(PluginSlamTest, WhatIsNoPluginIsAnError) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

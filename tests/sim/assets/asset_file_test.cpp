@@ -12,7 +12,7 @@
 
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using test::error_of;
@@ -378,4 +378,4 @@ TEST(MeshFileTest, BrokenDaeIsNamed) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -13,7 +13,7 @@
 #include "sim/assets/asset_file.h"
 #include "tests/support/broken_files.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using test::error_of;
@@ -247,4 +247,4 @@ TEST_F(BrokenAssetsTest, ObjThatNamesWhatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -8,7 +8,7 @@
 #include "sim/assets/asset_file.h"
 #include "tests/support/broken_files.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using test::error_of;
@@ -287,4 +287,4 @@ TEST_F(BrokenGltfTest, NamesThatAreNoUtf8) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -9,7 +9,7 @@
 #include "sim/render/renderer.h"
 #include "tests/support/test_scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 /// How a plant looks: the share of the image that it covers, and its mean colour (RGB, 0 to 255).
@@ -79,4 +79,4 @@ TEST_P(LevelsTest, AllHaveTheSameCoverageAndColour) {
 INSTANTIATE_TEST_SUITE_P(Stages, LevelsTest, testing::Values(65, 89, 95));
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -12,7 +12,7 @@
 #include "tests/support/test_folder.h"
 #include "tests/support/test_plant.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using test::brief;
@@ -177,4 +177,4 @@ TEST(PlantTexturesTest, LeavesAreGreenInsideTheirOutline) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -10,7 +10,7 @@
 #include "tests/support/test_folder.h"
 #include "tests/support/test_plant.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using test::brief;
@@ -194,4 +194,4 @@ TEST(CultivarTest, AnUnknownKeyIsNamed) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -17,7 +17,7 @@
 #include "tests/support/chessboard.h"
 #include "tests/support/test_scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using namespace test;
@@ -293,4 +293,4 @@ TEST_F(TwoPanelsTest, ASceneThatRefersToNothingIsAnError) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

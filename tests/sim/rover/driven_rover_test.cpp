@@ -6,7 +6,7 @@
 
 #include "sim/config_files.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 /// One metre along an aisle in 4 s, and a second to come to rest.
@@ -77,4 +77,4 @@ TEST_F(DrivenRoverTest, WithoutNewsItGoesOnAsCommanded) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -14,7 +14,7 @@
 #include "core/util/error.h"
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 const std::filesystem::path kModels =
@@ -170,4 +170,4 @@ TEST(PhysicsWorldTest, ReportsPhysicsThatFail) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

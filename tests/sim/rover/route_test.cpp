@@ -10,7 +10,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -186,4 +186,4 @@ TEST(FollowTest, WholeTurnsAreNoError) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -16,7 +16,7 @@
 #include "sim/rover/wheel_controller.h"
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using testing::HasSubstr;
@@ -405,4 +405,4 @@ TEST(SpeedLoopTest, KeepsItsLimitAndDoesNotWindUp) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -8,14 +8,15 @@
 #include <optional>
 
 #include "core/geometry/rig.h"
+#include "core/truth/truth_images.h"
 #include "core/util/error.h"
+#include "sim/render/renderer.h"
 #include "sim/rover/rover_asset.h"
-#include "sim/scene/instance_names.h"
-#include "sim/truth/truth_images.h"
+#include "sim/scene/scene_naming.h"
 #include "tests/support/test_folder.h"
 #include "tests/support/test_scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using namespace test;
@@ -264,4 +265,4 @@ TEST(RoverAssetTest, WhatIsNoRoverIsAnError) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

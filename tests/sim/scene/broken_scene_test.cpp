@@ -8,7 +8,7 @@
 #include "sim/scene/scene_check.h"
 #include "tests/support/broken_files.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using test::error_of;
@@ -91,4 +91,4 @@ TEST_F(BrokenSceneTest, NumbersThatAreNone) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

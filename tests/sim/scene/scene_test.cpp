@@ -16,7 +16,7 @@
 #include "tests/support/tag_reading.h"
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using test::error_of;
@@ -326,4 +326,4 @@ TEST(TagPrintTest, ItsBlackSquareHasItsShareOfTheTexture) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

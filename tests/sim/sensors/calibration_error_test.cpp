@@ -10,7 +10,7 @@
 
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using testing::HasSubstr;
@@ -93,4 +93,4 @@ TEST(CalibrationErrorTest, NonsenseIsRefused) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -8,7 +8,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr std::int64_t kFrames = 20000;
@@ -92,4 +92,4 @@ TEST(FrameTimingTest, NonsenseIsRefused) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr double kRate = 100;  // Hz
@@ -115,4 +115,4 @@ TEST(InertialSensorTest, ABiasChangesNoNoiseDraw) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -9,7 +9,7 @@
 #include "core/config/yaml_writer.h"
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using testing::AllOf;
@@ -94,4 +94,4 @@ TEST_F(SensorsTest, PerfectOnesChangeNothing) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
@@ -57,4 +57,4 @@ TEST(WheelSensorTest, ZeroCountsReadTheTruth) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -1,19 +1,20 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/truth/truth_images.h"
+#include "core/truth/truth_images.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "sim/scene/instance_names.h"
+#include "sim/render/renderer.h"
+#include "sim/scene/scene_naming.h"
 #include "sim/sensors/camera/camera_sensor.h"
 #include "sim/sensors/sensors.h"
 #include "tests/support/test_folder.h"
 #include "tests/support/test_scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using namespace test;
@@ -36,7 +37,7 @@ class TwoPanelsTruthTest : public testing::Test {
     if (!renderer_) renderer_.emplace(scene_, RendererConfig{});
     return {camera_, T_world_cam, renderer_->render(camera_, T_world_cam, truth_request())};
   }
-  static Pose camera(double x) { return look_at({x, 0, 0}, {x, 1, 0}); }
+  static Pose eye(double x) { return look_at({x, 0, 0}, {x, 1, 0}); }
 
   /// Whether u is within 0.6 px of one of the edges: pixels there may fall either way.
   static bool on_edge(double u, std::initializer_list<double> edges) {
@@ -49,7 +50,7 @@ class TwoPanelsTruthTest : public testing::Test {
 };
 
 TEST_F(TwoPanelsTruthTest, TheOcclusionMaskIsWhatTheDrawingSays) {
-  const DisparityTruth truth = disparity(view(camera(0)), view(camera(kBaseline)));
+  const DisparityTruth truth = disparity(view(eye(0)), view(eye(kBaseline)));
   ASSERT_EQ(truth.disparity.type(), CV_32FC1);
   ASSERT_EQ(truth.visible.type(), CV_8UC1);
   const auto pixel = [&](double x, double depth) { return camera_.fx * x / depth + camera_.cx; };
@@ -77,7 +78,7 @@ TEST_F(TwoPanelsTruthTest, TheOcclusionMaskIsWhatTheDrawingSays) {
 }
 
 TEST_F(TwoPanelsTruthTest, FlowIsWhereThePlanesPointsGo) {
-  const TruthView a = view(camera(0));
+  const TruthView a = view(eye(0));
   const TruthView b = view(look_at({0.1, 0.3, -0.05}, {0.2, 2, 0.1}, 0.1));
   const FlowTruth truth = optical_flow(a, b);
   int compared = 0, outside = 0;
@@ -104,7 +105,7 @@ TEST_F(TwoPanelsTruthTest, FlowIsWhereThePlanesPointsGo) {
 }
 
 TEST_F(TwoPanelsTruthTest, WhatIsBehindTheOtherCameraHasNoFlow) {
-  const FlowTruth truth = optical_flow(view(camera(0)), view(look_at({0, 4, 0}, {0, 5, 0})));
+  const FlowTruth truth = optical_flow(view(eye(0)), view(look_at({0, 4, 0}, {0, 5, 0})));
   EXPECT_TRUE(std::isnan(truth.flow.at<cv::Vec2f>(239, 375)[0]));
   EXPECT_EQ(truth.visible.at<std::uint8_t>(239, 375), 0);
   // The sky is ahead of both.
@@ -113,7 +114,7 @@ TEST_F(TwoPanelsTruthTest, WhatIsBehindTheOtherCameraHasNoFlow) {
 }
 
 TEST_F(TwoPanelsTruthTest, WrongViewsAreErrors) {
-  const TruthView left = view(camera(0)), right = view(camera(kBaseline));
+  const TruthView left = view(eye(0)), right = view(eye(kBaseline));
   TruthView lacking = right;
   lacking.image.normals.release();
   EXPECT_THAT(error_of([&] { optical_flow(left, lacking); }),
@@ -155,7 +156,7 @@ class LensTruthTest : public TwoPanelsTruthTest {
     shot.exposure = {config.exposure.time, config.exposure.gain_db};
     shot.request = truth_request();
     return sensor.capture(
-        shot, [&](Stamp) { return camera(0); },
+        shot, [&](Stamp) { return eye(0); },
         [&](const PinholeCamera& view, const Pose& pose, const Renderer::Request& request) {
           return renderer_->render(view, pose, request);
         });
@@ -197,4 +198,4 @@ TEST_F(LensTruthTest, EveryImageIsBentAlikeToTheNearestPixel) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -9,7 +9,7 @@
 
 #include "tests/support/test_scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using test::look_at;
@@ -101,4 +101,4 @@ TEST_F(TagVisibleTest, OccludedAtItsCentreOrACorner) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -10,15 +10,16 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/geometry/rig.h"
+#include "core/truth/truth_images.h"
 #include "sim/config_files.h"
-#include "sim/scene/instance_names.h"
-#include "sim/truth/truth_images.h"
+#include "sim/render/renderer.h"
+#include "sim/scene/scene_naming.h"
 #include "sim/world/terrain.h"
 #include "tests/support/image_warp.h"
 #include "tests/support/test_folder.h"
 #include "tests/support/test_scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using namespace test;
@@ -296,4 +297,4 @@ TEST_F(TruthWorldTest, WindMovesLeavesAndMotionSaysWhereTo) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

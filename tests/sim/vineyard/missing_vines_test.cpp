@@ -9,7 +9,7 @@
 #include "sim/world/world.h"
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 /// A hundred places, a third of them empty; the plants are a mesh of one triangle.
@@ -75,4 +75,4 @@ TEST(MissingVinesTest, SharesAreThoseOfTheWorld) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

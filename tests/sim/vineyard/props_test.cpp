@@ -16,7 +16,7 @@
 #include "sim/vineyard/obstacles.h"
 #include "sim/vineyard/trellis.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 const std::filesystem::path kModels =
@@ -164,4 +164,4 @@ TEST(TrellisTest, PostsAndBracesStandInTheRoversWayToo) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

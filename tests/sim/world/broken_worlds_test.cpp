@@ -11,7 +11,7 @@
 #include "sim/world/world.h"
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using test::error_of;
@@ -160,4 +160,4 @@ TEST_F(BrokenWorldsTest, BrokenCultivars) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -9,7 +9,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
@@ -86,4 +86,4 @@ TEST(DaylightTest, AnOvercastSkyHasNoSunAndHazeHidesBeyondItsVisibility) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

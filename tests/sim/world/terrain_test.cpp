@@ -14,7 +14,7 @@
 #include "sim/rover/rover.h"
 #include "sim/vineyard/ground.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 const std::filesystem::path kSource = VINEBENCH_SOURCE_DIR;
@@ -209,4 +209,4 @@ TEST(TerrainTest, WhereTheGroundEndsTheRoverSaysSo) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

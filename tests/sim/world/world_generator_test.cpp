@@ -13,7 +13,7 @@
 #include "sim/world/row_index.h"
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using testing::HasSubstr;
@@ -104,4 +104,4 @@ TEST(WorldGeneratorTest, SaysWhatIsWrongWithARecipe) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

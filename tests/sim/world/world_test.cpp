@@ -17,7 +17,7 @@
 #include "sim/world/tag_family.h"
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using testing::HasSubstr;
@@ -389,4 +389,4 @@ TEST(WorldFileTest, ProblemsOfBlocksPostsAndNumbersAreNamed) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

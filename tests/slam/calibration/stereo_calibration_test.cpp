@@ -6,7 +6,7 @@
 
 #include "tests/support/aisle_map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using testing_support::AisleMap;
@@ -92,4 +92,4 @@ TEST(StereoCalibrationTest, IsDueAtTwelveKeyframesAndEachTimeTheyHaveDoubled) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -6,7 +6,7 @@
 
 #include "tests/support/synthetic_aisle.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using testing_support::SyntheticAisle;
@@ -77,4 +77,4 @@ TEST(EstimatorRigTest, TagCamerasHaveNoDistortionLeft) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -11,7 +11,7 @@
 #include "slam/front_end.h"
 #include "tests/support/synthetic_texture.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr double kWall = 1.5;  // m ahead of the body
@@ -50,8 +50,8 @@ cv::Mat view_of_wall(const RigCamera& camera) {
   const SyntheticTexture texture(5);
   return render_image(camera.model.width, camera.model.height, [&](double x, double y) {
     const Eigen::Vector3d ray = camera.T_body_cam.rotation * camera.model.unproject({x, y});
-    const Eigen::Vector3d camera = camera.T_body_cam.translation;
-    const Eigen::Vector3d p = camera + ray * ((kWall - camera.x()) / ray.x());
+    const Eigen::Vector3d origin = camera.T_body_cam.translation;
+    const Eigen::Vector3d p = origin + ray * ((kWall - origin.x()) / ray.x());
     return texture(150 * p.y(), 150 * p.z());
   });
 }
@@ -188,4 +188,4 @@ TEST(RectificationTest, PairsThatAreNoneAreErrors) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -7,7 +7,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 Rig rover() {
@@ -96,4 +96,4 @@ TEST(StereoRigTest, CamerasTheWrongWayRoundAreAnErrorWherePairIsUsed) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

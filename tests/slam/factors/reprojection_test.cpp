@@ -6,7 +6,7 @@
 
 #include "slam/optimisation/bundle_adjustment.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 StereoCameraModel camera() {
@@ -193,4 +193,4 @@ TEST(TagCornerErrorTest, JacobiansAreTheNumericOnes) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -5,7 +5,7 @@
 #include <ceres/loss_function.h>
 #include <gtest/gtest.h>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// Ceres gives (cost, weight, its derivative) of the same losses.
@@ -25,4 +25,4 @@ TEST(RobustLossTest, AgreesWithCeres) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -12,7 +12,7 @@
 
 #include "tests/support/synthetic_texture.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// Contrast of the texture falls from full at the left to a tenth at the right.
@@ -93,4 +93,4 @@ TEST(FastCells, BlankOrTinyImagesHaveNone) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

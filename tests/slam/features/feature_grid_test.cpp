@@ -11,7 +11,7 @@
 
 #include "core/util/random.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using testing::ElementsAre;
@@ -90,4 +90,4 @@ TEST(FeatureGrid, EmptyOrUndefinedQueriesFindNothing) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -13,7 +13,7 @@
 #include "core/util/error.h"
 #include "tests/support/synthetic_texture.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr int kWidth = 480;
@@ -248,4 +248,4 @@ TEST(OrbExtractor, RefusesOtherImages) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -8,7 +8,7 @@
 
 #include "tests/support/synthetic_texture.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 double worst(const cv::Mat& a, const cv::Mat& b) {
@@ -53,4 +53,4 @@ TEST(Smoothing, AnyPitchAndAnySizeWillDo) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -10,7 +10,7 @@
 
 #include "core/util/random.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr int kWidth = 640;
@@ -93,4 +93,4 @@ TEST(SquareCovering, FewCornersAreAllKept) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -9,7 +9,7 @@
 #include "slam/optimisation/bundle_adjustment.h"
 #include "tests/support/aisle_map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using testing_support::AisleMap;
@@ -71,14 +71,14 @@ TEST_F(LoopCloserTest, ALoadedMapLiesInTheWorldAsItsRegisteredTagSays) {
   const Pose T_map_tag = T_map_world * second.T_world_tag;
   Pose believed = T_map_tag * T_body_tag_.inverse();
   believed.translation.x() += 0.1;
-  loop.note(*frame(0, {sighting(2, T_body_tag_)}), believed, 0, map_);
+  loop.record(*frame(0, {sighting(2, T_body_tag_)}), believed, 0, map_);
   ASSERT_EQ(map_.tags().size(), 2u);
   EXPECT_LT(distance(map_.tags()[1].T_map_tag, T_map_tag), 1e-12);
 }
 
 TEST_F(LoopCloserTest, AnUnregisteredTagIsMappedAtFirstSight) {
   LoopCloser loop = closer();
-  loop.note(*frame(0, {sighting(3, T_body_tag_)}), body_, 0, map_);
+  loop.record(*frame(0, {sighting(3, T_body_tag_)}), body_, 0, map_);
   ASSERT_EQ(map_.tags().size(), 1u);
   const MapTag tag = map_.tags()[0];
   EXPECT_EQ(tag.id, 3);
@@ -86,7 +86,7 @@ TEST_F(LoopCloserTest, AnUnregisteredTagIsMappedAtFirstSight) {
   EXPECT_FALSE(tag.fixed);
   EXPECT_LT(distance(tag.T_map_tag, body_ * T_body_tag_), 1e-14);
   // Seen again from a place that is a little wrong, it stays.
-  loop.note(*frame(1, {sighting(3, T_body_tag_)}), Pose{}, 0, map_);
+  loop.record(*frame(1, {sighting(3, T_body_tag_)}), Pose{}, 0, map_);
   ASSERT_EQ(map_.tags().size(), 1u);
   EXPECT_EQ(distance(map_.tags()[0].T_map_tag, tag.T_map_tag), 0);
 }
@@ -95,9 +95,9 @@ TEST_F(LoopCloserTest, RegisteredTagsKeepTheirPlacesAgainstEachOther) {
   const Pose T_world_a{exp_so3({0.1, 0.2, 0.3}), {10, 20, 0.5}};
   const Pose T_world_b{exp_so3({0.3, 0.1, 0.2}), {11, 22, 0.7}};
   LoopCloser loop = closer({{"tag36h11", 0, 0.2, T_world_a}, {"tag36h11", 1, 0.3, T_world_b}});
-  loop.note(*frame(0, {sighting(0, T_body_tag_)}), body_, 0, map_);
+  loop.record(*frame(0, {sighting(0, T_body_tag_)}), body_, 0, map_);
   // The second is seen in a wrong place: what is known beforehand counts.
-  loop.note(*frame(1, {sighting(1, T_body_tag_)}), body_, 0, map_);
+  loop.record(*frame(1, {sighting(1, T_body_tag_)}), body_, 0, map_);
   ASSERT_EQ(map_.tags().size(), 2u);
   EXPECT_TRUE(map_.tags()[0].fixed);
   EXPECT_EQ(map_.tags()[1].size, 0.3);
@@ -116,7 +116,7 @@ TEST_F(LoopCloserTest, ATagTellsWhereTheBodyIs) {
   EXPECT_LT(distance(*in_world * T_body_tag_, T_world_tag), 1e-12);
 
   EXPECT_FALSE(loop.map_pose({known}, map_));
-  loop.note(*frame(0, {known}), body_, 0, map_);
+  loop.record(*frame(0, {known}), body_, 0, map_);
   const auto in_map = loop.map_pose({known}, map_);
   ASSERT_TRUE(in_map);
   EXPECT_LT(distance(*in_map, body_), 1e-12);
@@ -128,7 +128,7 @@ TEST_F(LoopCloserTest, ATagThatWasLeftAndIsSeenAgainIsALoop) {
   const auto first = frame(0, {sighting(3, T_body_tag_)});
   EXPECT_FALSE(loop.sees_loop(*first, 0));
   map_.add_keyframe(first, body_, {});
-  loop.note(*first, body_, 0, map_);
+  loop.record(*first, body_, 0, map_);
   // Three seconds are 45 frames; the way is at least a metre.
   EXPECT_FALSE(loop.sees_loop(*frame(44, {sighting(3, T_body_tag_)}), 5.0));
   EXPECT_FALSE(loop.sees_loop(*frame(45, {sighting(3, T_body_tag_)}), 0.99));
@@ -136,7 +136,7 @@ TEST_F(LoopCloserTest, ATagThatWasLeftAndIsSeenAgainIsALoop) {
   EXPECT_FALSE(loop.sees_loop(*frame(45, {sighting(4, T_body_tag_)}), 1.0));
   EXPECT_FALSE(loop.sees_loop(*frame(45, {}), 1.0));
   // It stays one until it is closed.
-  loop.note(*frame(45, {sighting(3, T_body_tag_)}), body_, 1.0, map_);
+  loop.record(*frame(45, {sighting(3, T_body_tag_)}), body_, 1.0, map_);
   EXPECT_TRUE(loop.sees_loop(*frame(46, {sighting(3, T_body_tag_)}), 1.02));
 }
 
@@ -147,19 +147,19 @@ TEST_F(LoopCloserTest, OutOfViewForAMomentIsNotLeft) {
   for (int i = 0; i < 400; i += 30) {
     const auto seen = frame(i, {sighting(3, T_body_tag_)});
     EXPECT_FALSE(loop.sees_loop(*seen, 0.02 * i)) << i;
-    loop.note(*seen, body_, 0.02 * i, map_);
+    loop.record(*seen, body_, 0.02 * i, map_);
   }
 }
 
 TEST_F(LoopCloserTest, WhatNoKeyframeSawIsNoLoopYet) {
   LoopCloser loop = closer();
   map_.add_keyframe(frame(0, {}), body_, {});
-  loop.note(*frame(1, {sighting(3, T_body_tag_)}), body_, 0, map_);  // a frame between keyframes
+  loop.record(*frame(1, {sighting(3, T_body_tag_)}), body_, 0, map_);  // a frame between keyframes
   EXPECT_FALSE(loop.sees_loop(*frame(100, {sighting(3, T_body_tag_)}), 5));
   const auto keyframe = frame(100, {sighting(3, T_body_tag_)});
   map_.add_keyframe(keyframe, body_, {});
-  loop.note(*keyframe, body_, 5, map_);
-  loop.note(*frame(101, {sighting(3, T_body_tag_)}), body_, 5, map_);
+  loop.record(*keyframe, body_, 5, map_);
+  loop.record(*frame(101, {sighting(3, T_body_tag_)}), body_, 5, map_);
   EXPECT_TRUE(loop.sees_loop(*frame(200, {sighting(3, T_body_tag_)}), 10));
 }
 
@@ -168,7 +168,7 @@ TEST_F(LoopCloserTest, CanBeSwitchedOff) {
   LoopCloser loop = closer();
   const auto first = frame(0, {sighting(3, T_body_tag_)});
   map_.add_keyframe(first, body_, {});
-  loop.note(*first, body_, 0, map_);
+  loop.record(*first, body_, 0, map_);
   EXPECT_FALSE(loop.sees_loop(*frame(100, {sighting(3, T_body_tag_)}), 5));
 }
 
@@ -208,7 +208,7 @@ class LoopClosureTest : public LoopCloserTest {
       EXPECT_EQ(loop.sees_loop(*features, 0.5 * k), k == 5) << k;
       const int id = known_.add(features, drifted(k));
       if (k == 5) return loop.close(id, 0.5 * k, known_.map);
-      loop.note(*features, drifted(k), 0.5 * k, known_.map);
+      loop.record(*features, drifted(k), 0.5 * k, known_.map);
     }
     return {};
   }
@@ -255,7 +255,7 @@ TEST_F(LoopClosureTest, ARegisteredTagThatIsNewClosesItWithTheLastOne) {
   for (int k = 0; k < 5; ++k) {
     const auto features = keyframe(k, false);
     known_.add(features, drifted(k));
-    loop.note(*features, drifted(k), 0.5 * k, known_.map);
+    loop.record(*features, drifted(k), 0.5 * k, known_.map);
   }
   auto last = std::make_shared<FrameFeatures>(*aisle_.frame(150, truth_[5]));
   last->tags.push_back(with_corners(sighting(7, T_body_tag_)));
@@ -280,4 +280,4 @@ TEST_F(LoopClosureTest, WithoutALoopThereIsNothingToClose) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// Keyframes at these x, m, each with a landmark of its own one metre to its left.
@@ -87,4 +87,4 @@ TEST(SpreadCorrectionTest, AnOdometryGapTakesIt) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -6,7 +6,7 @@
 #include "slam/optimisation/bundle_adjustment.h"
 #include "tests/support/aisle_map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using testing_support::distance;
@@ -48,10 +48,10 @@ class TagJudgementTest : public testing::Test {
   /// The first frame, a keyframe, sees tag 3.
   void see_first() {
     const auto first = std::make_shared<FrameFeatures>(frame(0, {shifted(3, 0)}));
-    EXPECT_TRUE(loop_.judge(*first, body_, 0, map_).empty());
+    EXPECT_TRUE(loop_.gate(*first, body_, 0, map_).empty());
     ASSERT_EQ(first->tags.size(), 1u);
     map_.add_keyframe(first, body_, {});
-    loop_.note(*first, body_, 0, map_);
+    loop_.record(*first, body_, 0, map_);
   }
 
   SyntheticAisle aisle_{0, 1, 10};
@@ -65,18 +65,18 @@ class TagJudgementTest : public testing::Test {
 TEST_F(TagJudgementTest, ALoopNeedsTwoFramesInARow) {
   see_first();
   FrameFeatures once = frame(100, {shifted(3, 0.03)});
-  EXPECT_TRUE(loop_.judge(once, body_, 5, map_).empty());
+  EXPECT_TRUE(loop_.gate(once, body_, 5, map_).empty());
   EXPECT_TRUE(once.tags.empty());  // held back
   FrameFeatures gap = frame(101, {});
-  loop_.judge(gap, body_, 5, map_);
+  loop_.gate(gap, body_, 5, map_);
   FrameFeatures again = frame(102, {shifted(3, 0.03)});
-  loop_.judge(again, body_, 5, map_);
+  loop_.gate(again, body_, 5, map_);
   EXPECT_TRUE(again.tags.empty());  // not in a row
   FrameFeatures elsewhere = frame(103, {shifted(3, -0.05)});
-  loop_.judge(elsewhere, body_, 5, map_);
+  loop_.gate(elsewhere, body_, 5, map_);
   EXPECT_TRUE(elsewhere.tags.empty());  // 8 cm from where it was a frame ago
   FrameFeatures confirmed = frame(104, {shifted(3, -0.05)});
-  loop_.judge(confirmed, body_, 5, map_);
+  loop_.gate(confirmed, body_, 5, map_);
   EXPECT_EQ(confirmed.tags.size(), 1u);
   EXPECT_TRUE(loop_.sees_loop(confirmed, 5));
 }
@@ -86,7 +86,7 @@ TEST_F(TagJudgementTest, AMovedTagIsRefused) {
   for (const std::int64_t i : {100, 101, 102}) {
     // After 5 m the drift may be 0.05 + 0.02 x 5 = 0.15 m.
     FrameFeatures moved = frame(i, {shifted(3, 0.25)});
-    const auto rejected = loop_.judge(moved, body_, 5, map_);
+    const auto rejected = loop_.gate(moved, body_, 5, map_);
     ASSERT_EQ(rejected.size(), 1u);
     EXPECT_EQ(rejected[0].reason, TagRejection::kMisplaced);
     EXPECT_EQ(rejected[0].id, 3);
@@ -101,7 +101,7 @@ TEST_F(TagJudgementTest, TheLongerTheWayTheMoreDriftIsAllowed) {
   see_first();
   const auto believed = [&](double by, double way) {
     FrameFeatures seen = frame(100, {shifted(3, by)});
-    return loop_.judge(seen, body_, way, map_).empty();
+    return loop_.gate(seen, body_, way, map_).empty();
   };
   EXPECT_TRUE(believed(0.10, 5));
   EXPECT_FALSE(believed(0.25, 5));
@@ -113,13 +113,13 @@ TEST_F(TagJudgementTest, AfterAnOdometryGapMoreIsAllowed) {
   see_first();
   const auto believed = [&](double by) {
     FrameFeatures seen = frame(100, {shifted(3, by)});
-    return loop_.judge(seen, body_, 5, map_).empty();
+    return loop_.gate(seen, body_, 5, map_).empty();
   };
   EXPECT_FALSE(believed(0.25));  // 0.05 + 0.02 x 5 = 0.15 m
   Matrix6d covariance = Matrix6d::Zero();
   covariance.topLeftCorner<3, 3>().diagonal().setConstant(0.04 * 0.04);      // m^2
   covariance.bottomRightCorner<3, 3>().diagonal().setConstant(0.02 * 0.02);  // rad^2
-  loop_.bridge(3, covariance);
+  loop_.cross_gap(3, covariance);
   // In variances: 3 x 0.04^2 and 3 x 0.02^2 x 2^2 m^2 besides (0.15 m / 4.74)^2, together 0.104 m
   // squared: 4.74 of them are 0.49 m.
   EXPECT_TRUE(believed(0.25));
@@ -130,13 +130,13 @@ TEST_F(TagJudgementTest, ATagTurnedOverIsRefused) {
   see_first();
   FrameFeatures turned =
       frame(100, {sighting(3, T_body_tag_ * Pose{exp_so3({0, 0.4, 0}), {0, 0, 0}})});
-  EXPECT_EQ(loop_.judge(turned, body_, 5, map_).size(), 1u);  // 23 degrees; 4.5 are allowed
+  EXPECT_EQ(loop_.gate(turned, body_, 5, map_).size(), 1u);  // 23 degrees; 4.5 are allowed
 }
 
 TEST_F(TagJudgementTest, OfADuplicateTheOneInPlaceIsBelieved) {
   see_first();
   FrameFeatures both = frame(1, {shifted(3, 0.5), shifted(3, 0)});
-  const auto rejected = loop_.judge(both, body_, 0.02, map_);
+  const auto rejected = loop_.gate(both, body_, 0.02, map_);
   ASSERT_EQ(rejected.size(), 1u);
   EXPECT_EQ(rejected[0].reason, TagRejection::kMisplaced);
   ASSERT_EQ(both.tags.size(), 1u);
@@ -145,18 +145,18 @@ TEST_F(TagJudgementTest, OfADuplicateTheOneInPlaceIsBelieved) {
 
 TEST_F(TagJudgementTest, OfADuplicateThatIsNewNoneIsMapped) {
   FrameFeatures both = frame(0, {shifted(3, 0.4), shifted(3, 0), sighting(5, T_body_tag_)});
-  const auto rejected = loop_.judge(both, body_, 0, map_);
+  const auto rejected = loop_.gate(both, body_, 0, map_);
   ASSERT_EQ(rejected.size(), 2u);
   EXPECT_EQ(rejected[0].reason, TagRejection::kDuplicate);
   ASSERT_EQ(both.tags.size(), 1u);
-  loop_.note(both, body_, 0, map_);
+  loop_.record(both, body_, 0, map_);
   ASSERT_EQ(map_.tags().size(), 1u);
   EXPECT_EQ(map_.tags()[0].id, 5);
 }
 
 TEST_F(TagJudgementTest, OneTagInTwoImagesIsNoDuplicate) {
   FrameFeatures both = frame(0, {shifted(3, 0), shifted(3, 0.001)});
-  EXPECT_TRUE(loop_.judge(both, body_, 0, map_).empty());
+  EXPECT_TRUE(loop_.gate(both, body_, 0, map_).empty());
   EXPECT_EQ(both.tags.size(), 2u);
 }
 
@@ -164,7 +164,7 @@ TEST_F(TagJudgementTest, AnAmbiguousSightingIsNotMapped) {
   TagSighting seen = shifted(3, 0);
   seen.ambiguous = true;
   FrameFeatures features = frame(0, {seen});
-  const auto rejected = loop_.judge(features, body_, 0, map_);
+  const auto rejected = loop_.gate(features, body_, 0, map_);
   ASSERT_EQ(rejected.size(), 1u);
   EXPECT_EQ(rejected[0].reason, TagRejection::kAmbiguous);
   EXPECT_TRUE(features.tags.empty());
@@ -183,13 +183,13 @@ TEST_F(TagJudgementTest, ARegisteredTagInAnotherPlaceThanSurveyedIsRefused) {
   LoopCloser loop(SlamConfig{}, rig_,
                   {{"tag36h11", 3, 0.161, body_ * T_body_tag_}, {"tag36h11", 4, 0.161, T_other}});
   FrameFeatures first = frame(0, {shifted(3, 0)});
-  EXPECT_TRUE(loop.judge(first, body_, 0, map_).empty());
-  loop.note(first, body_, 0, map_);
+  EXPECT_TRUE(loop.gate(first, body_, 0, map_).empty());
+  loop.record(first, body_, 0, map_);
   FrameFeatures wrong = frame(1, {shifted(4, 0.2)});  // 0.8 m from where it was surveyed
-  ASSERT_EQ(loop.judge(wrong, body_, 0.02, map_).size(), 1u);
+  ASSERT_EQ(loop.gate(wrong, body_, 0.02, map_).size(), 1u);
   EXPECT_TRUE(wrong.tags.empty());
   EXPECT_EQ(map_.find_tag("tag36h11", 4), nullptr);
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -12,7 +12,7 @@
 #include "tests/support/aisle_map.h"
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using testing::AllOf;
@@ -226,4 +226,4 @@ TEST_F(MapFileTest, FilesAreWrittenAndRead) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

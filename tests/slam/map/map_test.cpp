@@ -9,7 +9,7 @@
 #include <set>
 #include <tuple>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// A frame of `views` views with ten features each, feature i of view v with the bit 10 v + i set.
@@ -202,4 +202,4 @@ TEST_F(MapTest, TagsAreFoundByFamilyAndId) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -8,7 +8,7 @@
 
 #include "tests/support/aisle_map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using testing_support::AisleMap;
@@ -64,4 +64,4 @@ TEST(PointCloudTest, LandmarksThatFewSawStayOut) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -6,7 +6,7 @@
 
 #include "tests/support/aisle_map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using testing_support::AisleMap;
@@ -109,4 +109,4 @@ TEST(TriangulationTest, FeaturesThatLookDifferentOrWithoutABaselineAreNotMatched
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

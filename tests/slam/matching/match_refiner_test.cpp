@@ -11,7 +11,7 @@
 
 #include "tests/support/slanted_plane.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 class MatchRefinerTest : public testing::Test, protected testing_support::SlantedPlane {};
@@ -77,4 +77,4 @@ TEST_F(MatchRefinerTest, LeavesAFrameWithoutImagesAlone) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -11,7 +11,7 @@
 
 #include "tests/support/slanted_plane.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 class PatchFollowerTest : public testing::Test, protected testing_support::SlantedPlane {
@@ -145,4 +145,4 @@ TEST_F(PatchFollowerTest, WithoutTheRightCameraThereIsNoDepth) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

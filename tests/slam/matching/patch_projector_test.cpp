@@ -8,7 +8,7 @@
 
 #include "tests/support/slanted_plane.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 class PatchProjectorTest : public testing::Test, protected testing_support::SlantedPlane {
@@ -116,4 +116,4 @@ TEST_F(PatchProjectorTest, SaysNothingFromBehind) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

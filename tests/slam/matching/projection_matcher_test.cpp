@@ -6,7 +6,7 @@
 
 #include "tests/support/aisle_map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using testing_support::AisleMap;
@@ -188,4 +188,4 @@ TEST_F(ProjectionMatcherTest, LandmarksSeenFromElsewhereAreNotExpected) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

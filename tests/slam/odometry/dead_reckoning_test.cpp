@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 TEST(DeadReckoningTest, KeepsTheVelocityAndDoubtsItMoreAndMore) {
@@ -38,4 +38,4 @@ TEST(DeadReckoningTest, DoubtsWheelsByTheWayTheyWent) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 WheelSample reading(std::array<double, 4> angle) {
@@ -50,4 +50,4 @@ TEST(WheelOdometryTest, ChainsReadingsIntoAnArc) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

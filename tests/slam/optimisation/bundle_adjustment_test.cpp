@@ -6,7 +6,7 @@
 
 #include "tests/support/aisle_map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using testing_support::AisleMap;
@@ -247,4 +247,4 @@ TEST(AdjustmentTest, TheLocalWindowIsTheKeyframeItsNeighboursAndTheirs) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

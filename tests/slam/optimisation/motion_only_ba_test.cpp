@@ -6,7 +6,7 @@
 
 #include "tests/support/aisle_map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using testing_support::AisleMap;
@@ -128,4 +128,4 @@ TEST(MotionOnlyBaTest, TooFewMatchesLeaveThePrediction) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

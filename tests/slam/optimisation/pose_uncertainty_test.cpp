@@ -6,7 +6,7 @@
 
 #include "slam/factors/reprojection.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 Pose sample_step() {
@@ -49,4 +49,4 @@ TEST(PoseUncertaintyTest, GrowsFromKeyframeToKeyframe) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -8,7 +8,7 @@
 #include "slam/tags/tag_pose.h"
 #include "tests/support/aisle_map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using testing_support::angle;
@@ -131,4 +131,4 @@ TEST_F(TagFixTest, OfTwoThatContradictEachOtherNoneIsBelieved) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -8,7 +8,7 @@
 
 #include "tests/support/synthetic_plane.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 struct Alignments {
@@ -122,4 +122,4 @@ TEST(PatchAlignmentTest, ALineAlongTheRowHasNoPlaceOnIt) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 Patch grey(std::uint8_t level) {
@@ -41,4 +41,4 @@ TEST(PatchListTest, KeepsThePatchesOfTiedFeatures) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -10,7 +10,7 @@
 
 #include "tests/support/synthetic_texture.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr int kWidth = 160;
@@ -135,4 +135,4 @@ TEST(PatchTest, BrightnessDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -11,7 +11,7 @@
 #include "slam/pipeline.h"
 #include "tests/support/aisle_map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using testing_support::angle;
@@ -218,4 +218,4 @@ TEST(LiveSlamTest, StaysNearTheLockstepResult) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -10,7 +10,7 @@
 #include "slam/pipeline.h"
 #include "tests/support/aisle_map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using testing_support::AisleMap;
@@ -134,4 +134,4 @@ TEST(LockstepTest, TheDelayIsPartOfTheConfiguration) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -8,7 +8,7 @@
 
 #include "tests/support/synthetic_plane.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr int kX = 150;
@@ -102,4 +102,4 @@ TEST(RowSearchTest, WindowsOffTheImageAreNotFound) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

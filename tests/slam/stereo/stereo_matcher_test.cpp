@@ -10,7 +10,7 @@
 #include "core/util/error.h"
 #include "tests/support/synthetic_plane.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr double kBaseline = 0.12;             // m
@@ -237,4 +237,4 @@ TEST(ReachFartherTest, GivesWhatLiesBeyondADepthWhereLittleIsNear) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -11,7 +11,7 @@
 
 #include "tests/support/synthetic_texture.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 /// '#' is black, '.' white.
@@ -91,4 +91,4 @@ TEST(BlackRegions, FlatAndTinyImagesHaveNone) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -9,7 +9,7 @@
 #include "slam/optimisation/bundle_adjustment.h"
 #include "tests/support/synthetic_tag.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr double kSize = 0.161;  // m
@@ -188,4 +188,4 @@ TEST(TagDetectorTest, OnlyGreyImagesAreRead) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -7,7 +7,7 @@
 #include "core/util/random.h"
 #include "slam/optimisation/bundle_adjustment.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 PinholeCamera camera(const std::array<double, 4>& distortion = {}) {
@@ -94,4 +94,4 @@ TEST(TagPoseTest, FourCornersThatAreNoSquareAreSeen) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -13,7 +13,7 @@
 #include "tests/support/synthetic_tag.h"
 #include "tests/support/synthetic_texture.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr double kSize = 0.161;  // m
@@ -102,4 +102,4 @@ TEST(TagSearch, LittleOfATextureIsLeft) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 constexpr int kFeatures = 1000;
@@ -101,4 +101,4 @@ TEST_F(KeyframeSelectorTest, WithNothingNewToSeeAWeakFrameAddsNothing) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

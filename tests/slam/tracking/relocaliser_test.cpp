@@ -6,7 +6,7 @@
 
 #include "tests/support/aisle_map.h"
 
-namespace vinebench {
+namespace vinebench::slam {
 namespace {
 
 using testing_support::AisleMap;
@@ -168,4 +168,4 @@ TEST_F(RelocaliserTest, TheSameFrameGivesTheSameBits) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::slam

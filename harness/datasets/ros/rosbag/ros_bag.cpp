@@ -24,7 +24,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -287,4 +287,4 @@ bool has_rosbag() {
   return true;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace vinebench {
+namespace vinebench::harness {
 
 using RosVector = std::array<double, 3>;
 using RosQuaternion = std::array<double, 4>;  ///< x, y, z, w
@@ -126,4 +126,4 @@ class RosBag {
 /// Whether the program was built with ROS's libraries.
 bool has_rosbag();
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

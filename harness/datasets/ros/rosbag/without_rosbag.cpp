@@ -6,7 +6,7 @@
 #include "core/util/error.h"
 #include "harness/datasets/ros/rosbag/ros_bag.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 struct RosBag::Impl {};
 
@@ -34,4 +34,4 @@ bool has_rosbag() {
   return false;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -6,7 +6,7 @@
 
 #include "sim/render/gl/platform/gl_context.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 // epoxy and its like resolve through GLX or EGL and do not see OSMesa, so the renderer loads the
 // few functions that it calls by itself, through whichever context there is.
@@ -93,4 +93,4 @@ struct GlFunctions {
 /// The functions of the context that is current in this thread.
 extern thread_local GlFunctions gl;
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

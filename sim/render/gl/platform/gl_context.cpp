@@ -9,7 +9,7 @@
 #include "core/util/error.h"
 #include "sim/render/gl/platform/gl.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 thread_local GlFunctions gl;
 
@@ -72,4 +72,4 @@ std::string gl_version() {
   return text == nullptr ? "unknown" : reinterpret_cast<const char*>(text);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

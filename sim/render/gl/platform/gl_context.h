@@ -7,7 +7,7 @@
 
 #include "sim/render/renderer.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 struct GlFunctions;
 
@@ -62,4 +62,4 @@ class CurrentContext {
   GlContext& context_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -10,7 +10,7 @@
 
 #include <array>
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 /// Opened once a process; EGL counts its users itself and is safe across threads.
@@ -74,11 +74,11 @@ std::unique_ptr<GlContext> make_egl_context() {
   return std::make_unique<EglContext>();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim
 
 #else
 
-namespace vinebench {
+namespace vinebench::sim {
 
 bool has_egl() {
   return false;
@@ -88,6 +88,6 @@ std::unique_ptr<GlContext> make_egl_context() {
   fail("renderer: this build has no EGL; install libegl-dev and build again");
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim
 
 #endif

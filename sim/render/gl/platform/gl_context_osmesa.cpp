@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <mutex>
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 /// OSMesa's contexts share one screen, whose book-keeping is not safe across threads.
@@ -75,11 +75,11 @@ std::unique_ptr<GlContext> make_osmesa_context() {
   return std::make_unique<OsmesaContext>();
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim
 
 #else
 
-namespace vinebench {
+namespace vinebench::sim {
 
 bool has_osmesa() {
   return false;
@@ -89,6 +89,6 @@ std::unique_ptr<GlContext> make_osmesa_context() {
   fail("renderer: this build has no OSMesa; install libosmesa6-dev and build again");
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim
 
 #endif

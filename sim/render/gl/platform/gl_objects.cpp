@@ -4,7 +4,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using GenerateNames = void (*)(GLsizei, GLuint*);
@@ -209,4 +209,4 @@ void check_gl(const char* where) {
   if (error != GL_NO_ERROR) fail("renderer: OpenGL error {:#x} in {}", error, where);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

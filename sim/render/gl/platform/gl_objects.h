@@ -11,7 +11,7 @@
 
 #include "sim/render/gl/platform/gl.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Owns one GL name; the context must be current when it dies.
 template <void (*destroy)(GLuint)>
@@ -113,4 +113,4 @@ class GlTarget {
 /// Throws Error when GL has met one since the last call.
 void check_gl(const char* where);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -8,7 +8,7 @@
 
 #include "sim/render/gl/mip_levels.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr double kTexel = 0.012;      // m; finer than the shadow of a cane is sharp
@@ -128,4 +128,4 @@ cv::Mat LightMap::bake(const GpuScene& scene, const ShadowMap& shadows, MeshProg
   return map;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -10,7 +10,7 @@
 #include "sim/render/gl/shadows/shadow_map.h"
 #include "sim/render/gl/view_block.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// The light that arrives at the ground, sun and sky, baked once and seen from above: one cheap
 /// look-up a pixel in place of a comparison with the shadow map. Beyond it the ground lies open.
@@ -34,4 +34,4 @@ class LightMap {
   Eigen::Vector4f map_from_world_ = Eigen::Vector4f::Zero();
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -8,7 +8,7 @@
 #include "sim/render/gl/shaders.h"
 #include "sim/render/gl/shadows/sun_view.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 constexpr int kMapSize = 256;          // pixels a side: 3 mm each
@@ -103,4 +103,4 @@ Eigen::Matrix4d RoverShadow::map_from_world() const {
   return map_from_light() * light_from_world(R_sun_world_, box_);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -11,7 +11,7 @@
 #include "core/geometry/pose.h"
 #include "sim/render/gl/gpu_scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Depth of the rover alone as seen from the sun, drawn anew for each place of the rover.
 class RoverShadow {
@@ -47,4 +47,4 @@ class RoverShadow {
   Eigen::AlignedBox3d box_;    ///< of the map's rover, in the sun's axes
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

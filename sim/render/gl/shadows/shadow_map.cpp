@@ -7,7 +7,7 @@
 #include "sim/render/gl/shaders.h"
 #include "sim/render/gl/shadows/sun_view.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 /// What casts shadows, in the sun's axes.
@@ -88,4 +88,4 @@ void ShadowMap::draw(const GpuScene& scene, const Eigen::Matrix4d& light) {
   gl.Disable(GL_POLYGON_OFFSET_FILL);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -6,7 +6,7 @@
 
 #include "sim/render/gl/gpu_scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Depth as seen from the sun, drawn once: the sun and what stands in its light keep still.
 class ShadowMap {
@@ -27,4 +27,4 @@ class ShadowMap {
   double texel_ = 0;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -6,7 +6,7 @@
 
 #include "core/util/error.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 Eigen::Matrix3d sun_from_world(const Eigen::Vector3d& towards_sun) {
   const Eigen::Vector3d z = -towards_sun.normalized();
@@ -50,4 +50,4 @@ GlFramebuffer make_depth_framebuffer(const GlTexture& texture) {
   return framebuffer;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

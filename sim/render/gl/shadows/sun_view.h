@@ -7,7 +7,7 @@
 
 #include "sim/render/gl/platform/gl_objects.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 
 /// Axes of the sun's view: z away from the sun.
 Eigen::Matrix3d sun_from_world(const Eigen::Vector3d& towards_sun);
@@ -23,4 +23,4 @@ Eigen::Matrix4d map_from_light();
 /// A target that draws into a depth texture alone; left bound.
 GlFramebuffer make_depth_framebuffer(const GlTexture& texture);
 
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -6,7 +6,7 @@
 #include "core/config/yaml_writer.h"
 #include "tests/support/recorded_folders.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using test::error_of;
@@ -228,4 +228,4 @@ TEST(PoseAtTest, LiesBetweenItsNeighbours) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

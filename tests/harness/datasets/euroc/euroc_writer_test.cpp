@@ -7,12 +7,13 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "core/util/random.h"
 #include "harness/datasets/files/background_worker.h"
 #include "harness/datasets/format/tag_list.h"
 #include "harness/replay.h"
 #include "tests/support/recorded_folders.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using test::error_of;
@@ -39,7 +40,7 @@ RecordingNotes notes() {
   notes.tags.push_back(
       {"tag36h11", 7, 0.161, {from_roll_pitch_yaw({0.1, 0.2, 0.3}), {1, 2, 1.0 / 7}}});
   notes.slam.features.features = 777;
-  notes.comment = "test";
+  notes.scenario = "test";
   return notes;
 }
 
@@ -232,4 +233,4 @@ TEST(TagListTest, FaultsNameFileAndKey) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -6,7 +6,7 @@
 
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 TEST(FileManifestTest, AFileHasTheHashOfItsBytes) {
@@ -24,4 +24,4 @@ TEST(FileManifestTest, AFileHasTheHashOfItsBytes) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

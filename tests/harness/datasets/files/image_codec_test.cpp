@@ -13,7 +13,7 @@
 #include "core/util/random.h"
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 cv::Mat noise(int rows, int columns, int type) {
@@ -80,4 +80,4 @@ TEST(ImageCodecTest, FlowIsMiddleburys) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -5,7 +5,7 @@
 
 #include "tests/support/recorded_folders.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using test::error_of;
@@ -35,7 +35,7 @@ TEST_F(KittiReaderTest, ReadsAnExcerptWithoutLabelsAndTimes) {
   EXPECT_NEAR(recording.rig.baseline(recording.rig.stereo_pairs[0]), 0.5, 1e-15);
   // Its pair needs no rectification: make_slam takes it.
   WorkerPool pool(1);
-  EXPECT_NO_THROW(make_slam({}, recording.rig, {}, pool));
+  EXPECT_NO_THROW(slam::make_slam({}, recording.rig, {}, pool));
 }
 
 TEST_F(KittiReaderTest, ThePosesBecomeTheBodys) {
@@ -163,4 +163,4 @@ TEST_F(KittiReaderTest, AGroundTruthOfOnesOwn) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -10,7 +10,7 @@
 #include "core/util/random.h"
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using testing::HasSubstr;
@@ -79,4 +79,4 @@ TEST(RunLengthTest, DamagedCountsAreErrors) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -19,7 +19,7 @@
 #include "harness/datasets/labels/mask_rle.h"
 #include "tests/support/small_scenario.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using Json = nlohmann::json;
@@ -49,7 +49,7 @@ class RecordedLabelsTest : public test::SmallScenario {
     return read_npy(request_.out / "depth32" / camera / fmt::format("{:06}.npy", number),
                     size_of(camera));
   }
-  cv::Mat image(const std::string& format, const std::string& camera, int number) const {
+  cv::Mat read_image(const std::string& format, const std::string& camera, int number) const {
     const auto file = request_.out / format / camera / fmt::format("{:06}.png", number);
     return cv::imread(file.string(), cv::IMREAD_UNCHANGED);
   }
@@ -69,9 +69,9 @@ TEST_F(RecordedLabelsTest, DepthReprojectsIntoTheOtherCameraAtTheDisparity) {
   int same = 0;
   for (const int number : {0, 5}) {
     const cv::Mat z = depth("left", number);
-    const cv::Mat mm = image("depth", "left", number);
+    const cv::Mat mm = read_image("depth", "left", number);
     const cv::Mat z_right = depth("right", number);
-    const cv::Mat codes = image("disparity", "left", number);
+    const cv::Mat codes = read_image("disparity", "left", number);
     for (int y = 0; y < z.rows; ++y) {
       for (int x = 0; x < z.cols; ++x) {
         const double metres = z.at<float>(y, x);
@@ -102,8 +102,8 @@ TEST_F(RecordedLabelsTest, FlowLeadsToThePointInTheNextFrame) {
     const PinholeCamera& model = rig.cameras[camera == "left" ? 0 : 2].model;
     const Pose T_next_now = poses[5].pose.inverse() * poses[4].pose;
     const cv::Mat z = depth(camera, 4);
-    const cv::Mat code = image("flow", camera, 4);
-    const cv::Mat semantic = image("semantic", camera, 4);
+    const cv::Mat code = read_image("flow", camera, 4);
+    const cv::Mat semantic = read_image("semantic", camera, 4);
     const std::string flo = read_file(request_.out / "flo" / camera / "000004.flo");
     ASSERT_EQ(flo.size(), 12 + 8 * z.total());
     EXPECT_EQ(flo.substr(0, 4), "PIEH");
@@ -154,7 +154,7 @@ TEST_F(RecordedLabelsTest, CocoCountsEveryPixelOnce) {
     EXPECT_LE(annotation["truncation"], 1);
     // Its pixels are its own in the instance image.
     const std::string camera = image["camera"];
-    const cv::Mat ids = image("instances", camera, image["frame"]);
+    const cv::Mat ids = read_image("instances", camera, image["frame"]);
     const cv::Mat mine = mask_of(runs, ids.size());
     for (int y = 0; y < ids.rows; ++y) {
       for (int x = 0; x < ids.cols; ++x) {
@@ -166,7 +166,7 @@ TEST_F(RecordedLabelsTest, CocoCountsEveryPixelOnce) {
   }
   EXPECT_GT(bunches, 10);
   for (const auto& [id, image] : images) {
-    const cv::Mat semantic = image("semantic", image["camera"], image["frame"]);
+    const cv::Mat semantic = read_image("semantic", image["camera"], image["frame"]);
     std::map<int, std::int64_t> pixels;
     for (int y = 0; y < semantic.rows; ++y) {
       for (int x = 0; x < semantic.cols; ++x) {
@@ -201,4 +201,4 @@ TEST_F(RecordedLabelsTest, LabelsChooseWhatInstancesAreOf) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -14,7 +14,7 @@
 #include "core/util/files.h"
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -100,4 +100,4 @@ TEST(TruthColoursTest, DisparityIsIn256thsOfAPixel) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

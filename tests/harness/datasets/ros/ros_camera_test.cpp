@@ -6,7 +6,7 @@
 
 #include "tests/support/test_folder.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using test::error_of;
@@ -88,4 +88,4 @@ TEST(RosCameraTest, ANameThatRosCannotHaveIsAnError) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -13,7 +13,7 @@
 #include "harness/datasets/dataset_check.h"
 #include "tests/support/small_scenario.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -127,4 +127,4 @@ TEST_F(RosFormatTest, ABagThatCannotBeMadeIsAnError) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -8,7 +8,7 @@
 #include "sim/render/gl/platform/gl_context.h"
 #include "tests/support/test_scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 class VisibleWiresTest : public testing::Test {
@@ -48,4 +48,4 @@ TEST_F(VisibleWiresTest, OneTooFarToChangeAPixelIsNot) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

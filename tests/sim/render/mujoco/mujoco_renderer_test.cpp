@@ -6,7 +6,7 @@
 
 #include "tests/support/test_scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using namespace test;
@@ -81,4 +81,4 @@ TEST_F(MujocoRendererTest, TakesTheLevelOfTheDistance) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -14,7 +14,7 @@
 #include "tests/support/chessboard.h"
 #include "tests/support/test_scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 using namespace test;
@@ -411,4 +411,4 @@ TEST_F(LensTest, TheViewCoversTheImageAndKeepsItsDetail) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

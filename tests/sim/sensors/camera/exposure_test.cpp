@@ -9,7 +9,7 @@
 
 #include "sim/sensors/camera/light.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 Rig pair_and_side() {
@@ -112,4 +112,4 @@ TEST(ExposureTest, APairSharesAndTheSideCameraDoesNot) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

@@ -6,7 +6,7 @@
 
 #include "tests/support/test_scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 class GlareTest : public testing::Test {
@@ -56,4 +56,4 @@ TEST_F(GlareTest, AHalfCoveredSunGlaresByHalf) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

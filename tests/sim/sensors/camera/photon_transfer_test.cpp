@@ -10,7 +10,7 @@
 
 #include "sim/sensors/camera/light.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 struct Moments {
@@ -142,4 +142,4 @@ TEST(LightTest, AMeanOfLightIsNotTheMeanOfCodes) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

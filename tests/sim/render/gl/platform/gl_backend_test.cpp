@@ -15,7 +15,7 @@
 #include "tests/support/test_folder.h"
 #include "tests/support/test_scene.h"
 
-namespace vinebench {
+namespace vinebench::sim {
 namespace {
 
 WorldConfig small_world() {
@@ -89,4 +89,4 @@ TEST_F(GlBackendTest, TheEnvironmentNamesAPlatformOrIsAnError) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::sim

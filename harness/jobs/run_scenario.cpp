@@ -1,30 +1,24 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "harness/run_scenario.h"
+#include "harness/jobs/run_scenario.h"
 
 #include <cstdlib>
 
+#include "core/config/yaml_writer.h"
 #include "core/util/error.h"
 #include "harness/datasets/dataset_writer.h"
 #include "harness/datasets/format/dataset_folder.h"
+#include "harness/report/run_folder.h"
 #include "harness/run/prefetch.h"
 #include "harness/systems/external_slam.h"
 #include "harness/systems/plugin_slam.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 const char* non_empty(const char* variable) {
   const char* value = std::getenv(variable);
   return value != nullptr && *value != '\0' ? value : nullptr;
-}
-
-/// Better before a long run than after it.
-void expect_folder(const std::filesystem::path& file) {
-  const std::filesystem::path folder = file.parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-    fail("{}: there is no folder {}", file.string(), folder.string());
-  }
 }
 
 void expect_no_maps(const MapFiles& maps) {
@@ -60,15 +54,15 @@ RunOutcome run_other_system(const ScenarioConfig& scenario, FrameSource& source,
                             const RunOptions& options) {
   const SlamChoice& choice = scenario.slam;
   if (choice.plugin) {
-    const auto slam =
-        load_plugin_slam(*choice.plugin, source.rig(), registered_tags(scenario.simulation.world),
-                         choice.dead_reckoning.wheels, threads);
-    return run_lockstep_and_judge(scenario, source, *slam, options);
+    const auto slam = load_plugin_slam(*choice.plugin, source.rig(),
+                                       sim::registered_tags(scenario.simulation.world),
+                                       choice.dead_reckoning.wheels, threads);
+    return run_lockstep_and_judge(trial_of(scenario), source, *slam, options);
   }
   const ScratchFolder folder(options.folder);
   const auto slam =
       make_external_slam(*choice.external, notes_of(scenario), folder.path(), options.stopped);
-  return run_lockstep_and_judge(scenario, source, *slam, options);
+  return run_lockstep_and_judge(trial_of(scenario), source, *slam, options);
 }
 
 }  // namespace
@@ -84,21 +78,13 @@ std::filesystem::path default_cache() {
   return std::filesystem::temp_directory_path() / "vinebench-cache";
 }
 
-RunOutcome run_mapping_system(const ScenarioConfig& scenario, FrameSource& source,
-                              MappingSystem& slam, const RunOptions& options) {
-  expect_folder(options.maps.save);
-  expect_folder(options.maps.cloud);
-  if (!options.maps.load.empty()) slam.load_map(options.maps.load);
-  const RunOutcome outcome = run_lockstep_and_judge(scenario, source, slam, options);
-  if (!options.maps.save.empty()) slam.save_map(options.maps.save);
-  if (!options.maps.cloud.empty()) slam.save_cloud(options.maps.cloud);
-  return outcome;
+void prepare_scenario_folder(const std::filesystem::path& folder, const ScenarioConfig& scenario) {
+  prepare_run_folder(folder, "scenario.resolved.yaml", format_yaml(scenario));
 }
 
 RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options,
                         const std::optional<RunRecording>& recording) {
-  expect_folder(options.maps.save);  // before the vineyard is grown
-  expect_folder(options.maps.cloud);
+  check_map_folders(options.maps);  // before the vineyard is grown
   const bool ours = !scenario.slam.external && !scenario.slam.plugin;
   if (!ours) expect_no_maps(options.maps);
   if (recording) claim_folder(recording->folder);
@@ -109,23 +95,24 @@ RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOp
       recording ? plan_of(recording->options, load_rig(scenario.simulation.rover.rig))
                 : CapturePlan();
   const auto simulation =
-      make_simulation(scenario.simulation, static_cast<std::uint64_t>(scenario.seed),
-                      default_cache(), drawing, plan);
+      sim::make_simulation(scenario.simulation, static_cast<std::uint64_t>(scenario.seed),
+                           default_cache(), drawing, plan);
   std::optional<Prefetch> ahead;
-  if (threads > 1 && scenario.simulation.route.steering == Steering::kTruth) {
+  if (threads > 1 && scenario.simulation.route.steering == sim::Steering::kTruth) {
     ahead.emplace(*simulation);
   }
   FrameSource& source = ahead ? static_cast<FrameSource&>(*ahead) : *simulation;
   RunOptions with_writer = options;
   std::optional<DatasetWriter> writer;
   if (recording) {
-    writer.emplace(recording->folder, scenario, *simulation, recording->options, source.size());
+    writer.emplace(recording->folder, notes_of(scenario), *simulation, recording->options,
+                   source.size());
     with_writer.sinks.push_back(&*writer);
   }
   if (!ours) return run_other_system(scenario, source, threads, with_writer);
-  const auto slam = make_slam(scenario.slam, source.rig(),
-                              registered_tags(scenario.simulation.world), estimating);
-  return run_mapping_system(scenario, source, *slam, with_writer);
+  const auto slam = slam::make_slam(scenario.slam, source.rig(),
+                                    sim::registered_tags(scenario.simulation.world), estimating);
+  return run_mapping_system(trial_of(scenario), source, *slam, with_writer);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -16,7 +16,7 @@
 #include "harness/experiment/scenario.h"
 #include "harness/run/prefetch.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Which frames of a scenario are wanted, and what comes with their images.
 struct StreamRequest {
@@ -65,4 +65,4 @@ class FrameStream {
   std::int64_t frames_ = 0;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

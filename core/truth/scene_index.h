@@ -5,11 +5,12 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
-#include "sim/scene/instance_names.h"
-#include "sim/scene/scene.h"
+#include "core/geometry/pose.h"
+#include "core/truth/labels.h"
 
 namespace vinebench {
 
@@ -17,10 +18,23 @@ namespace vinebench {
 /// meshes.
 class SceneIndex {
  public:
-  SceneIndex() = default;
-  explicit SceneIndex(const Scene& scene);
+  /// Where an instance of a scene is.
+  struct Place {
+    InstanceName name;  ///< of the whole
+    int model = -1;
+    Pose T_world_model;
+    double scale = 1;
+  };
+  /// By model and part, in the model's frame, m; part 0 is the whole.
+  using Points = std::map<std::pair<int, int>, std::vector<Eigen::Vector3f>>;
 
-  /// As instance_name(). Throws Error for a number that the scene does not have.
+  SceneIndex() = default;
+  /// Of all instances of a scene in its order, the points of their models, at most kMostPoints a
+  /// part, and the rover, where there is one.
+  SceneIndex(std::vector<Place> places, Points points, std::optional<InstanceName> rover)
+      : places_(std::move(places)), rover_(std::move(rover)), points_(std::move(points)) {}
+
+  /// Throws Error for a number that the scene does not have.
   InstanceName name(std::int32_t number) const;
 
   /// The name's kind alone.
@@ -36,20 +50,12 @@ class SceneIndex {
   static constexpr std::size_t kMostPoints = 128;
 
  private:
-  struct Place {
-    InstanceName name;  ///< of the whole
-    int model = -1;
-    Pose T_world_model;
-    double scale = 1;
-  };
   const Place* place_of(std::int32_t number) const;
   const InstanceName& whole(std::int32_t number) const;
 
   std::vector<Place> places_;  ///< of Scene::instances
-  InstanceName rover_;
-  bool has_rover_ = false;
-  /// By model and part, in the model's frame.
-  std::map<std::pair<int, int>, std::vector<Eigen::Vector3f>> points_;
+  std::optional<InstanceName> rover_;
+  Points points_;
 };
 
 }  // namespace vinebench

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "harness/frame_stream.h"
+#include "harness/jobs/frame_stream.h"
 
 #include <fmt/ranges.h>
 
@@ -11,9 +11,9 @@
 #include "harness/datasets/format/record_options.h"
 #include "harness/datasets/labels/label_formats.h"
 #include "harness/experiment/randomisation.h"
-#include "harness/run_scenario.h"
+#include "harness/jobs/run_scenario.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 CapturePlan plan_of(const StreamRequest& request, const Rig& rig) {
@@ -61,9 +61,9 @@ FrameStream::FrameStream(const StreamRequest& request)
     : scenario_(load_drawn_scenario(request.scenario, request.overrides, request.randomisation,
                                     request.seed)),
       pool_(std::max(1, request.threads)),
-      source_(make_simulation(scenario_.simulation, static_cast<std::uint64_t>(scenario_.seed),
-                              default_cache(), pool_,
-                              plan_of(request, load_rig(scenario_.simulation.rover.rig)))) {
+      source_(sim::make_simulation(scenario_.simulation, static_cast<std::uint64_t>(scenario_.seed),
+                                   default_cache(), pool_,
+                                   plan_of(request, load_rig(scenario_.simulation.rover.rig)))) {
   if (source_->size() == 0) fail("frames: the run has none from {} on", request.first);
   ahead_.emplace(*source_);
 }
@@ -90,4 +90,4 @@ FlowTruth FrameStream::flow(const DatasetFrame& from, const DatasetFrame& to,
   return flow_between(from, to, camera, true_rig().cameras.at(camera).T_body_cam);
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -11,7 +11,7 @@
 #include "harness/datasets/format/record_options.h"
 #include "harness/experiment/scenario.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// What `vinebench record` is asked for.
 struct RecordRequest {
@@ -46,4 +46,4 @@ struct RecordOutcome {
 /// its folder; what is recorded by then is kept.
 RecordOutcome record_dataset(const RecordRequest& request, const RecordWatch& watch);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

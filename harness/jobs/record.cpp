@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "harness/record.h"
+#include "harness/jobs/record.h"
 
 #include <fmt/format.h>
 
@@ -12,10 +12,10 @@
 #include "harness/datasets/dataset_writer.h"
 #include "harness/datasets/format/dataset_folder.h"
 #include "harness/experiment/randomisation.h"
+#include "harness/jobs/run_scenario.h"
 #include "harness/run/progress.h"
-#include "harness/run_scenario.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -50,12 +50,12 @@ void record_sequence(const ScenarioConfig& scenario, const fs::path& folder,
   WorkerPool pool(options.threads);
   const Rig rig = load_rig(scenario.simulation.rover.rig);
   const auto source =
-      make_simulation(scenario.simulation, static_cast<std::uint64_t>(scenario.seed),
-                      default_cache(), pool, plan_of(options, rig));
+      sim::make_simulation(scenario.simulation, static_cast<std::uint64_t>(scenario.seed),
+                           default_cache(), pool, plan_of(options, rig));
   if (source->size() == 0) {
     fail("--frames: the run has no frame from {} on", options.first);
   }
-  DatasetWriter writer(folder, scenario, *source, options, source->size());
+  DatasetWriter writer(folder, notes_of(scenario), *source, options, source->size());
   std::optional<Progress> progress;
   if (watch.progress != nullptr) {
     progress.emplace(
@@ -116,7 +116,8 @@ void write_whole(const RecordRequest& request, const std::vector<std::string>& s
 RecordOutcome record_one(const RecordRequest& request, const RecordWatch& watch) {
   RecordOutcome outcome;
   const ScenarioConfig scenario = scenario_of(request, std::nullopt);
-  if (request.resume && has_sequence(request.out, settings_hash(scenario, request.options))) {
+  if (request.resume &&
+      has_sequence(request.out, settings_hash(notes_of(scenario), request.options))) {
     outcome.sequences = outcome.skipped = 1;
     return outcome;
   }
@@ -138,7 +139,7 @@ RecordOutcome record_dataset(const RecordRequest& request, const RecordWatch& wa
     RecordOptions options = request.options;
     options.sequence = seed - first;
     sequences.push_back(name_of_sequence(seed));
-    if (request.resume && has_sequence(folder, settings_hash(scenario, options))) {
+    if (request.resume && has_sequence(folder, settings_hash(notes_of(scenario), options))) {
       ++outcome.sequences;
       ++outcome.skipped;
       continue;
@@ -150,4 +151,4 @@ RecordOutcome record_dataset(const RecordRequest& request, const RecordWatch& wa
   return outcome;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "harness/frame_stream.h"
+#include "harness/jobs/frame_stream.h"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 
 #include "tests/support/small_scenario.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using test::error_of;
@@ -84,4 +84,4 @@ TEST_F(FrameStreamTest, BadRequestsAreOneError) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -12,7 +12,7 @@
 #include "harness/experiment/scenario.h"
 #include "sim/world/world.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Reads "WIDTHxHEIGHT@FOCAL" (px), such as 1920x1080@733, the principal point in the middle.
 /// Throws Error for anything else.
@@ -31,6 +31,6 @@ void write_image(const std::filesystem::path& file, const cv::Mat& image);
 cv::Mat colour_labels(const cv::Mat& labels);
 
 /// Eight views of a world from all round, from above a person's cameras, on one sheet.
-cv::Mat turntable(const WorldConfig& world, std::uint64_t seed, const PinholeCamera& camera);
+cv::Mat turntable(const sim::WorldConfig& world, std::uint64_t seed, const PinholeCamera& camera);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/rover/rover_flow.h"
+#include "core/truth/rover_flow.h"
 
-#include "sim/scene/scene.h"
+#include "core/truth/labels.h"
 
 namespace vinebench {
 

@@ -4,9 +4,26 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "sim/render/renderer.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
 
 namespace vinebench {
+
+/// One rendered view. What was not asked for is empty.
+struct RenderedImage {
+  cv::Mat rgb;     ///< CV_8UC3, RGB, top row first
+  cv::Mat labels;  ///< CV_8UC1 of Label
+  cv::Mat depth;   ///< CV_32FC1, z along the optical axis in m, 0 for sky
+  /// CV_32SC1: 256 * (index into Scene::instances + 1) + Vertex::part; 0 for sky and wires. The
+  /// rover counts as one more instance after the last.
+  cv::Mat instances;
+  /// CV_32FC3, unit, camera frame, towards the camera: of the triangles drawn, so that it fits
+  /// depth; of a wire, its way to the camera. 0 for sky.
+  cv::Mat normals;
+  /// CV_32FC3, m, world frame: where this point goes from `time` to `other_time`, by the wind or
+  /// with the rover.
+  cv::Mat motion;
+};
 
 /// An image with what it was drawn from: depth and normals are needed, motion where the wind
 /// blows. The camera is an ideal pinhole; through a lens, images are compared before it.
@@ -15,10 +32,6 @@ struct TruthView {
   Pose T_world_cam;
   RenderedImage image;
 };
-
-/// What the truth images of two views need of the renderer, drawn at `time` and compared with a
-/// view of `other_time` (s; of account only where the wind blows).
-Renderer::Request truth_request(double time = 0, double other_time = 0);
 
 struct FlowTruth {
   /// CV_32FC2, px: from a's pixel to where its point is in b. NaN where that is not before camera

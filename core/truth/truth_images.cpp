@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/truth/truth_images.h"
+#include "core/truth/truth_images.h"
 
 #include <algorithm>
 #include <cmath>
@@ -124,14 +124,6 @@ void check_rectified(const TruthView& left, const TruthView& right) {
 }
 
 }  // namespace
-
-Renderer::Request truth_request(double time, double other_time) {
-  Renderer::Request request;
-  request.labels = request.depth = request.instances = request.normals = request.motion = true;
-  request.time = time;
-  request.other_time = other_time;
-  return request;
-}
 
 FlowTruth optical_flow(const TruthView& a, const TruthView& b) {
   const Warp warp(a, b);

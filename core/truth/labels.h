@@ -5,9 +5,24 @@
 #include <cstdint>
 #include <string>
 
-#include "sim/scene/scene.h"
-
 namespace vinebench {
+
+/// What a pixel shows.
+enum class Label : std::uint8_t {
+  kSky,
+  kGround,
+  kGrass,
+  kTrunk,
+  kCane,
+  kLeaf,
+  kBunch,
+  kPost,
+  kWire,
+  kTag,
+  kBox,
+  kRover,
+  kPerson
+};
 
 /// What kind of thing an instance is.
 enum class Thing {
@@ -33,8 +48,5 @@ struct InstanceName {
   int part = 0;       ///< from 1 on a bunch of a vine, counted within it
   std::string model;  ///< Model::name, such as a box's own
 };
-
-/// Throws Error for a number that the scene does not have.
-InstanceName instance_name(const Scene& scene, std::int32_t number);
 
 }  // namespace vinebench

@@ -5,18 +5,14 @@
 #include <optional>
 
 #include "harness/datasets/format/record_options.h"
+#include "harness/experiment/scenario.h"
 #include "harness/run.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 
 /// Where grown plants are kept between runs: $VINEBENCH_CACHE, else $XDG_CACHE_HOME/vinebench, else
 /// ~/.cache/vinebench, else a folder for temporary files.
 std::filesystem::path default_cache();
-
-/// Runs a SLAM system on a source and judges it, with the maps of the options loaded before and
-/// saved after.
-RunOutcome run_mapping_system(const ScenarioConfig& scenario, FrameSource& source,
-                              MappingSystem& slam, const RunOptions& options);
 
 /// A data set that a run leaves beside its results: its whole rig and all of its frames.
 struct RunRecording {
@@ -24,9 +20,13 @@ struct RunRecording {
   RecordOptions options;
 };
 
+/// Prepares a folder for a scenario's run; it gets scenario.resolved.yaml. Throws Error as
+/// prepare_run_folder().
+void prepare_scenario_folder(const std::filesystem::path& folder, const ScenarioConfig& scenario);
+
 /// Builds the simulation and the SLAM system of a scenario and runs one on the other, recording
 /// where that is asked for. `threads` counts all threads that share the work; it changes no result.
 RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options,
                         const std::optional<RunRecording>& recording = std::nullopt);
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

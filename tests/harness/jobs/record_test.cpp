@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "harness/record.h"
+#include "harness/jobs/record.h"
 
 #include <gmock/gmock.h>
 
@@ -11,7 +11,7 @@
 #include "harness/datasets/reading/dataset_reader.h"
 #include "tests/support/small_scenario.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 using test::error_of;
@@ -162,4 +162,4 @@ TEST_F(RecordTest, BadRequestsAreOneError) {
 }
 
 }  // namespace
-}  // namespace vinebench
+}  // namespace vinebench::harness

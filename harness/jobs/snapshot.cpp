@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "harness/snapshot.h"
+#include "harness/jobs/snapshot.h"
 
 #include <algorithm>
 #include <array>
@@ -14,10 +14,10 @@
 #include "core/util/error.h"
 #include "core/util/files.h"
 #include "harness/datasets/labels/label_table.h"
-#include "harness/run_scenario.h"
+#include "harness/jobs/run_scenario.h"
 #include "sim/render/renderer.h"
 
-namespace vinebench {
+namespace vinebench::harness {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
@@ -99,21 +99,21 @@ cv::Mat colour_labels(const cv::Mat& labels) {
   return colours;
 }
 
-cv::Mat turntable(const WorldConfig& world, std::uint64_t seed, const PinholeCamera& camera) {
+cv::Mat turntable(const sim::WorldConfig& world, std::uint64_t seed, const PinholeCamera& camera) {
   constexpr int kViews = 8;
   constexpr int kColumns = 4;
   constexpr double kPitchDown = 22 * kRadians;
   Eigen::AlignedBox2d box;
-  for (const Eigen::Vector2d& post : post_positions(world)) box.extend(post);
+  for (const Eigen::Vector2d& post : sim::post_positions(world)) box.extend(post);
   const double distance = 1.5 + 0.75 * box.diagonal().norm();
-  Renderer renderer(build_scene(world, seed, default_cache()), {});
+  sim::Renderer renderer(sim::build_scene(world, seed, default_cache()), {});
   cv::Mat sheet(camera.height * (kViews / kColumns), camera.width * kColumns, CV_8UC3);
   for (int i = 0; i < kViews; ++i) {
     const double yaw = (i + 0.5) * 2 * std::numbers::pi / kViews;
-    const Eigen::Vector2d camera =
+    const Eigen::Vector2d eye =
         box.center() - distance * Eigen::Vector2d(std::cos(yaw), std::sin(yaw));
-    const Pose T_world_cam = Rig::mount(
-        {camera.x(), camera.y(), 0.5 + distance * std::tan(kPitchDown)}, {0, kPitchDown, yaw});
+    const Pose T_world_cam =
+        Rig::mount({eye.x(), eye.y(), 0.5 + distance * std::tan(kPitchDown)}, {0, kPitchDown, yaw});
     const cv::Rect place((i % kColumns) * camera.width, (i / kColumns) * camera.height,
                          camera.width, camera.height);
     renderer.render(camera, T_world_cam, {}).rgb.copyTo(sheet(place));
@@ -121,4 +121,4 @@ cv::Mat turntable(const WorldConfig& world, std::uint64_t seed, const PinholeCam
   return sheet;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::harness

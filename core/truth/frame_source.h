@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "core/geometry/rig.h"
+#include "core/slam_system.h"
+#include "core/truth/sample.h"
+#include "core/truth/scene_index.h"
+#include "core/util/stage_timer.h"
+
+namespace vinebench {
+
+/// Frames in order, from a simulation, a recording or a test.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+  /// The next sample, or nothing after the last.
+  virtual std::optional<Sample> next() = 0;
+  /// What a SLAM system said of the last sample, before the next one is asked for. Most sources do
+  /// not care.
+  virtual void answer(const Estimate&) {}
+  /// How many there will be.
+  virtual std::int64_t size() const = 0;
+  /// The cameras as a SLAM system is told of them.
+  virtual const Rig& rig() const = 0;
+  virtual const StageTimes& times() const = 0;
+};
+
+/// A simulation, with what its truth images mean.
+class SimulatedSource : public FrameSource {
+ public:
+  virtual const SceneIndex& scene() const = 0;
+  /// The cameras that take the images.
+  virtual const Rig& true_rig() const = 0;
+};
+
+/// What a recording asks of a simulation: more than a SLAM system needs, or less.
+struct CapturePlan {
+  // Which truth images come with each image (RenderedImage says what they are).
+  bool labels = false;
+  bool depth = false;
+  bool instances = false;
+  bool normals = false;
+  bool motion = false;
+  std::vector<bool> cameras;  ///< of the rig, which ones deliver images; all where empty
+  std::int64_t first = 0;     ///< the first frame that is delivered
+  std::int64_t last = std::numeric_limits<std::int64_t>::max();
+  std::int64_t every = 1;  ///< from the first on, every n-th frame is delivered
+
+  bool has_frame(std::int64_t index) const {
+    return index >= first && index <= last && (index - first) % every == 0;
+  }
+  /// Of a run of so many frames.
+  std::int64_t count(std::int64_t frames) const {
+    const std::int64_t end = std::min(last, frames - 1);
+    return end < first ? 0 : (end - first) / every + 1;
+  }
+  bool has_camera(std::size_t camera) const { return cameras.empty() || cameras.at(camera); }
+};
+
+}  // namespace vinebench

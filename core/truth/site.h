@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "core/geometry/pose.h"
+#include "core/truth/labels.h"
+
+namespace vinebench {
+
+/// An AprilTag of the world, as it truly stands.
+struct WorldTag {
+  std::string family;
+  int id = 0;
+  double size = 0;         ///< m, side of the black square
+  Pose T_world_tag;        ///< tag frame: x right, y down on the printed face, z into the tag
+  bool registered = true;  ///< whether the SLAM system is given its pose
+};
+
+/// A vineyard seen from above: what the judge, plots and data sets need to know of a world. Empty
+/// where a source has none, such as a recording of others.
+struct Site {
+  struct Row {
+    Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< m
+    Eigen::Vector2d end = Eigen::Vector2d::Zero();    ///< m
+  };
+  /// What may stand before a camera.
+  struct Object {
+    Label label = Label::kBox;
+    Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< m
+    Eigen::Vector2d size = Eigen::Vector2d::Zero();    ///< m, along its own x and y
+    double yaw_deg = 0;
+    Eigen::Vector3d colour = Eigen::Vector3d::Zero();  ///< sRGB, 0 to 1
+  };
+  std::string name;  ///< of the world
+  std::vector<Row> rows;
+  std::vector<Eigen::Vector2d> vines;  ///< m, their feet
+  std::vector<Eigen::Vector2d> posts;  ///< m, their feet
+  std::vector<Object> objects;
+  std::vector<WorldTag> tags;  ///< in the order that Truth::visible_tags counts
+  double vine_spacing = 0;     ///< m, along a row
+  double canopy_depth = 0;     ///< m, across a row
+  double post_radius = 0;      ///< m
+};
+
+}  // namespace vinebench

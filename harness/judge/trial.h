@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/truth/site.h"
+#include "harness/judge/expectations.h"
+
+namespace vinebench::harness {
+
+/// What the judge and the report know of a run besides its record. A recording has no site and
+/// expects nothing.
+struct Trial {
+  std::string name;
+  std::int64_t seed = 0;
+  Expectations expectations;
+  Site site;
+  std::optional<Eigen::Vector2d> route_end;  ///< m, world; where the route leads, if there is one
+  bool miscalibrated = false;                ///< the true rig differs from the nominal one
+};
+
+}  // namespace vinebench::harness

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "core/truth/scene_index.h"
+#include "sim/scene/scene.h"
+
+namespace vinebench::sim {
+
+/// What a number of RenderedImage::instances stands for. Throws Error for a number that the scene
+/// does not have.
+InstanceName instance_name(const Scene& scene, std::int32_t number);
+
+/// The names, places and outlines of all that stands in a scene, without its meshes.
+SceneIndex index_of(const Scene& scene);
+
+}  // namespace vinebench::sim

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "harness/experiment/scenario.h"
+#include "tests/support/fakes.h"
+
+namespace vinebench::fakes {
+
+/// The scenario of fakes::trial().
+inline harness::ScenarioConfig scenario() {
+  harness::ScenarioConfig scenario;
+  scenario.name = "fake";
+  sim::WorldConfig& world = scenario.simulation.world;
+  world.rows = {{{-1, 1.5}, {1, 1.5}}};
+  world.tags.push_back({});
+  world.tags.back().id = 7;
+  world.tags.back().position = {1.3, 0, 0.5};
+  world.boxes.push_back({});
+  world.boxes.back().position = {-1.4, 0};
+  return scenario;
+}
+
+}  // namespace vinebench::fakes
