@@ -18,12 +18,12 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-FrontEnd::FrontEnd(const SlamConfig& config, const StereoRig& rig,
+FrontEnd::FrontEnd(const FrontEndSettings& settings, const StereoRig& rig,
                    const std::vector<RegisteredTag>& tags, WorkerPool& pool)
-    : rig_(rig), stereo_(config.stereo), extractor_(config.features), pool_(pool) {
-  if (config.dead_reckoning.wheels) odometry_.emplace(*config.dead_reckoning.wheels);
+    : rig_(rig), stereo_(settings.stereo), extractor_(settings.features), pool_(pool) {
+  if (settings.wheels) odometry_.emplace(*settings.wheels);
   for (std::size_t i = 0; i < rig_.tag_cameras.size(); ++i) {
-    detectors_.emplace_back(config.tags, tags);
+    detectors_.emplace_back(settings.tags, tags);
   }
   left_.resize(rig_.pairs.size());
   right_pyramids_.resize(rig_.pairs.size());

@@ -9,17 +9,27 @@
 #include "core/util/stage_timer.h"
 #include "core/util/worker_pool.h"
 #include "slam/camera/stereo_rig.h"
-#include "slam/config.h"
-#include "slam/map/map.h"
+#include "slam/features/orb_extractor.h"
+#include "slam/frame/frame_features.h"
 #include "slam/odometry/wheel_odometry.h"
+#include "slam/stereo/stereo_matcher.h"
+#include "slam/tags/tag_detector.h"
 
 namespace vinebench::slam {
+
+/// What FrontEnd is set by.
+struct FrontEndSettings {
+  OrbConfig features;
+  StereoConfig stereo;
+  TagDetectorConfig tags;
+  std::optional<MecanumWheels> wheels;
+};
 
 /// Boils a frame's images down to features with stereo matches, and tags.
 class FrontEnd {
  public:
-  FrontEnd(const SlamConfig& config, const StereoRig& rig, const std::vector<RegisteredTag>& tags,
-           WorkerPool& pool);
+  FrontEnd(const FrontEndSettings& settings, const StereoRig& rig,
+           const std::vector<RegisteredTag>& tags, WorkerPool& pool);
 
   /// Throws Error for an image of the wrong size or type. A missing (empty) image has no
   /// features. Adds the stages "features", "stereo" and "tags", each summed over its images.

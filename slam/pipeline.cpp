@@ -7,6 +7,7 @@
 
 #include "core/util/error.h"
 #include "slam/calibration/stereo_calibration.h"
+#include "slam/frame/measurements.h"
 #include "slam/tracking/keyframe_selector.h"
 
 namespace vinebench::slam {
@@ -55,51 +56,87 @@ bool is_covered(const TrackedFrame& tracked, const Map& map, const KeyframeConfi
 Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
                    const std::vector<RegisteredTag>& tags)
     : config_(config),
-      rig_(rig, config.features, config.refinement, config.stereo),
+      rig_(rig, config.features, config.refinement),
       map_(config.features.scale),
-      tracker_(config.tracking, config.dead_reckoning, rig_),
-      mapper_(config, rig_),
+      tracker_({config.tracking, config.dead_reckoning, config.refinement, config.stereo}),
+      mapper_({config.mapping, config.refinement.enabled, config.tracking.max_hamming,
+               config.loop.corner_sigma}),
       scheduler_(config.mapping),
-      loop_closer_(config, rig_, tags) {}
+      loop_closer_({config.loop, config.tags.size, config.mapping.global_iterations},
+                   rig_.tag_cameras, tags) {
+  rig_.wheels = config.dead_reckoning.wheels;
+}
 
 void Pipeline::continue_from(Map map) {
   if (!map_.keyframes().empty()) fail("a map can be loaded before the first frame only");
   map_ = std::move(map);
-  if (!map_.disparity_offsets().empty()) rig_.set_disparity_offsets(map_.disparity_offsets());
+  if (!map_.disparity_offsets().empty()) {
+    rig_ = rig_.with_disparity_offsets(map_.disparity_offsets());
+  }
   loop_closer_.take_over(map_);
 }
 
 Estimate Pipeline::process(const std::shared_ptr<FrameFeatures>& frame) {
+  join_due_mapping();
+  correct_stereo(*frame);
+  TrackedFrame tracked = locate(frame);
+  Estimate estimate = report(tracked);
+  gate_tags(tracked, estimate);
+  if (wants_new_keyframe(tracked)) map_keyframe(tracked, estimate);
+  release_images(*frame);
+  record_tags(tracked);
+  record_pose(tracked, estimate);
+  return estimate;
+}
+
+void Pipeline::join_due_mapping() {
   scheduler_.tick();
   if (scheduler_.due()) join_mapping();
-  for (std::size_t v = 0; v < frame->views.size(); ++v) rig_.correct_depths(v, frame->views[v]);
-  TrackedFrame tracked = started_                   ? track(frame)
-                         : map_.keyframes().empty() ? initialise(frame)
-                                                    : relocalise(frame);
-  Estimate estimate = report(tracked);
-  if (tracked.tracked) {
-    estimate.rejected_tags =
-        loop_closer_.gate(*frame, tracked.motion.T_map_body, path_length_, map_);
+}
+
+/// Depths as self-calibration has found the pairs to measure.
+void Pipeline::correct_stereo(FrameFeatures& frame) const {
+  for (std::size_t v = 0; v < frame.views.size(); ++v) {
+    correct_depths(rig_.left_cameras[v], config_.stereo.max_depth_baselines, frame.views[v]);
   }
-  if (tracked.tracked && wants_new_keyframe(tracked)) map_keyframe(tracked, estimate);
-  frame->pyramids.clear();
-  frame->right_pyramids.clear();
-  if (tracked.tracked) {
-    loop_closer_.record(*frame, tracker_.T_map_body(), path_length_, map_);
-  } else if (estimate.status != TrackingStatus::kDeadReckoning) {
-    return estimate;
-  }
-  remember(frame->stamp);
+}
+
+TrackedFrame Pipeline::locate(const std::shared_ptr<FrameFeatures>& frame) {
+  if (started_) return track(frame);
+  return map_.keyframes().empty() ? initialise(frame) : relocalise(frame);
+}
+
+/// Leaves the frame the sightings that are to be believed.
+void Pipeline::gate_tags(const TrackedFrame& tracked, Estimate& estimate) {
+  if (!tracked.tracked) return;
+  estimate.rejected_tags =
+      loop_closer_.gate(*tracked.frame, tracked.motion.T_map_body, path_length_, map_);
+}
+
+void Pipeline::release_images(FrameFeatures& frame) {
+  frame.pyramids.clear();
+  frame.right_pyramids.clear();
+}
+
+void Pipeline::record_tags(const TrackedFrame& tracked) {
+  if (!tracked.tracked) return;
+  loop_closer_.record(*tracked.frame, tracker_.T_map_body(), path_length_, map_);
+}
+
+/// Keeps the frame's pose against the latest keyframe, and reports it.
+void Pipeline::record_pose(const TrackedFrame& tracked, Estimate& estimate) {
+  if (!tracked.tracked && estimate.status != TrackingStatus::kDeadReckoning) return;
+  const Keyframe& last = map_.keyframes().back();
+  records_.push_back({estimate.stamp, last.id, last.T_map_body.inverse() * tracker_.T_map_body()});
   estimate.T_map_body = tracker_.T_map_body();
   estimate.covariance = covariance(tracked, estimate.keyframe);
-  return estimate;
 }
 
 SlamSummary Pipeline::finish() {
   join_mapping();
   if (tags_since_adjustment_) {
     const ScopedTimer timer(times_, "global adjustment");
-    loop_closer_.adjust_globally(map_);
+    loop_closer_.adjust_globally(rig_, map_);
     tags_since_adjustment_ = false;
   }
   SlamSummary summary;
@@ -132,7 +169,7 @@ TrackedFrame Pipeline::initialise(const std::shared_ptr<FrameFeatures>& frame) {
   for (std::size_t v = 0; v < frame->views.size(); ++v) {
     StereoView& view = frame->views[v];
     reach_farther(view.features, rig_.left_cameras[v].lens, rig_.left_cameras[v].baseline,
-                  rig_.stereo, view.stereo);
+                  config_.stereo, view.stereo);
     const int points = count_stereo(view);
     tracked.motion.matches_per_view.push_back(points);
     tracked.motion.inliers_per_view.push_back(points);
@@ -158,7 +195,7 @@ TrackedFrame Pipeline::relocalise(const std::shared_ptr<FrameFeatures>& frame) {
   if (!T_map_body) T_map_body = relocaliser_.find(map_, rig_, *frame);
   if (T_map_body) {
     tracker_.start(*T_map_body, frame->stamp);
-    TrackedFrame tracked = tracker_.track(frame, map_);
+    TrackedFrame tracked = tracker_.track(frame, map_, rig_);
     started_ = tracked.tracked;
     return tracked;
   }
@@ -172,11 +209,11 @@ TrackedFrame Pipeline::relocalise(const std::shared_ptr<FrameFeatures>& frame) {
 TrackedFrame Pipeline::track(const std::shared_ptr<FrameFeatures>& frame) {
   const ScopedTimer timer(times_, "tracking");
   const Pose before = tracker_.T_map_body();
-  TrackedFrame tracked = tracker_.track(frame, map_);
+  TrackedFrame tracked = tracker_.track(frame, map_, rig_);
   if (!tracked.tracked) {
     if (const auto T_map_body = pose_from_outside(*frame)) {
       tracker_.start(*T_map_body, frame->stamp);
-      tracked = tracker_.track(frame, map_);
+      tracked = tracker_.track(frame, map_, rig_);
     }
   }
   if (!tracked.tracked) tracked.tracked = restart_map(tracked);
@@ -214,6 +251,7 @@ bool Pipeline::restart_map(TrackedFrame& tracked) {
 }
 
 bool Pipeline::wants_new_keyframe(const TrackedFrame& tracked) const {
+  if (!tracked.tracked) return false;
   if (!started_ || tracked.link) return true;
   // Live, a robot's tracking waits for the mapping before only when it would soon be lost.
   const bool waits = config_.mapping.schedule == MappingSchedule::kLockstep ||
@@ -240,15 +278,15 @@ void Pipeline::map_keyframe(TrackedFrame& tracked, Estimate& estimate) {
   if (scheduler_.busy()) join_mapping(&tracked);
   const bool loop = started_ && loop_closer_.sees_loop(*tracked.frame, path_length_);
   if (started_) grow_uncertainty(tracked);
-  const int id = mapper_.insert(tracked, map_);
+  const int id = mapper_.insert(tracked, rig_, map_);
   map_.keyframe(id).link = tracked.link;
   tags_since_adjustment_ |= closures_ > 0 && !tracked.frame->tags.empty();
   if (loop) close_loop(id, estimate);
   if (started_ && !tracked.link) {
     calibrate(estimate);
     const ScopedTimer timer(times_, "local mapping");
-    mapper_.extend(id, map_);
-    scheduler_.start(mapper_.local_adjustment(id, map_), id);
+    mapper_.extend(id, rig_, map_);
+    scheduler_.start(mapper_.local_adjustment(id, map_, rig_), id);
     if (scheduler_.due()) join_mapping();
   }
   tracker_.correct(map_.keyframe(id).T_map_body);
@@ -268,7 +306,7 @@ void Pipeline::grow_uncertainty(const TrackedFrame& tracked) {
 
 void Pipeline::close_loop(int keyframe, Estimate& estimate) {
   const ScopedTimer timer(times_, "global adjustment");
-  estimate.loop_closure = loop_closer_.close(keyframe, path_length_, map_);
+  estimate.loop_closure = loop_closer_.close(keyframe, path_length_, rig_, map_);
   uncertainty_.start(by_tag_covariance() +
                      loop_closer_.localisation_covariance(map_.keyframe(keyframe).frame->tags));
   ++closures_;
@@ -281,15 +319,10 @@ void Pipeline::calibrate(Estimate& estimate) {
   const ScopedTimer timer(times_, "calibration");
   const auto offsets = find_disparity_offsets(map_, rig_, mapper_.adjustment_options());
   if (!offsets) return;
-  rig_.set_disparity_offsets(*offsets);
+  rig_ = rig_.with_disparity_offsets(*offsets);
   map_.disparity_offsets() = *offsets;
-  loop_closer_.adjust_globally(map_);
+  loop_closer_.adjust_globally(rig_, map_);
   estimate.disparity_offsets = *offsets;
-}
-
-void Pipeline::remember(Stamp stamp) {
-  const Keyframe& last = map_.keyframes().back();
-  records_.push_back({stamp, last.id, last.T_map_body.inverse() * tracker_.T_map_body()});
 }
 
 Estimate Pipeline::report(const TrackedFrame& tracked) const {

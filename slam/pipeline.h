@@ -47,6 +47,14 @@ class Pipeline {
     Pose T_keyframe_body;
   };
 
+  void join_due_mapping();
+  void correct_stereo(FrameFeatures& frame) const;
+  TrackedFrame locate(const std::shared_ptr<FrameFeatures>& frame);
+  void gate_tags(const TrackedFrame& tracked, Estimate& estimate);
+  static void release_images(FrameFeatures& frame);
+  void record_tags(const TrackedFrame& tracked);
+  void record_pose(const TrackedFrame& tracked, Estimate& estimate);
+
   TrackedFrame initialise(const std::shared_ptr<FrameFeatures>& frame);
   TrackedFrame relocalise(const std::shared_ptr<FrameFeatures>& frame);
   TrackedFrame track(const std::shared_ptr<FrameFeatures>& frame);
@@ -58,7 +66,6 @@ class Pipeline {
   void grow_uncertainty(const TrackedFrame& tracked);
   void close_loop(int keyframe, Estimate& estimate);
   void calibrate(Estimate& estimate);
-  void remember(Stamp stamp);
   Matrix6d covariance(const TrackedFrame& tracked, bool keyframe) const;
   Estimate report(const TrackedFrame& tracked) const;
 

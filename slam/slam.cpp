@@ -16,7 +16,8 @@ class MulticameraSlam : public MappingSystem {
  public:
   MulticameraSlam(const SlamConfig& config, const StereoRig& rig,
                   const std::vector<RegisteredTag>& tags, WorkerPool& pool)
-      : front_end_(config, rig, tags, pool),
+      : front_end_({config.features, config.stereo, config.tags, config.dead_reckoning.wheels}, rig,
+                   tags, pool),
         pipeline_(config, rig, tags),
         min_observations_(config.mapping.min_observations) {}
 

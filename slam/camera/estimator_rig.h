@@ -2,41 +2,47 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "slam/camera/measurement_noise.h"
+#include "slam/camera/stereo_camera.h"
 #include "slam/camera/stereo_rig.h"
-#include "slam/config.h"
-#include "slam/factors/reprojection.h"
-#include "slam/map/map.h"
+#include "slam/camera/tag_cameras.h"
+#include "slam/features/orb_extractor.h"
+#include "slam/odometry/wheel_odometry.h"
+#include "slam/patches/refinement_config.h"
 
 namespace vinebench::slam {
 
-/// What every stage of the estimator needs to know of cameras and noise, derived once.
+/// Where an inertial unit sits, and its noise (unit u = rad/s or m/s^2).
+struct InertialCalibration {
+  struct Axes {
+    double noise_density = 0;     ///< u/sqrt(Hz)
+    double bias_random_walk = 0;  ///< u/s/sqrt(Hz)
+  };
+  Pose T_body_imu;
+  Axes gyroscope;
+  Axes accelerometer;
+};
+
+/// What the estimator knows of its cameras and their noise: a value that is derived once and handed
+/// to whoever needs it. Self-calibration makes another one; work that runs beside tracking keeps
+/// the one it was given.
 struct EstimatorRig {
-  EstimatorRig(const StereoRig& rig, const OrbConfig& features,
-               const RefinementConfig& refinement = {}, const StereoConfig& stereo = {});
+  EstimatorRig(const StereoRig& stereo_rig, const OrbConfig& features,
+               const RefinementConfig& refinement = {});
+
+  /// The same rig with these disparity offsets, one of each pair, px.
+  EstimatorRig with_disparity_offsets(const std::vector<double>& offsets) const;
 
   StereoRig rig;
-  std::vector<StereoCameraModel> left_cameras;         ///< left camera of each pair
-  std::vector<Pose> T_body_cams;                       ///< of these
-  std::vector<StereoCameraModel> undistorted_cameras;  ///< by index into Rig::cameras; no baseline
-  /// Pixels of level 0 to a pixel of each pyramid level: the standard deviation of a corner there.
-  std::vector<double> level_scales;
-  RefinementConfig refinement;
-  StereoConfig stereo;
-
-  /// One of each camera, px.
-  void set_disparity_offsets(const std::vector<double>& offsets);
-
-  /// Depths of a view as the camera's disparity offset makes them; unchanged where it has none.
-  void correct_depths(std::size_t v, StereoView& view) const;
-
-  /// The measurement that a feature is: its pixel, its stereo match where it has one, its noise.
-  PixelMeasurement measurement(const StereoView& view, int feature) const;
-
-  /// Where the feature's stereo depth puts it in the map. The feature must have a depth.
-  Eigen::Vector3d stereo_point(const StereoView& view, int v, int feature,
-                               const Pose& T_map_body) const;
+  std::vector<StereoCameraModel> left_cameras;  ///< of each pair
+  std::vector<Pose> T_body_cams;                ///< of these
+  TagCameras tag_cameras;
+  MeasurementNoise noise;
+  std::optional<InertialCalibration> imu;  ///< where an inertial unit takes part
+  std::optional<MecanumWheels> wheels;     ///< where there are any
 };
 
 }  // namespace vinebench::slam

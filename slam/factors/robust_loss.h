@@ -29,4 +29,10 @@ class RobustLoss {
   bool cauchy_;
 };
 
+/// Loss of a reprojection error near the solution, in standard deviations. The errors of patches
+/// have long tails, since some straddle a stem and the ground behind it, and those tails point one
+/// way: what lies behind moves less. Huber's loss, which the paper uses, lets each of them pull as
+/// hard as a good one; this one lets go of them.
+inline constexpr double kCauchyScale = 1;
+
 }  // namespace vinebench::slam

@@ -84,11 +84,11 @@ const LoopCloser::Visit* LoopCloser::reference(const TagSighting& sighting) cons
 }
 
 bool LoopCloser::was_left(const TagSighting& sighting, Stamp stamp, double path_length) const {
-  if (!config_.loop.enabled) return false;
+  if (!settings_.loop.enabled) return false;
   const Visit* last = reference(sighting);
   return last != nullptr && last->in_keyframe &&
-         to_seconds(stamp - last->last_seen) >= config_.loop.away_seconds &&
-         path_length - last->path_length >= config_.loop.away_distance;
+         to_seconds(stamp - last->last_seen) >= settings_.loop.away_seconds &&
+         path_length - last->path_length >= settings_.loop.away_distance;
 }
 
 const TagSighting* LoopCloser::loop_sighting(const FrameFeatures& frame, double path_length) const {
@@ -130,7 +130,7 @@ std::optional<Pose> LoopCloser::world_pose(const std::vector<TagSighting>& sight
     const RegisteredTag* tag = sighting.ambiguous ? nullptr : registered(sighting);
     if (tag != nullptr) seen.push_back({tag->T_world_tag, tag->size, &sighting});
   }
-  return locate_by_tags(seen, rig_, config_.loop.corner_sigma);
+  return locate_by_tags(seen, cameras_, settings_.loop.corner_sigma);
 }
 
 std::optional<Pose> LoopCloser::map_pose(const std::vector<TagSighting>& sightings,
@@ -141,7 +141,7 @@ std::optional<Pose> LoopCloser::map_pose(const std::vector<TagSighting>& sightin
     if (sighting.ambiguous || rejected) continue;
     if (const auto tag = placed(sighting, map)) seen.push_back(*tag);
   }
-  return locate_by_tags(seen, rig_, config_.loop.corner_sigma);
+  return locate_by_tags(seen, cameras_, settings_.loop.corner_sigma);
 }
 
 /// Where the tag is in the map, if that is known: it was mapped, or it is registered and the map
@@ -159,8 +159,8 @@ std::optional<PlacedSighting> LoopCloser::placed(const TagSighting& sighting,
 /// Of the tag's pose against the body.
 Matrix6d LoopCloser::covariance(const TagSighting& sighting) const {
   const RegisteredTag* tag = registered(sighting);
-  return tag_covariance(sighting, tag != nullptr ? tag->size : config_.tags.size, rig_,
-                        config_.loop.corner_sigma);
+  return tag_covariance(sighting, tag != nullptr ? tag->size : settings_.tag_size, cameras_,
+                        settings_.loop.corner_sigma);
 }
 
 Matrix6d LoopCloser::localisation_covariance(const std::vector<TagSighting>& sightings) const {
@@ -168,7 +168,7 @@ Matrix6d LoopCloser::localisation_covariance(const std::vector<TagSighting>& sig
   for (const TagSighting& sighting : sightings) {
     if (sighting.ambiguous) continue;
     const Matrix6d of_body =
-        carry_covariance(covariance(sighting), T_body_tag(sighting, rig_).inverse());
+        carry_covariance(covariance(sighting), T_body_tag(sighting, cameras_).inverse());
     if (!surest || of_body.trace() < surest->trace()) surest = of_body;
   }
   return surest.value_or(Matrix6d::Zero());
@@ -178,7 +178,7 @@ Matrix6d LoopCloser::localisation_covariance(const std::vector<TagSighting>& sig
 /// what the chi-square test lets pass when the sighting is exact. A turn in a odometry gap
 /// moves the body sideways on all of the way after it.
 Matrix6d LoopCloser::drift(double since, double path_length) const {
-  const LoopConfig& limits = config_.loop;
+  const LoopConfig& limits = settings_.loop;
   const double way = path_length - since;
   const double turn = limits.max_turn_deg + limits.max_turn_deg_per_metre * way;
   const double edge = std::sqrt(kChiSquared6);
@@ -200,7 +200,7 @@ bool LoopCloser::is_in_place(const TagSighting& sighting, const Pose& T_map_body
   const auto known = placed(sighting, map);
   if (!known) return true;
   const Visit* last = reference(sighting);
-  const Pose T_body_seen = T_body_tag(sighting, rig_);
+  const Pose T_body_seen = T_body_tag(sighting, cameras_);
   Matrix6d expected =
       covariance(sighting) +
       carry_covariance(drift(last != nullptr ? last->path_length : 0, path_length), T_body_seen);
@@ -215,7 +215,7 @@ bool LoopCloser::is_doubled(const TagSighting& sighting, const FrameFeatures& fr
   return std::ranges::any_of(frame.tags, [&](const TagSighting& other) {
     if (&other == &sighting || !same_tag(other, sighting) || other.ambiguous) return false;
     if (!is_in_place(other, T_map_body, path_length, map)) return false;
-    return pose_chi_squared(T_body_tag(sighting, rig_), T_body_tag(other, rig_),
+    return pose_chi_squared(T_body_tag(sighting, cameras_), T_body_tag(other, cameras_),
                             own + covariance(other)) > kChiSquared6;
   });
 }
@@ -254,7 +254,7 @@ std::vector<RejectedTag> LoopCloser::gate(FrameFeatures& frame, const Pose& T_ma
       reject(sighting);
       leave_out(TagRejection::kDuplicate);
     } else if (was_left(sighting, frame.stamp, path_length)) {
-      returns.push_back({sighting, frame.stamp, T_map_body * T_body_tag(sighting, rig_)});
+      returns.push_back({sighting, frame.stamp, T_map_body * T_body_tag(sighting, cameras_)});
       if (is_confirmed(returns.back())) believed.push_back(sighting);
     } else {
       believed.push_back(sighting);
@@ -266,8 +266,8 @@ std::vector<RejectedTag> LoopCloser::gate(FrameFeatures& frame, const Pose& T_ma
 }
 
 void LoopCloser::add_tag(const TagSighting& sighting, const Pose& T_map_body, Map& map) {
-  MapTag tag{sighting.family, sighting.id, config_.tags.size,
-             T_map_body * T_body_tag(sighting, rig_), false};
+  MapTag tag{sighting.family, sighting.id, settings_.tag_size,
+             T_map_body * T_body_tag(sighting, cameras_), false};
   if (const RegisteredTag* known = registered(sighting)) {
     tag.size = known->size;
     tag.T_map_tag = *T_map_world_ * known->T_world_tag;
@@ -294,7 +294,8 @@ void LoopCloser::record(const FrameFeatures& frame, const Pose& T_map_body, doub
   }
 }
 
-LoopClosure LoopCloser::close(int keyframe_id, double path_length, Map& map) {
+LoopClosure LoopCloser::close(int keyframe_id, double path_length, const EstimatorRig& rig,
+                              Map& map) {
   const Keyframe& later = map.keyframe(keyframe_id);
   const TagSighting* sighting = loop_sighting(*later.frame, path_length);
   const auto tag = sighting ? placed(*sighting, map) : std::nullopt;
@@ -308,9 +309,9 @@ LoopClosure LoopCloser::close(int keyframe_id, double path_length, Map& map) {
     fail("loop closing: keyframe {} sees no tag that an earlier one saw and left", keyframe_id);
   }
   const Pose before = later.T_map_body;
-  const Pose T_tag_later = T_body_tag(*sighting, rig_).inverse();
+  const Pose T_tag_later = T_body_tag(*sighting, cameras_).inverse();
   const Pose T_earlier_tag =
-      T_body_tag(*earlier, rig_) * placed(*earlier, map)->T_ref_tag.inverse() * tag->T_ref_tag;
+      T_body_tag(*earlier, cameras_) * placed(*earlier, map)->T_ref_tag.inverse() * tag->T_ref_tag;
   LoopClosure closure;
   closure.tag_id = sighting->id;
   closure.earlier = map.keyframe(first).frame->stamp;
@@ -323,7 +324,7 @@ LoopClosure LoopCloser::close(int keyframe_id, double path_length, Map& map) {
     if (map.find_tag(seen.family, seen.id) == nullptr) add_tag(seen, later.T_map_body, map);
     remember_visit(seen, later.frame->stamp, path_length, true);
   }
-  adjust_globally(map);
+  adjust_globally(rig, map);
   if (!same_tag(*earlier, *sighting)) {
     // One sighting's turn swings what is measured by way of another tag: all of them know better.
     closure.T_earlier_later = map.keyframe(first).T_map_body.inverse() * later.T_map_body;
@@ -333,12 +334,12 @@ LoopClosure LoopCloser::close(int keyframe_id, double path_length, Map& map) {
   return closure;
 }
 
-void LoopCloser::adjust_globally(Map& map) const {
+void LoopCloser::adjust_globally(const EstimatorRig& rig, Map& map) const {
   AdjustmentOptions options;
-  options.iterations = config_.mapping.global_iterations;
-  options.tag_corner_sigma = config_.loop.corner_sigma;
+  options.iterations = settings_.global_iterations;
+  options.tag_corner_sigma = settings_.loop.corner_sigma;
   options.global = true;
-  adjust(map, global_window(map), rig_, options);
+  adjust(map, global_window(map), rig, options);
   malloc_trim(0);  // of what a long drive's adjustment took, the C library would keep most
 }
 

@@ -8,19 +8,27 @@
 #include <vector>
 
 #include "slam/camera/estimator_rig.h"
-#include "slam/config.h"
+#include "slam/loop/loop_config.h"
 #include "slam/map/map.h"
 #include "slam/optimisation/tag_localisation.h"
 
 namespace vinebench::slam {
+
+/// What LoopCloser is set by.
+struct LoopCloserSettings {
+  LoopConfig loop;
+  double tag_size = 0.161;     ///< m, of tags that are not registered
+  int global_iterations = 25;  ///< of a global adjustment
+};
 
 /// Loop closing by tags (paper, Sect. III-B): a tag that was seen, left, and is seen again ties the
 /// two visits together; global bundle adjustment spreads the correction over all poses and
 /// landmarks. A tag of known pose that is seen for the first time does the same with the last one.
 class LoopCloser {
  public:
-  LoopCloser(const SlamConfig& config, const EstimatorRig& rig, std::vector<RegisteredTag> tags)
-      : config_(config), rig_(rig), registered_(std::move(tags)) {}
+  LoopCloser(const LoopCloserSettings& settings, TagCameras cameras,
+             std::vector<RegisteredTag> tags)
+      : settings_(settings), cameras_(std::move(cameras)), registered_(std::move(tags)) {}
 
   /// Takes from a map that was loaded how it lies in the world.
   void take_over(const Map& map);
@@ -58,10 +66,10 @@ class LoopCloser {
 
   /// Closes the loop that `keyframe`, made of a frame that sees_loop, sees: moves the way since the
   /// earlier visit onto the tag's constraint, then adjusts the whole map.
-  LoopClosure close(int keyframe, double path_length, Map& map);
+  LoopClosure close(int keyframe, double path_length, const EstimatorRig& rig, Map& map);
 
   /// Global bundle adjustment of the map as it is.
-  void adjust_globally(Map& map) const;
+  void adjust_globally(const EstimatorRig& rig, Map& map) const;
 
  private:
   /// When and where on the way a tag was last seen.
@@ -104,8 +112,8 @@ class LoopCloser {
   void reject(const TagSighting& sighting);
   void add_tag(const TagSighting& sighting, const Pose& T_map_body, Map& map);
 
-  SlamConfig config_;
-  const EstimatorRig& rig_;
+  LoopCloserSettings settings_;
+  TagCameras cameras_;
   std::vector<RegisteredTag> registered_;
   std::optional<Pose> T_map_world_;  ///< known from the first registered tag on
   std::vector<Visit> visits_;

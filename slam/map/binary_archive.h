@@ -38,6 +38,10 @@ using Bits = std::conditional_t<
 /// Appends to a string.
 class BinaryWriter {
  public:
+  /// Of a format of that version.
+  explicit BinaryWriter(std::uint32_t version = 0) : version_(version) {}
+  std::uint32_t version() const { return version_; }
+
   template <class... T>
   void operator()(const T&... values) {
     (write(values), ...);
@@ -85,6 +89,7 @@ class BinaryWriter {
     fields(*this, const_cast<T&>(value));  // one list of fields serves both directions
   }
 
+  std::uint32_t version_;
   std::string bytes_;
 };
 
@@ -92,9 +97,10 @@ class BinaryWriter {
 /// multiple of them.
 class BinaryReader {
  public:
-  /// `where` names the bytes in messages.
-  BinaryReader(std::string_view bytes, std::string where)
-      : bytes_(bytes), where_(std::move(where)) {}
+  /// `where` names the bytes in messages; they are of a format of that version.
+  BinaryReader(std::string_view bytes, std::string where, std::uint32_t version = 0)
+      : bytes_(bytes), where_(std::move(where)), version_(version) {}
+  std::uint32_t version() const { return version_; }
 
   template <class... T>
   void operator()(T&... values) {
@@ -169,6 +175,7 @@ class BinaryReader {
 
   std::string_view bytes_;
   std::string where_;
+  std::uint32_t version_;
 };
 
 }  // namespace vinebench::slam

@@ -44,12 +44,6 @@ std::size_t median_descriptor(const std::vector<Descriptor>& descriptors) {
 
 }  // namespace
 
-Associations no_associations(const FrameFeatures& frame) {
-  Associations none;
-  for (const StereoView& view : frame.views) none.emplace_back(view.features.size(), -1);
-  return none;
-}
-
 int count_keyframes(const Landmark& landmark) {
   int count = 0;
   int last = -1;

@@ -12,55 +12,10 @@
 #include "core/geometry/pose.h"
 #include "core/slam_system.h"
 #include "core/time.h"
-#include "slam/features/feature_grid.h"
-#include "slam/features/features.h"
+#include "slam/frame/frame_features.h"
 #include "slam/patches/patch_list.h"
-#include "slam/stereo/stereo_matcher.h"
 
 namespace vinebench::slam {
-
-/// What one stereo pair saw in one frame: the left camera's features with their stereo matches.
-struct StereoView {
-  Features features;
-  std::vector<StereoMatch> stereo;  ///< of each feature
-  FeatureGrid grid;
-  /// Of each feature, whether it stands on the landmark's patch to a fraction of a pixel; empty
-  /// where none does.
-  std::vector<char> placed;
-
-  /// How many features at the end were not detected but followed by their landmark's patch.
-  std::size_t followed = 0;
-
-  std::size_t detected() const { return features.size() - followed; }
-  bool is_placed(std::size_t feature) const { return !placed.empty() && placed[feature] != 0; }
-
-  /// No more features will be added: gives back the room for them.
-  void close() {
-    features.keypoints.shrink_to_fit();
-    features.descriptors.shrink_to_fit();
-    stereo.shrink_to_fit();
-    placed.shrink_to_fit();
-  }
-};
-
-/// What a frame's images were boiled down to. Tracking places its matches more finely; after that
-/// it is immutable, and shared by those who need it.
-struct FrameFeatures {
-  std::int64_t index = 0;
-  Stamp stamp = 0;
-  std::vector<StereoView> views;  ///< of each pair of the StereoRig
-  std::vector<TagSighting> tags;
-  std::optional<Pose> wheels;  ///< T_before_now since the frame before, by the wheels
-  /// Left and right pyramid of each pair, while the frame is being tracked; dropped afterwards.
-  std::vector<std::vector<cv::Mat>> pyramids;
-  std::vector<std::vector<cv::Mat>> right_pyramids;
-};
-
-/// Landmark of each feature of each view, -1 for none.
-using Associations = std::vector<std::vector<int>>;
-
-/// No feature of the frame has a landmark.
-Associations no_associations(const FrameFeatures& frame);
 
 /// What dead reckoning says of a stretch between two keyframes that no landmark ties together.
 struct OdometryLink {
@@ -69,10 +24,18 @@ struct OdometryLink {
   Matrix6d covariance = Matrix6d::Identity();  ///< in the step of step_of
 };
 
+/// What an inertial unit adds to a keyframe's pose.
+struct InertialState {
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();            ///< m/s, of the body, map frame
+  Eigen::Vector3d gyroscope_bias = Eigen::Vector3d::Zero();      ///< rad/s, body frame
+  Eigen::Vector3d accelerometer_bias = Eigen::Vector3d::Zero();  ///< m/s^2, body frame
+};
+
 struct Keyframe {
   int id = 0;
   std::shared_ptr<const FrameFeatures> frame;
   Pose T_map_body;
+  std::optional<InertialState> inertial;  ///< where an inertial unit takes part
   Associations landmarks;
   std::vector<PatchList> patches;    ///< of each view; none where it has no images
   std::optional<OdometryLink> link;  ///< to an earlier keyframe, after a odometry gap

@@ -14,8 +14,9 @@ namespace vinebench::slam {
 namespace {
 
 constexpr std::string_view kMagic("vinemap\0", 8);
-constexpr std::uint32_t kVersion = 3;
-constexpr std::size_t kHeaderSize = 20;  // magic, version, size of the content
+constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kOldestVersion = 3;  // without inertial states
+constexpr std::size_t kHeaderSize = 20;      // magic, version, size of the content
 constexpr std::size_t kChecksumSize = 8;
 
 /// A pixel may lie this far off its image, where refinement moved it.
@@ -31,6 +32,7 @@ struct StoredKeyframe {
   Associations landmarks;
   std::vector<PatchList> patches;
   std::optional<OdometryLink> link;
+  std::optional<InertialState> inertial;
 };
 
 }  // namespace
@@ -87,9 +89,15 @@ void fields(Archive& archive, PatchList& list) {
   list.close();
 }
 template <class Archive>
+void fields(Archive& archive, InertialState& state) {
+  archive(state.velocity, state.gyroscope_bias, state.accelerometer_bias);
+}
+
+template <class Archive>
 void fields(Archive& archive, StoredKeyframe& k) {
   archive(k.frame.index, k.frame.stamp, k.frame.views, k.frame.tags, k.T_map_body, k.landmarks,
           k.patches, k.link);
+  if (archive.version() >= 4) archive(k.inertial);
 }
 
 namespace {
@@ -140,6 +148,7 @@ StoredKeyframe stored(const Keyframe& keyframe, const FrameFeatures& last,
   }
   stored.patches = keyframe.patches;
   stored.link = keyframe.link;
+  stored.inertial = keyframe.inertial;
   return stored;
 }
 
@@ -169,7 +178,7 @@ void check(const StoredKeyframe& keyframe, const EstimatorRig& rig, std::size_t 
   const auto& patches = keyframe.patches;
   reader.expect(patches.empty() || patches.size() == views.size(), "patches of no view");
   for (std::size_t v = 0; v < views.size(); ++v) {
-    reader.expect(is_sound(views[v], rig.rig.pairs[v].lens, rig.level_scales.size()),
+    reader.expect(is_sound(views[v], rig.rig.pairs[v].lens, rig.noise.level_scales.size()),
                   "a keyframe's features");
     const std::size_t n = views[v].features.size();
     reader.expect(patches.empty() || patches[v].size() == 0 || patches[v].size() == n,
@@ -181,7 +190,7 @@ void check(const StoredKeyframe& keyframe, const EstimatorRig& rig, std::size_t 
   }
   for (const TagSighting& tag : keyframe.frame.tags) {
     reader.expect(
-        tag.camera >= 0 && static_cast<std::size_t>(tag.camera) < rig.undistorted_cameras.size(),
+        tag.camera >= 0 && static_cast<std::size_t>(tag.camera) < rig.tag_cameras.cameras.size(),
         "a tag seen by no camera");
     for (const Eigen::Vector2d& corner : tag.corners) {
       reader.expect(corner.allFinite(), "a tag's corners");
@@ -211,6 +220,12 @@ void add(StoredKeyframe keyframe, const EstimatorRig& rig, Map& map, const Binar
                   "a keyframe's link");
   }
   map.keyframe(id).link = keyframe.link;
+  if (const auto& state = keyframe.inertial) {
+    reader.expect(state->velocity.allFinite() && state->gyroscope_bias.allFinite() &&
+                      state->accelerometer_bias.allFinite(),
+                  "a keyframe's inertial state");
+  }
+  map.keyframe(id).inertial = keyframe.inertial;
 }
 
 Map read_content(BinaryReader& reader, const EstimatorRig& rig, const std::string& where) {
@@ -259,7 +274,7 @@ Map read_content(BinaryReader& reader, const EstimatorRig& rig, const std::strin
 std::string format_map(const Map& map, const EstimatorRig& rig) {
   std::vector<int> moved_to;
   const std::vector<Landmark> landmarks = living_landmarks(map, moved_to);
-  BinaryWriter content;
+  BinaryWriter content(kVersion);
   content(rig_fingerprint(rig), map.level_scale(), map.disparity_offsets(), map.tags(), landmarks,
           static_cast<std::uint32_t>(map.keyframes().size()));
   for (const Keyframe& keyframe : map.keyframes()) {
@@ -281,8 +296,9 @@ Map parse_map(std::string_view bytes, const EstimatorRig& rig, const std::string
   std::uint64_t size = 0;
   BinaryReader header(bytes.substr(kMagic.size()), where);
   header(version, size);
-  if (version != kVersion) {
-    fail("{}: a map of version {}, expected version {}", where, version, kVersion);
+  if (version < kOldestVersion || version > kVersion) {
+    fail("{}: a map of version {}, expected version {} to {}", where, version, kOldestVersion,
+         kVersion);
   }
   const std::size_t found = bytes.size() - kHeaderSize - kChecksumSize;
   if (size > found) fail("{}: cut off: {} bytes of content, expected {}", where, found, size);
@@ -293,7 +309,7 @@ Map parse_map(std::string_view bytes, const EstimatorRig& rig, const std::string
   if (checksum != crc64(bytes.substr(0, sealed))) {
     fail("{}: damaged: its checksum is wrong", where);
   }
-  BinaryReader content(bytes.substr(kHeaderSize, size), where);
+  BinaryReader content(bytes.substr(kHeaderSize, size), where, version);
   return read_content(content, rig, where);
 }
 

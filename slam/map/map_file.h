@@ -28,8 +28,8 @@ namespace vinebench::slam {
 std::string format_map(const Map& map, const EstimatorRig& rig);
 
 /// Reads what format_map wrote. `where` names it in messages. Throws Error when it is no map, cut
-/// off, altered, of another version, or made with another rig (pairs, lenses, baselines, mounts or
-/// pyramid) than `rig`.
+/// off, altered, of a version it does not know, or made with another rig (pairs, lenses, baselines,
+/// mounts or pyramid) than `rig`.
 Map parse_map(std::string_view bytes, const EstimatorRig& rig, const std::string& where);
 
 /// Writes a map file, whole or not at all. Throws Error with the system's reason.

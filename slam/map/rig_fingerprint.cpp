@@ -33,7 +33,7 @@ RigFingerprint rig_fingerprint(const EstimatorRig& rig) {
     print.pairs.push_back(
         {p.name, p.left_camera, p.right_camera, p.lens, p.baseline, p.T_body_cam});
   }
-  print.level_scales = rig.level_scales;
+  print.level_scales = rig.noise.level_scales;
   return print;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/frame/measurements.h"
 #include "slam/mapping/triangulation.h"
 #include "slam/matching/match_refiner.h"
 #include "slam/matching/projection_matcher.h"
@@ -24,7 +25,7 @@ void place(StereoView& view, std::size_t feature) {
 
 }  // namespace
 
-int LocalMapper::insert(const TrackedFrame& tracked, Map& map) const {
+int LocalMapper::insert(const TrackedFrame& tracked, const EstimatorRig& rig, Map& map) const {
   const int id = map.add_keyframe(tracked.frame, tracked.motion.T_map_body, tracked.associations);
   std::vector<int> touched;
   for (std::size_t v = 0; v < tracked.frame->views.size(); ++v) {
@@ -32,16 +33,19 @@ int LocalMapper::insert(const TrackedFrame& tracked, Map& map) const {
     for (std::size_t f = 0; f < view.features.size(); ++f) {
       int landmark = map.keyframe(id).landmarks[v][f];
       if (landmark < 0 && f < view.detected() && view.stereo[f].depth > 0) {
-        const Eigen::Vector3d p_map = rig_.stereo_point(
-            view, static_cast<int>(v), static_cast<int>(f), tracked.motion.T_map_body);
+        const Eigen::Vector3d p_map =
+            stereo_point(view, static_cast<int>(f), rig.left_cameras[v].lens,
+                         tracked.motion.T_map_body, rig.T_body_cams[v]);
         landmark = map.add_landmark(p_map, {id, static_cast<int>(v), static_cast<int>(f)});
-        if (rig_.refinement.enabled) place(tracked.frame->views[v], f);
+        if (settings_.refinement) place(tracked.frame->views[v], f);
       }
       if (landmark >= 0) touched.push_back(landmark);
     }
   }
-  for (const int landmark : touched) map.refresh(landmark, rig_.T_body_cams);
-  map.keyframe(id).patches = cut_patches(*tracked.frame, map.keyframe(id).landmarks, rig_);
+  for (const int landmark : touched) map.refresh(landmark, rig.T_body_cams);
+  if (settings_.refinement) {
+    map.keyframe(id).patches = cut_patches(*tracked.frame, map.keyframe(id).landmarks, rig.noise);
+  }
   for (StereoView& view : tracked.frame->views) view.close();
   if (id >= kPatchesForAll) {
     Keyframe& old = map.keyframe(id - kPatchesForAll);
@@ -52,53 +56,55 @@ int LocalMapper::insert(const TrackedFrame& tracked, Map& map) const {
   return id;
 }
 
-void LocalMapper::extend(int keyframe, Map& map) const {
+void LocalMapper::extend(int keyframe, const EstimatorRig& rig, Map& map) const {
   cull(keyframe, map);
-  triangulate(keyframe, map);
-  fuse(keyframe, map);
+  triangulate(keyframe, rig, map);
+  fuse(keyframe, rig, map);
 }
 
 AdjustmentOptions LocalMapper::adjustment_options() const {
   AdjustmentOptions options;
-  options.iterations = config_.mapping.iterations;
-  options.tag_corner_sigma = config_.loop.corner_sigma;
+  options.iterations = settings_.mapping.iterations;
+  options.tag_corner_sigma = settings_.tag_corner_sigma;
   return options;
 }
 
-std::unique_ptr<AdjustmentJob> LocalMapper::local_adjustment(int keyframe, const Map& map) const {
-  return std::make_unique<AdjustmentJob>(map, local_window(map, keyframe, config_.mapping.window),
-                                         rig_, adjustment_options());
+std::unique_ptr<AdjustmentJob> LocalMapper::local_adjustment(int keyframe, const Map& map,
+                                                             const EstimatorRig& rig) const {
+  return std::make_unique<AdjustmentJob>(map, local_window(map, keyframe, settings_.mapping.window),
+                                         rig, adjustment_options());
 }
 
 void LocalMapper::cull(int keyframe, Map& map) const {
-  const int due = keyframe - config_.mapping.trial_keyframes;
+  const int due = keyframe - settings_.mapping.trial_keyframes;
   for (Landmark& landmark : map.landmarks()) {
     if (landmark.removed || landmark.first_keyframe != due) continue;
-    if (count_keyframes(landmark) < config_.mapping.min_observations) {
+    if (count_keyframes(landmark) < settings_.mapping.min_observations) {
       map.remove_landmark(landmark.id);
     }
   }
 }
 
-void LocalMapper::fuse(int keyframe, Map& map) const {
-  const std::vector<int> neighbours = map.covisible(keyframe, config_.mapping.neighbours);
+void LocalMapper::fuse(int keyframe, const EstimatorRig& rig, Map& map) const {
+  const std::vector<int> neighbours = map.covisible(keyframe, settings_.mapping.neighbours);
   const std::vector<int> mine = landmark_ids(map.keyframe(keyframe).landmarks);
   std::vector<int> theirs;
   for (const int neighbour : neighbours) {
-    fuse_into(mine, neighbour, map);
+    fuse_into(mine, neighbour, rig, map);
     const std::vector<int> ids = landmark_ids(map.keyframe(neighbour).landmarks);
     theirs.insert(theirs.end(), ids.begin(), ids.end());
   }
   std::sort(theirs.begin(), theirs.end());
   theirs.erase(std::unique(theirs.begin(), theirs.end()), theirs.end());
-  fuse_into(theirs, keyframe, map);
+  fuse_into(theirs, keyframe, rig, map);
 }
 
-void LocalMapper::fuse_into(const std::vector<int>& landmarks, int keyframe_id, Map& map) const {
+void LocalMapper::fuse_into(const std::vector<int>& landmarks, int keyframe_id,
+                            const EstimatorRig& rig, Map& map) const {
   // The same search as tracking's second one: poses of neighbours agree to a few pixels.
-  const ProjectionSearch search{3.0, config_.tracking.max_hamming, 1.0};
+  const ProjectionSearch search{3.0, settings_.max_hamming, 1.0};
   const Pose T_body_map = map.keyframe(keyframe_id).T_map_body.inverse();
-  for (std::size_t v = 0; v < rig_.left_cameras.size(); ++v) {
+  for (std::size_t v = 0; v < rig.left_cameras.size(); ++v) {
     for (const int id : landmarks) {
       const Landmark& landmark = map.landmark(id);
       if (landmark.removed) continue;
@@ -108,7 +114,7 @@ void LocalMapper::fuse_into(const std::vector<int>& landmarks, int keyframe_id, 
           });
       if (sees) continue;
       const StereoView& view = map.keyframe(keyframe_id).frame->views[v];
-      const int f = find_feature(landmark, view, static_cast<int>(v), T_body_map, rig_,
+      const int f = find_feature(landmark, view, static_cast<int>(v), T_body_map, rig,
                                  map.level_scale(), search, nullptr);
       if (f < 0) continue;
       const int other = map.keyframe(keyframe_id).landmarks[v][static_cast<std::size_t>(f)];
@@ -123,18 +129,19 @@ void LocalMapper::fuse_into(const std::vector<int>& landmarks, int keyframe_id, 
   }
 }
 
-void LocalMapper::triangulate(int keyframe, Map& map) const {
-  for (const int neighbour : map.covisible(keyframe, config_.mapping.neighbours)) {
-    for (std::size_t v = 0; v < rig_.left_cameras.size(); ++v) {
-      triangulate_between(keyframe, neighbour, static_cast<int>(v), map);
+void LocalMapper::triangulate(int keyframe, const EstimatorRig& rig, Map& map) const {
+  for (const int neighbour : map.covisible(keyframe, settings_.mapping.neighbours)) {
+    for (std::size_t v = 0; v < rig.left_cameras.size(); ++v) {
+      triangulate_between(keyframe, neighbour, static_cast<int>(v), rig, map);
     }
   }
 }
 
-void LocalMapper::triangulate_between(int newer, int older, int view, Map& map) const {
+void LocalMapper::triangulate_between(int newer, int older, int view, const EstimatorRig& rig,
+                                      Map& map) const {
   const auto v = static_cast<std::size_t>(view);
   const std::vector<EpipolarMatch> matches = match_epipolar(
-      map.keyframe(newer), map.keyframe(older), view, rig_, config_.tracking.max_hamming * 3 / 4);
+      map.keyframe(newer), map.keyframe(older), view, rig, settings_.max_hamming * 3 / 4);
   for (const EpipolarMatch& match : matches) {
     if (map.keyframe(newer).landmarks[v][static_cast<std::size_t>(match.feature_a)] >= 0 ||
         map.keyframe(older).landmarks[v][static_cast<std::size_t>(match.feature_b)] >= 0) {
@@ -142,7 +149,7 @@ void LocalMapper::triangulate_between(int newer, int older, int view, Map& map) 
     }
     const int id = map.add_landmark(match.p_map, {newer, view, match.feature_a});
     map.add_observation(id, {older, view, match.feature_b});
-    map.refresh(id, rig_.T_body_cams);
+    map.refresh(id, rig.T_body_cams);
   }
 }
 

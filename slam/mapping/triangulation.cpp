@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "slam/frame/measurements.h"
+
 namespace vinebench::slam {
 namespace {
 
@@ -24,7 +26,7 @@ std::vector<Candidate> candidates(const Keyframe& keyframe, std::size_t v,
   std::vector<Candidate> result;
   for (std::size_t f = 0; f < view.detected(); ++f) {
     if (keyframe.landmarks[v][f] >= 0 || view.stereo[f].depth > 0) continue;
-    const PixelMeasurement m = rig.measurement(view, static_cast<int>(f));
+    const PixelMeasurement m = measure(view, static_cast<int>(f), rig.noise);
     result.push_back({static_cast<int>(f),
                       (R_map_cam * rig.left_cameras[v].lens.unproject(m.pixel)).normalized(), m});
   }

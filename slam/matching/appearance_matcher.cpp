@@ -6,8 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include "slam/tracking/tracker.h"
-
 namespace vinebench::slam {
 namespace {
 

@@ -9,8 +9,9 @@ namespace {
 
 class Refiner {
  public:
-  Refiner(const Map& map, const Pose& T_map_body, const EstimatorRig& rig, FrameFeatures& frame)
-      : projector_(map, T_map_body, rig), rig_(rig), frame_(frame) {}
+  Refiner(const Map& map, const Pose& T_map_body, const EstimatorRig& rig,
+          const RefinementConfig& config, FrameFeatures& frame)
+      : projector_(map, T_map_body, rig), noise_(rig.noise), config_(config), frame_(frame) {}
 
   /// Tries the oldest fitting patch, which has not drifted, then the newest. False where there are
   /// patches to compare with and none fits: the feature is not the landmark.
@@ -36,11 +37,11 @@ class Refiner {
     StereoView& view = frame_.views[v];
     Keypoint& keypoint = view.features.keypoints[f];
     const auto level = static_cast<std::size_t>(keypoint.level);
-    const double pixel = rig_.level_scales[level];
+    const double pixel = noise_.level_scales[level];
     const auto fit = fit_patch(window, frame_.pyramids[v][level],
                                to_level(static_cast<double>(keypoint.x), pixel),
                                to_level(static_cast<double>(keypoint.y), pixel));
-    if (!fit || !rig_.refinement.accepts(*fit)) return false;
+    if (!fit || !config_.accepts(*fit)) return false;
     const auto x = static_cast<float>(from_level(fit->x, pixel));
     if (view.stereo[f].depth > 0) view.stereo[f].x_right += x - keypoint.x;
     keypoint.x = x;
@@ -50,16 +51,18 @@ class Refiner {
   }
 
   PatchProjector projector_;
-  const EstimatorRig& rig_;
+  const MeasurementNoise& noise_;
+  const RefinementConfig& config_;
   FrameFeatures& frame_;
 };
 
 }  // namespace
 
 void refine_matches(const Map& map, const Pose& T_map_body, const EstimatorRig& rig,
-                    FrameFeatures& frame, Associations& associations) {
-  if (frame.pyramids.empty() || !rig.refinement.enabled) return;
-  Refiner refiner(map, T_map_body, rig, frame);
+                    const RefinementConfig& config, FrameFeatures& frame,
+                    Associations& associations) {
+  if (frame.pyramids.empty() || !config.enabled) return;
+  Refiner refiner(map, T_map_body, rig, config, frame);
   for (std::size_t v = 0; v < associations.size(); ++v) {
     frame.views[v].placed.assign(associations[v].size(), 0);
     for (std::size_t f = 0; f < associations[v].size(); ++f) {
@@ -70,9 +73,9 @@ void refine_matches(const Map& map, const Pose& T_map_body, const EstimatorRig& 
 }
 
 std::vector<PatchList> cut_patches(const FrameFeatures& frame, const Associations& landmarks,
-                                   const EstimatorRig& rig) {
+                                   const MeasurementNoise& noise) {
   std::vector<PatchList> patches;
-  if (frame.pyramids.empty() || !rig.refinement.enabled) return patches;
+  if (frame.pyramids.empty()) return patches;
   for (std::size_t v = 0; v < landmarks.size(); ++v) {
     const StereoView& view = frame.views[v];
     PatchList& of_view = patches.emplace_back(landmarks[v].size());
@@ -80,7 +83,7 @@ std::vector<PatchList> cut_patches(const FrameFeatures& frame, const Association
       if (landmarks[v][f] < 0 || !view.is_placed(f)) continue;
       const Keypoint& keypoint = view.features.keypoints[f];
       const auto level = static_cast<std::size_t>(keypoint.level);
-      const double pixel = rig.level_scales[level];
+      const double pixel = noise.level_scales[level];
       const auto patch =
           cut_patch(frame.pyramids[v][level], to_level(static_cast<double>(keypoint.x), pixel),
                     to_level(static_cast<double>(keypoint.y), pixel));

@@ -46,18 +46,19 @@ class Cells {
 
 class Follower {
  public:
-  Follower(const Map& map, const Pose& T_map_body, const EstimatorRig& rig, FrameFeatures& frame,
-           int view)
+  Follower(const Map& map, const Pose& T_map_body, const EstimatorRig& rig,
+           const FollowSettings& settings, FrameFeatures& frame, int view)
       : map_(map),
         T_body_map_(T_map_body.inverse()),
         rig_(rig),
+        settings_(settings),
         frame_(frame),
         v_(view),
         projector_(map, T_map_body, rig) {}
 
   void follow(const std::vector<int>& landmarks, std::vector<int>& associations) {
     const std::vector<Candidate> wanted = candidates(landmarks, associations);
-    Cells cells(lens(), rig_.refinement.follow);
+    Cells cells(lens(), settings_.refinement.follow);
     for (std::size_t f = 0; f < associations.size(); ++f) {
       const Keypoint& keypoint = view().features.keypoints[f];
       if (associations[f] >= 0) cells.add(keypoint.x, keypoint.y);
@@ -119,12 +120,12 @@ class Follower {
   bool try_patch(const Observation& seen, const PatchView& patch, const Candidate& candidate) {
     const auto level = static_cast<std::size_t>(patch.level);
     const auto v = static_cast<std::size_t>(v_);
-    const double pixel = rig_.level_scales[level];
+    const double pixel = rig_.noise.level_scales[level];
     if (level >= frame_.pyramids[v].size()) return false;
     const auto fit =
         fit_patch(patch.window, frame_.pyramids[v][level], to_level(candidate.pixel.x(), pixel),
                   to_level(candidate.pixel.y(), pixel));
-    if (!fit || !rig_.refinement.accepts(*fit)) return false;
+    if (!fit || !settings_.refinement.accepts(*fit)) return false;
     append(seen, patch.level, *fit, candidate);
     return true;
   }
@@ -132,7 +133,7 @@ class Follower {
   void append(const Observation& seen, int level, const PatchFit& fit, const Candidate& candidate) {
     const StereoView& then =
         map_.keyframe(seen.keyframe).frame->views[static_cast<std::size_t>(v_)];
-    const double pixel = rig_.level_scales[static_cast<std::size_t>(level)];
+    const double pixel = rig_.noise.level_scales[static_cast<std::size_t>(level)];
     Keypoint keypoint = then.features.keypoints[static_cast<std::size_t>(seen.feature)];
     keypoint.x = static_cast<float>(from_level(fit.x, pixel));
     keypoint.y = static_cast<float>(from_level(fit.y, pixel));
@@ -150,20 +151,20 @@ class Follower {
     const auto v = static_cast<std::size_t>(v_);
     const auto level = static_cast<std::size_t>(keypoint.level);
     if (frame_.right_pyramids[v].size() <= level) return match;
-    const double pixel = rig_.level_scales[level];
+    const double pixel = rig_.noise.level_scales[level];
     const StereoCameraModel& camera = rig_.left_cameras[v];
     const double level_disparity =
         lens().fx * camera.baseline / (depth * pixel) - camera.disparity_offset / pixel;
     const auto aligned = align_patch(frame_.pyramids[v][level], frame_.right_pyramids[v][level],
                                      static_cast<int>(std::lround(fit.x)),
                                      static_cast<int>(std::lround(fit.y)), level_disparity);
-    if (!aligned || aligned->shift <= 0 || !rig_.stereo.accepts(*aligned)) return match;
+    if (!aligned || aligned->shift <= 0 || !settings_.stereo.accepts(*aligned)) return match;
     const double disparity = aligned->shift * pixel;
     match.x_right = keypoint.x - static_cast<float>(disparity);
     match.slant_x = static_cast<float>(aligned->slope_x / disparity);
     match.slant_y = static_cast<float>(aligned->slope_y / disparity);
     const double seen_depth = camera.depth_of(disparity);
-    if (seen_depth > 0 && seen_depth < rig_.stereo.max_depth_baselines * camera.baseline) {
+    if (seen_depth > 0 && seen_depth < settings_.stereo.max_depth_baselines * camera.baseline) {
       match.depth = static_cast<float>(seen_depth);
     }
     return match;
@@ -172,6 +173,7 @@ class Follower {
   const Map& map_;
   Pose T_body_map_;
   const EstimatorRig& rig_;
+  const FollowSettings& settings_;
   FrameFeatures& frame_;
   int v_;
   PatchProjector projector_;
@@ -180,11 +182,14 @@ class Follower {
 }  // namespace
 
 void follow_patches(const Map& map, const std::vector<int>& landmarks, const Pose& T_map_body,
-                    const EstimatorRig& rig, FrameFeatures& frame, Associations& associations) {
-  if (frame.pyramids.empty() || !rig.refinement.enabled || rig.refinement.follow == 0) return;
+                    const EstimatorRig& rig, const FollowSettings& settings, FrameFeatures& frame,
+                    Associations& associations) {
+  const RefinementConfig& refinement = settings.refinement;
+  if (frame.pyramids.empty() || !refinement.enabled || refinement.follow == 0) return;
   for (std::size_t v = 0; v < associations.size(); ++v) {
     if (frame.pyramids[v].empty()) continue;
-    Follower(map, T_map_body, rig, frame, static_cast<int>(v)).follow(landmarks, associations[v]);
+    Follower(map, T_map_body, rig, settings, frame, static_cast<int>(v))
+        .follow(landmarks, associations[v]);
   }
 }
 

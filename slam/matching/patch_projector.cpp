@@ -77,7 +77,7 @@ std::optional<Eigen::Matrix3d> PatchProjector::homography(const Observation& see
                          1 - static_cast<double>(stereo.slant_x * corner.x) -
                              static_cast<double>(stereo.slant_y * corner.y)) /
       depth;
-  const double pixel = rig_.level_scales[static_cast<std::size_t>(corner.level)];
+  const double pixel = rig_.noise.level_scales[static_cast<std::size_t>(corner.level)];
   Eigen::Matrix3d from_patch;
   from_patch << pixel, 0, static_cast<double>(corner.x), 0, pixel, static_cast<double>(corner.y), 0,
       0, 1;
@@ -88,7 +88,7 @@ std::optional<Eigen::Matrix3d> PatchProjector::homography(const Observation& see
 
 std::optional<PatchView> PatchProjector::view_on(const Eigen::Matrix3d& H, const Patch& patch,
                                                  int level) const {
-  const double pixel = rig_.level_scales[static_cast<std::size_t>(level)];
+  const double pixel = rig_.noise.level_scales[static_cast<std::size_t>(level)];
   const double scale = magnification(H) / pixel;
   if (!(scale < kMaxScale && scale > 1 / kMaxScale)) return std::nullopt;
   // The origin of the level's pixels does not matter: a window is about its centre.
@@ -107,7 +107,7 @@ std::optional<PatchView> PatchProjector::on_best_level(const Observation& seen, 
   const auto H = homography(seen, v, landmark);
   if (!H) return std::nullopt;
   const double level = std::log(magnification(*H)) / std::log(map_.level_scale());
-  const int top = static_cast<int>(rig_.level_scales.size()) - 1;
+  const int top = static_cast<int>(rig_.noise.level_scales.size()) - 1;
   return view_on(*H, *find_patch(seen), std::clamp(static_cast<int>(std::lround(level)), 0, top));
 }
 

@@ -32,7 +32,7 @@ Prediction predict(const Landmark& landmark, int v, const Pose& T_body_map, cons
       camera.T_cam_body.rotation * (T_body_map.rotation * landmark.normal);
   if (p_cam.dot(normal_cam) < kMinViewCosine * distance) return p;
   const double level = std::log(landmark.max_distance / distance) / std::log(level_scale);
-  const int top = static_cast<int>(rig.level_scales.size()) - 1;
+  const int top = static_cast<int>(rig.noise.level_scales.size()) - 1;
   if (level < -1.5 || level > top + 1.5) return p;
   p.level = std::clamp(static_cast<int>(std::lround(level)), 0, top);
   p.right_x = p.pixel.x() - camera.disparity_of(p_cam.z());
@@ -49,7 +49,7 @@ int find_feature(const Landmark& landmark, const StereoView& view, int v, const 
   if (!p.visible) return -1;
   thread_local std::vector<int> near;
   near.clear();
-  const double radius = search.radius * rig.level_scales[static_cast<std::size_t>(p.level)];
+  const double radius = search.radius * rig.noise.level_scales[static_cast<std::size_t>(p.level)];
   view.grid.query(static_cast<float>(p.pixel.x()), static_cast<float>(p.pixel.y()),
                   static_cast<float>(radius), p.level - 1, p.level + 1, near);
   int best = -1;

@@ -6,17 +6,10 @@
 #include <vector>
 
 #include "slam/camera/estimator_rig.h"
-#include "slam/config.h"
 #include "slam/map/map.h"
+#include "slam/optimisation/adjustment_window.h"
 
 namespace vinebench::slam {
-
-/// Which keyframes an adjustment moves, and which it only looks at. The landmarks that a moved
-/// keyframe sees are adjusted with them.
-struct AdjustmentWindow {
-  std::vector<int> moved;  ///< keyframe ids, ascending
-  std::vector<int> fixed;  ///< keyframe ids, ascending
-};
 
 struct AdjustmentOptions {
   int iterations = 6;
@@ -25,20 +18,13 @@ struct AdjustmentOptions {
   bool offsets_unknown = false;   ///< the cameras' disparity offsets can be freed
 };
 
-/// The keyframe, those that share most landmarks with it, and as fixed ones all others that see
-/// their landmarks. The first keyframe of the map and those that begin it anew after a stretch
-/// without sight are fixed.
-AdjustmentWindow local_window(const Map& map, int keyframe, int size);
-
-/// All keyframes; the first is fixed unless a tag of known pose holds the map.
-AdjustmentWindow global_window(const Map& map);
-
 /// A bundle adjustment in three steps, so that the second can run beside tracking: what it needs of
 /// the map is copied when it is made, solved, and written back. Between the first and the last step
 /// the map may gain tags, but keyframes, landmarks and observations must stay as they are.
 class AdjustmentJob {
  public:
-  AdjustmentJob(const Map& map, AdjustmentWindow window, const EstimatorRig& rig,
+  /// Keeps the rig it is given, whatever calibration finds meanwhile.
+  AdjustmentJob(const Map& map, const AdjustmentWindow& window, const EstimatorRig& rig,
                 const AdjustmentOptions& options);
   ~AdjustmentJob();
   AdjustmentJob(const AdjustmentJob&) = delete;
@@ -65,8 +51,5 @@ class AdjustmentJob {
 /// corners. Observations that are outliers in the end (95 % chi-square) are removed from the map.
 void adjust(Map& map, const AdjustmentWindow& window, const EstimatorRig& rig,
             const AdjustmentOptions& options);
-
-/// Corners of a tag of side `size` in its own frame (x right, y down), in the order of TagSighting.
-std::array<Eigen::Vector3d, 4> tag_corners(double size);
 
 }  // namespace vinebench::slam

@@ -5,7 +5,8 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "slam/optimisation/bundle_adjustment.h"
+#include "slam/factors/pose_manifold.h"
+#include "slam/factors/tag_corner_factor.h"
 
 namespace vinebench::slam {
 namespace {
@@ -31,9 +32,9 @@ struct CornerErrors {
 };
 
 CornerErrors corner_errors(const PlacedSighting& seen, const Pose& T_ref_body,
-                           const EstimatorRig& rig, double systematic) {
+                           const TagCameras& cameras, double systematic) {
   const StereoCameraModel& camera =
-      rig.undistorted_cameras[static_cast<std::size_t>(seen.sighting->camera)];
+      cameras.undistorted[static_cast<std::size_t>(seen.sighting->camera)];
   const double sigma = corner_sigma(*seen.sighting, systematic);
   const std::array<Eigen::Vector3d, 4> corners = tag_corners(seen.size);
   const PoseBlock body = to_block(T_ref_body);
@@ -41,7 +42,8 @@ CornerErrors corner_errors(const PlacedSighting& seen, const Pose& T_ref_body,
   const double* parameters[] = {body.data(), tag.data()};
   CornerErrors errors;
   for (std::size_t c = 0; c < 4; ++c) {
-    const TagCornerError error(camera, ideal_corner(*seen.sighting, c, rig), sigma, corners[c]);
+    const TagCornerFactor error(camera, ideal_corner(*seen.sighting, c, cameras), sigma,
+                                corners[c]);
     Eigen::Vector2d residual;
     Eigen::Matrix<double, 2, 7, Eigen::RowMajor> by_body;
     Eigen::Matrix<double, 2, 7, Eigen::RowMajor> by_tag;
@@ -68,8 +70,8 @@ Matrix6d place_covariance() {
 
 /// Whether `other` is seen where it must be from the body's pose by another tag.
 bool agrees(const PlacedSighting& other, const Pose& T_ref_body, const Matrix6d& covariance,
-            const EstimatorRig& rig, double systematic) {
-  const CornerErrors at = corner_errors(other, T_ref_body, rig, systematic);
+            const TagCameras& cameras, double systematic) {
+  const CornerErrors at = corner_errors(other, T_ref_body, cameras, systematic);
   const Eigen::Matrix<double, 8, 8> expected =
       Eigen::Matrix<double, 8, 8>::Identity() + at.by_body * covariance * at.by_body.transpose() +
       at.by_tag * place_covariance() * at.by_tag.transpose();
@@ -77,13 +79,13 @@ bool agrees(const PlacedSighting& other, const Pose& T_ref_body, const Matrix6d&
 }
 
 /// Gauss-Newton over the corners of all sightings.
-Pose refine(Pose T_ref_body, const std::vector<PlacedSighting>& seen, const EstimatorRig& rig,
+Pose refine(Pose T_ref_body, const std::vector<PlacedSighting>& seen, const TagCameras& cameras,
             double systematic) {
   for (int i = 0; i < kSteps; ++i) {
     Matrix6d H = Matrix6d::Zero();
     Vector6d g = Vector6d::Zero();
     for (const PlacedSighting& tag : seen) {
-      const CornerErrors at = corner_errors(tag, T_ref_body, rig, systematic);
+      const CornerErrors at = corner_errors(tag, T_ref_body, cameras, systematic);
       H += at.by_body.transpose() * at.by_body;
       g += at.by_body.transpose() * at.residual;
     }
@@ -94,25 +96,10 @@ Pose refine(Pose T_ref_body, const std::vector<PlacedSighting>& seen, const Esti
 
 }  // namespace
 
-double corner_sigma(const TagSighting& sighting, double systematic) {
-  return std::hypot(sighting.corner_sigma, systematic);
-}
-
-Eigen::Vector2d ideal_corner(const TagSighting& sighting, std::size_t corner,
-                             const EstimatorRig& rig) {
-  const auto camera = static_cast<std::size_t>(sighting.camera);
-  const PinholeCamera& lens = rig.rig.cameras[camera].model;
-  return rig.undistorted_cameras[camera].lens.project(lens.unproject(sighting.corners[corner]));
-}
-
-Pose T_body_tag(const TagSighting& sighting, const EstimatorRig& rig) {
-  return rig.rig.cameras[static_cast<std::size_t>(sighting.camera)].T_body_cam * sighting.T_cam_tag;
-}
-
-Matrix6d tag_covariance(const TagSighting& sighting, double size, const EstimatorRig& rig,
+Matrix6d tag_covariance(const TagSighting& sighting, double size, const TagCameras& cameras,
                         double systematic) {
-  const PlacedSighting seen{T_body_tag(sighting, rig), size, &sighting};
-  const Matrix86d J = corner_errors(seen, Pose{}, rig, systematic).by_tag;
+  const PlacedSighting seen{T_body_tag(sighting, cameras), size, &sighting};
+  const Matrix86d J = corner_errors(seen, Pose{}, cameras, systematic).by_tag;
   return inverse(J.transpose() * J);
 }
 
@@ -123,19 +110,19 @@ double pose_chi_squared(const Pose& a, const Pose& b, const Matrix6d& covariance
   return difference.dot(covariance.ldlt().solve(difference));
 }
 
-std::optional<Pose> locate_by_tags(const std::vector<PlacedSighting>& seen, const EstimatorRig& rig,
-                                   double systematic) {
+std::optional<Pose> locate_by_tags(const std::vector<PlacedSighting>& seen,
+                                   const TagCameras& cameras, double systematic) {
   std::vector<PlacedSighting> best;
   Pose best_pose;
   double best_variance = 0;
   for (const PlacedSighting& tag : seen) {
-    const Pose T_tag_body = T_body_tag(*tag.sighting, rig).inverse();
-    const Matrix6d by_tag = tag_covariance(*tag.sighting, tag.size, rig, systematic);
+    const Pose T_tag_body = T_body_tag(*tag.sighting, cameras).inverse();
+    const Matrix6d by_tag = tag_covariance(*tag.sighting, tag.size, cameras, systematic);
     const Matrix6d covariance = carry_covariance(by_tag + place_covariance(), T_tag_body);
     const Pose T_ref_body = tag.T_ref_tag * T_tag_body;
     std::vector<PlacedSighting> together;
     for (const PlacedSighting& other : seen) {
-      if (&other == &tag || agrees(other, T_ref_body, covariance, rig, systematic)) {
+      if (&other == &tag || agrees(other, T_ref_body, covariance, cameras, systematic)) {
         together.push_back(other);
       }
     }
@@ -148,7 +135,7 @@ std::optional<Pose> locate_by_tags(const std::vector<PlacedSighting>& seen, cons
     best_variance = variance;
   }
   if (2 * best.size() <= seen.size()) return std::nullopt;
-  return best.size() == 1 ? best_pose : refine(best_pose, best, rig, systematic);
+  return best.size() == 1 ? best_pose : refine(best_pose, best, cameras, systematic);
 }
 
 }  // namespace vinebench::slam

@@ -6,8 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "slam/camera/estimator_rig.h"
+#include "slam/camera/tag_cameras.h"
 #include "slam/optimisation/pose_uncertainty.h"
+#include "slam/tags/tag_sightings.h"
 
 namespace vinebench::slam {
 
@@ -21,17 +22,8 @@ struct PlacedSighting {
   const TagSighting* sighting = nullptr;
 };
 
-/// Standard deviation of a sighting's corners, px: their noise and `systematic`.
-double corner_sigma(const TagSighting& sighting, double systematic);
-
-/// A corner where the tag camera would see it without distortion, px.
-Eigen::Vector2d ideal_corner(const TagSighting& sighting, std::size_t corner,
-                             const EstimatorRig& rig);
-
-Pose T_body_tag(const TagSighting& sighting, const EstimatorRig& rig);
-
 /// Covariance of T_body_tag, from that of the corners: far away and aslant it is large.
-Matrix6d tag_covariance(const TagSighting& sighting, double size, const EstimatorRig& rig,
+Matrix6d tag_covariance(const TagSighting& sighting, double size, const TagCameras& cameras,
                         double systematic);
 
 /// Squared distance of two poses in standard deviations of their difference: chi-square with six
@@ -40,7 +32,7 @@ double pose_chi_squared(const Pose& a, const Pose& b, const Matrix6d& covariance
 
 /// T_ref_body by all corners of those sightings that agree with each other. Nothing where no more
 /// than half of them do: one of two that contradict each other is wrong, but which?
-std::optional<Pose> locate_by_tags(const std::vector<PlacedSighting>& seen, const EstimatorRig& rig,
-                                   double systematic);
+std::optional<Pose> locate_by_tags(const std::vector<PlacedSighting>& seen,
+                                   const TagCameras& cameras, double systematic);
 
 }  // namespace vinebench::slam

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "core/util/stage_timer.h"
-#include "slam/config.h"
+#include "slam/mapping/mapping_config.h"
 #include "slam/optimisation/bundle_adjustment.h"
 
 namespace vinebench::slam {

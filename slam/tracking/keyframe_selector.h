@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "slam/config.h"
 #include "slam/map/map.h"
+#include "slam/tracking/keyframe_config.h"
 #include "slam/tracking/tracker.h"
 
 namespace vinebench::slam {

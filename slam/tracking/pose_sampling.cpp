@@ -32,7 +32,7 @@ std::vector<Match> gather(const Map& map, const FrameFeatures& frame, const Esti
                          f,
                          {k.x, k.y},
                          map.landmark(associations[v][f]).position,
-                         pixel_limit * rig.level_scales[static_cast<std::size_t>(k.level)]});
+                         pixel_limit * rig.noise.level_scales[static_cast<std::size_t>(k.level)]});
     }
   }
   return matches;

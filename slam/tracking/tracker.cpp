@@ -7,7 +7,6 @@
 
 #include "slam/matching/appearance_matcher.h"
 #include "slam/matching/match_refiner.h"
-#include "slam/matching/patch_follower.h"
 #include "slam/matching/projection_matcher.h"
 #include "slam/tracking/pose_sampling.h"
 
@@ -33,18 +32,6 @@ void add_landmarks_of(const Keyframe& keyframe, std::vector<char>& wanted) {
 }
 
 }  // namespace
-
-std::vector<int> landmark_ids(const Associations& associations) {
-  std::vector<int> ids;
-  for (const std::vector<int>& view : associations) {
-    for (const int id : view) {
-      if (id >= 0) ids.push_back(id);
-    }
-  }
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  return ids;
-}
 
 std::vector<int> local_landmarks(const Map& map, const std::vector<int>& seen,
                                  const Pose& T_map_body, int at_most_keyframes) {
@@ -98,74 +85,77 @@ Pose Tracker::predict(const FrameFeatures& frame) const {
 /// The pose by landmarks near their projection. The radius grows while there are too few matches
 /// (paper, Sect. III-A), and while too few of them agree on a pose: where texture is alike all
 /// over, a small radius finds enough matches, all wrong.
-void Tracker::match_near(const Map& map, const std::vector<int>& landmarks, const Pose& predicted,
-                         TrackedFrame& tracked) const {
+void Tracker::match_near(const Map& map, const EstimatorRig& rig, const std::vector<int>& landmarks,
+                         const Pose& predicted, TrackedFrame& tracked) const {
   ProjectionSearch search{config_.radius, config_.max_hamming, config_.second_best};
   for (int step = 1; step <= config_.radius_steps; ++step) {
     tracked.associations = no_associations(*tracked.frame);
-    const int matches = match_by_projection(map, landmarks, *tracked.frame, predicted, rig_, search,
+    const int matches = match_by_projection(map, landmarks, *tracked.frame, predicted, rig, search,
                                             tracked.associations);
     search.radius *= config_.radius_growth;
     if (matches < config_.min_matches && step < config_.radius_steps) continue;
-    tracked.motion = estimate_motion(map, *tracked.frame, predicted, rig_, config_.min_inlier_share,
+    tracked.motion = estimate_motion(map, *tracked.frame, predicted, rig, config_.min_inlier_share,
                                      tracked.associations);
     // The farther from the prediction, the more evidence is asked for.
     if (tracked.motion.inliers >= std::min(step, 2) * config_.min_inliers) return;
   }
 }
 
-void Tracker::match_anywhere(const Map& map, const Pose& predicted, TrackedFrame& tracked) const {
+void Tracker::match_anywhere(const Map& map, const EstimatorRig& rig, const Pose& predicted,
+                             TrackedFrame& tracked) const {
   const std::vector<int> landmarks =
       local_landmarks(map, last_landmarks_, predicted, config_.local_keyframes);
   Associations associations =
       match_by_appearance(map, landmarks, *tracked.frame, config_.max_hamming, config_.second_best);
-  const auto sampled = sample_pose(map, *tracked.frame, rig_, PoseSampling{}, 0, associations);
+  const auto sampled = sample_pose(map, *tracked.frame, rig, PoseSampling{}, 0, associations);
   if (!sampled) return;
   const double reach = std::max(config_.max_speed * to_seconds(tracked.frame->stamp - stamp_),
                                 kMaxSigmas * dead_reckoning_.sigma_position());
   if ((sampled->translation - predicted.translation).norm() > reach) return;
   const MotionEstimate motion =
-      estimate_motion(map, *tracked.frame, *sampled, rig_, config_.min_inlier_share, associations);
+      estimate_motion(map, *tracked.frame, *sampled, rig, config_.min_inlier_share, associations);
   // Rows look alike: a pose that nothing predicted needs twice the evidence.
   if (motion.inliers < 2 * config_.min_inliers) return;
   tracked.motion = motion;
   tracked.associations = std::move(associations);
 }
 
-void Tracker::match_local_map(const Map& map, const std::vector<int>& local,
-                              TrackedFrame& tracked) const {
-  match_by_projection(map, local, *tracked.frame, tracked.motion.T_map_body, rig_,
-                      {config_.local_radius, config_.max_hamming, config_.second_best},
-                      tracked.associations);
+void Tracker::adjust_motion(const Map& map, const EstimatorRig& rig, TrackedFrame& tracked) const {
+  tracked.motion = estimate_motion(map, *tracked.frame, tracked.motion.T_map_body, rig,
+                                   config_.min_inlier_share, tracked.associations);
 }
 
-TrackedFrame Tracker::track(std::shared_ptr<FrameFeatures> frame, const Map& map) {
+void Tracker::refine_on_local_map(const Map& map, const EstimatorRig& rig,
+                                  TrackedFrame& tracked) const {
+  const std::vector<int> local = local_landmarks(
+      map, landmark_ids(tracked.associations), tracked.motion.T_map_body, config_.local_keyframes);
+  match_by_projection(map, local, *tracked.frame, tracked.motion.T_map_body, rig,
+                      {config_.local_radius, config_.max_hamming, config_.second_best},
+                      tracked.associations);
+  adjust_motion(map, rig, tracked);
+  refine_matches(map, tracked.motion.T_map_body, rig, follow_.refinement, *tracked.frame,
+                 tracked.associations);
+  adjust_motion(map, rig, tracked);
+  follow_patches(map, local, tracked.motion.T_map_body, rig, follow_, *tracked.frame,
+                 tracked.associations);
+  adjust_motion(map, rig, tracked);
+}
+
+TrackedFrame Tracker::track(std::shared_ptr<FrameFeatures> frame, const Map& map,
+                            const EstimatorRig& rig) {
   TrackedFrame tracked;
   tracked.frame = std::move(frame);
   const Pose predicted = predict(*tracked.frame);
   tracked.motion.T_map_body = predicted;
   const bool from_map = dead_reckoning_.active() || last_landmarks_.empty();
   const std::vector<int> landmarks =
-      from_map ? local_landmarks(map, last_landmarks_, tracked.motion.T_map_body,
-                                 config_.local_keyframes)
+      from_map ? local_landmarks(map, last_landmarks_, predicted, config_.local_keyframes)
                : last_landmarks_;
-  match_near(map, landmarks, predicted, tracked);
-  if (tracked.motion.inliers < 2 * config_.min_inliers) match_anywhere(map, predicted, tracked);
-  if (tracked.motion.inliers >= config_.min_inliers / 2) {
-    const std::vector<int> local =
-        local_landmarks(map, landmark_ids(tracked.associations), tracked.motion.T_map_body,
-                        config_.local_keyframes);
-    match_local_map(map, local, tracked);
-    tracked.motion = estimate_motion(map, *tracked.frame, tracked.motion.T_map_body, rig_,
-                                     config_.min_inlier_share, tracked.associations);
-    refine_matches(map, tracked.motion.T_map_body, rig_, *tracked.frame, tracked.associations);
-    tracked.motion = estimate_motion(map, *tracked.frame, tracked.motion.T_map_body, rig_,
-                                     config_.min_inlier_share, tracked.associations);
-    follow_patches(map, local, tracked.motion.T_map_body, rig_, *tracked.frame,
-                   tracked.associations);
-    tracked.motion = estimate_motion(map, *tracked.frame, tracked.motion.T_map_body, rig_,
-                                     config_.min_inlier_share, tracked.associations);
+  match_near(map, rig, landmarks, predicted, tracked);
+  if (tracked.motion.inliers < 2 * config_.min_inliers) {
+    match_anywhere(map, rig, predicted, tracked);
   }
+  if (tracked.motion.inliers >= config_.min_inliers / 2) refine_on_local_map(map, rig, tracked);
   tracked.tracked = is_credible(tracked, predicted);
   tracked.tracked ? accept(tracked) : reckon(*tracked.frame);
   return tracked;

@@ -7,11 +7,21 @@
 #include <vector>
 
 #include "slam/camera/estimator_rig.h"
-#include "slam/config.h"
 #include "slam/map/map.h"
+#include "slam/matching/patch_follower.h"
+#include "slam/odometry/dead_reckoning.h"
 #include "slam/optimisation/motion_only_ba.h"
+#include "slam/tracking/tracking_config.h"
 
 namespace vinebench::slam {
+
+/// What Tracker is set by.
+struct TrackerSettings {
+  TrackingConfig tracking;
+  DeadReckoningConfig dead_reckoning;
+  RefinementConfig refinement;
+  StereoConfig stereo;
+};
 
 /// What tracking made of one frame.
 struct TrackedFrame {
@@ -27,16 +37,17 @@ struct TrackedFrame {
 /// every camera, motion-only bundle adjustment.
 class Tracker {
  public:
-  Tracker(const TrackingConfig& config, const DeadReckoningConfig& dead_reckoning,
-          const EstimatorRig& rig)
-      : config_(config), rig_(rig), dead_reckoning_(dead_reckoning) {}
+  explicit Tracker(const TrackerSettings& settings)
+      : config_(settings.tracking),
+        follow_{settings.refinement, settings.stereo},
+        dead_reckoning_(settings.dead_reckoning) {}
 
   /// Starts at a pose, standing still.
   void start(const Pose& T_map_body, Stamp stamp);
 
   /// Tracks the next frame against the map. Where that fails the pose is dead-reckoned; sight that
   /// comes back must agree with that within its uncertainty.
-  TrackedFrame track(std::shared_ptr<FrameFeatures> frame, const Map& map);
+  TrackedFrame track(std::shared_ptr<FrameFeatures> frame, const Map& map, const EstimatorRig& rig);
 
   /// Takes over a pose that something else knows better (loop closing, a tag), moving what the
   /// prediction rests on with it.
@@ -51,17 +62,20 @@ class Tracker {
 
  private:
   Pose predict(const FrameFeatures& frame) const;
-  void match_near(const Map& map, const std::vector<int>& landmarks, const Pose& predicted,
-                  TrackedFrame& tracked) const;
+  void match_near(const Map& map, const EstimatorRig& rig, const std::vector<int>& landmarks,
+                  const Pose& predicted, TrackedFrame& tracked) const;
   /// Matches by appearance alone where the prediction led nowhere: after a start, a jolt or a gap.
-  void match_anywhere(const Map& map, const Pose& predicted, TrackedFrame& tracked) const;
-  void match_local_map(const Map& map, const std::vector<int>& local, TrackedFrame& tracked) const;
+  void match_anywhere(const Map& map, const EstimatorRig& rig, const Pose& predicted,
+                      TrackedFrame& tracked) const;
+  /// Matches, places and follows the landmarks nearby, each round from a better pose.
+  void refine_on_local_map(const Map& map, const EstimatorRig& rig, TrackedFrame& tracked) const;
+  void adjust_motion(const Map& map, const EstimatorRig& rig, TrackedFrame& tracked) const;
   bool is_credible(const TrackedFrame& tracked, const Pose& predicted) const;
   void accept(const TrackedFrame& tracked);
   void reckon(const FrameFeatures& frame);
 
   TrackingConfig config_;
-  const EstimatorRig& rig_;
+  FollowSettings follow_;
   Pose T_map_body_;
   Stamp stamp_ = 0;
   Vector6d velocity_ = Vector6d::Zero();  ///< of the body in its own frame, m/s and rad/s
@@ -73,8 +87,5 @@ class Tracker {
 /// their covisible ones, and of those made nearby looking the same way; ascending.
 std::vector<int> local_landmarks(const Map& map, const std::vector<int>& seen,
                                  const Pose& T_map_body, int at_most_keyframes);
-
-/// The landmarks of an association, ascending, each once.
-std::vector<int> landmark_ids(const Associations& associations);
 
 }  // namespace vinebench::slam

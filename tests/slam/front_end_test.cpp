@@ -70,7 +70,7 @@ class FrontEndTest : public testing::Test {
   }
 
   StereoRig rig_;
-  SlamConfig config_;
+  FrontEndSettings config_;
   Frame frame_;
   StageTimes times_;
 };

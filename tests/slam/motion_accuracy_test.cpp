@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "slam/factors/robust_loss.h"
+#include "slam/frame/measurements.h"
 #include "slam/optimisation/motion_only_ba.h"
 #include "tests/support/aisle_map.h"
 #include "tests/support/rigs.h"
@@ -85,7 +86,8 @@ class MotionAccuracyTest : public testing::TestWithParam<int> {
     for (StereoView& view : result.views) {
       for (std::size_t f = 0; f < view.features.size(); ++f) {
         Keypoint& keypoint = view.features.keypoints[f];
-        const double sigma = known_.rig.level_scales[static_cast<std::size_t>(keypoint.level)];
+        const double sigma =
+            known_.rig.noise.level_scales[static_cast<std::size_t>(keypoint.level)];
         keypoint.x += static_cast<float>(random.normal(0, sigma));
         keypoint.y += static_cast<float>(random.normal(0, sigma));
         view.stereo[f].x_right += static_cast<float>(random.normal(0, sigma));
@@ -101,7 +103,7 @@ class MotionAccuracyTest : public testing::TestWithParam<int> {
       for (std::size_t f = 0; f < associations[v].size(); ++f) {
         if (associations[v][f] < 0) continue;
         const Reprojection error(known_.rig.left_cameras[v],
-                                 known_.rig.measurement(clean_->views[v], static_cast<int>(f)));
+                                 measure(clean_->views[v], static_cast<int>(f), known_.rig.noise));
         const auto J =
             error.linearise(truth(), known_.map.landmark(associations[v][f]).position).by_pose;
         F += J.transpose() * J;

@@ -28,7 +28,7 @@ struct SlantedPlane {
     for (std::size_t i = 0; i < places.size(); ++i) {
       map.add_landmark(on_plane(places[i]), {0, 0, static_cast<int>(i)});
     }
-    map.keyframe(0).patches = slam::cut_patches(*seen, map.keyframe(0).landmarks, rig);
+    map.keyframe(0).patches = slam::cut_patches(*seen, map.keyframe(0).landmarks, rig.noise);
   }
 
   static int level_of(const Eigen::Vector2d& place) { return place.x() > 160 ? 2 : 0; }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "slam/frame/measurements.h"
 #include "tests/support/aisle_map.h"
 
 namespace vinebench::slam {
@@ -41,8 +42,9 @@ AisleMap map_with_offset(const SyntheticAisle& aisle, double offset) {
     const Observation& o = landmark.observations.front();
     const Keyframe& keyframe = made.map.keyframe(o.keyframe);
     landmark.position =
-        made.rig.stereo_point(keyframe.frame->views[static_cast<std::size_t>(o.view)], o.view,
-                              o.feature, keyframe.T_map_body);
+        stereo_point(keyframe.frame->views[static_cast<std::size_t>(o.view)], o.feature,
+                     made.rig.left_cameras[static_cast<std::size_t>(o.view)].lens,
+                     keyframe.T_map_body, made.rig.T_body_cams[static_cast<std::size_t>(o.view)]);
   }
   return made;
 }
@@ -77,7 +79,7 @@ TEST(StereoCalibrationTest, ARightCalibrationStays) {
 TEST(StereoCalibrationTest, WhatIsKnownIsNotFoundAgain) {
   const SyntheticAisle aisle(0, 1, 800);
   AisleMap made = map_with_offset(aisle, 0.8);
-  made.rig.set_disparity_offsets({0, 0.8});
+  made.rig = made.rig.with_disparity_offsets({0, 0.8});
   EXPECT_FALSE(find_disparity_offsets(made.map, made.rig, {}));
 }
 

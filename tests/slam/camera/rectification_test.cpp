@@ -59,7 +59,7 @@ cv::Mat view_of_wall(const RigCamera& camera) {
 std::shared_ptr<FrameFeatures> features_of(const Rig& rig, const StereoRig& used) {
   Frame frame;
   for (const RigCamera& camera : rig.cameras) frame.images.push_back(view_of_wall(camera));
-  SlamConfig config;
+  FrontEndSettings config;
   config.features.features = 400;
   WorkerPool pool(1);
   StageTimes times;

@@ -22,7 +22,7 @@ constexpr int kSide = 4;  // index of the rover's tag camera
 class LoopCloserTest : public testing::Test {
  protected:
   LoopCloser closer(const std::vector<RegisteredTag>& tags = {}) const {
-    return {config_, rig_, tags};
+    return {settings_, rig_.tag_cameras, tags};
   }
 
   /// A sighting of a tag that stands at T_body_tag.
@@ -54,7 +54,7 @@ class LoopCloserTest : public testing::Test {
 
   SyntheticAisle aisle_{0, 1, 600};
   EstimatorRig rig_{aisle_.rig, OrbConfig{}};
-  SlamConfig config_;
+  LoopCloserSettings settings_;
   Map map_{1.2};
   const Pose T_body_tag_{exp_so3({-1.5, 0.2, 0.1}), {0.1, -0.7, 0.5}};
   const Pose body_{exp_so3({0, 0, 0.4}), {2, 1, 0}};
@@ -82,7 +82,7 @@ TEST_F(LoopCloserTest, AnUnregisteredTagIsMappedAtFirstSight) {
   ASSERT_EQ(map_.tags().size(), 1u);
   const MapTag tag = map_.tags()[0];
   EXPECT_EQ(tag.id, 3);
-  EXPECT_EQ(tag.size, config_.tags.size);
+  EXPECT_EQ(tag.size, settings_.tag_size);
   EXPECT_FALSE(tag.fixed);
   EXPECT_LT(distance(tag.T_map_tag, body_ * T_body_tag_), 1e-14);
   // Seen again from a place that is a little wrong, it stays.
@@ -164,7 +164,7 @@ TEST_F(LoopCloserTest, WhatNoKeyframeSawIsNoLoopYet) {
 }
 
 TEST_F(LoopCloserTest, CanBeSwitchedOff) {
-  config_.loop.enabled = false;
+  settings_.loop.enabled = false;
   LoopCloser loop = closer();
   const auto first = frame(0, {sighting(3, T_body_tag_)});
   map_.add_keyframe(first, body_, {});
@@ -207,7 +207,7 @@ class LoopClosureTest : public LoopCloserTest {
       const auto features = keyframe(k, second);
       EXPECT_EQ(loop.sees_loop(*features, 0.5 * k), k == 5) << k;
       const int id = known_.add(features, drifted(k));
-      if (k == 5) return loop.close(id, 0.5 * k, known_.map);
+      if (k == 5) return loop.close(id, 0.5 * k, known_.rig, known_.map);
       loop.record(*features, drifted(k), 0.5 * k, known_.map);
     }
     return {};
@@ -260,7 +260,7 @@ TEST_F(LoopClosureTest, ARegisteredTagThatIsNewClosesItWithTheLastOne) {
   auto last = std::make_shared<FrameFeatures>(*aisle_.frame(150, truth_[5]));
   last->tags.push_back(with_corners(sighting(7, T_body_tag_)));
   ASSERT_TRUE(loop.sees_loop(*last, 2.5));
-  const LoopClosure closure = loop.close(known_.add(last, drifted(5)), 2.5, known_.map);
+  const LoopClosure closure = loop.close(known_.add(last, drifted(5)), 2.5, known_.rig, known_.map);
   EXPECT_EQ(closure.tag_id, 7);
   EXPECT_EQ(closure.earlier, 0);
   // By way of two tags it is the adjusted map that says so, which comes back to 1e-6.
@@ -275,7 +275,7 @@ TEST_F(LoopClosureTest, ARegisteredTagThatIsNewClosesItWithTheLastOne) {
 TEST_F(LoopClosureTest, WithoutALoopThereIsNothingToClose) {
   LoopCloser loop = closer();
   const int id = known_.add(keyframe(0, false), truth_[0]);
-  EXPECT_THAT([&] { loop.close(id, 0, known_.map); },
+  EXPECT_THAT([&] { loop.close(id, 0, known_.rig, known_.map); },
               testing::ThrowsMessage<Error>(testing::HasSubstr("keyframe 0")));
 }
 

@@ -57,7 +57,7 @@ class TagJudgementTest : public testing::Test {
   SyntheticAisle aisle_{0, 1, 10};
   EstimatorRig rig_{aisle_.rig, OrbConfig{}};
   Map map_{1.2};
-  LoopCloser loop_{SlamConfig{}, rig_, {}};
+  LoopCloser loop_{LoopCloserSettings{}, rig_.tag_cameras, {}};
   const Pose T_body_tag_{exp_so3({-1.5, 0.2, 0.1}), {0.1, -0.9, 0.5}};
   const Pose body_{exp_so3({0, 0, 0.4}), {2, 1, 0}};
 };
@@ -172,7 +172,7 @@ TEST_F(TagJudgementTest, AnAmbiguousSightingIsNotMapped) {
   see_first();
   EXPECT_TRUE(loop_.map_pose({shifted(3, 0)}, map_));
   EXPECT_FALSE(loop_.map_pose({seen}, map_));
-  const LoopCloser knows(SlamConfig{}, rig_, {{"tag36h11", 3, 0.161, Pose{}}});
+  const LoopCloser knows(LoopCloserSettings{}, rig_.tag_cameras, {{"tag36h11", 3, 0.161, Pose{}}});
   EXPECT_TRUE(knows.world_pose({shifted(3, 0)}));
   EXPECT_FALSE(knows.world_pose({seen}));
 }
@@ -180,7 +180,7 @@ TEST_F(TagJudgementTest, AnAmbiguousSightingIsNotMapped) {
 TEST_F(TagJudgementTest, ARegisteredTagInAnotherPlaceThanSurveyedIsRefused) {
   Pose T_other = body_ * T_body_tag_;
   T_other.translation.x() += 1;
-  LoopCloser loop(SlamConfig{}, rig_,
+  LoopCloser loop(LoopCloserSettings{}, rig_.tag_cameras,
                   {{"tag36h11", 3, 0.161, body_ * T_body_tag_}, {"tag36h11", 4, 0.161, T_other}});
   FrameFeatures first = frame(0, {shifted(3, 0)});
   EXPECT_TRUE(loop.gate(first, body_, 0, map_).empty());

@@ -188,7 +188,35 @@ TEST_F(MapFileTest, AnotherVersionIsSaidSo) {
   std::string other = bytes_;
   other[8] = 1;  // version, low byte
   EXPECT_THAT(error_of(sealed(other)),
-              AllOf(HasSubstr("version 1"), HasSubstr("expected version 3")));
+              AllOf(HasSubstr("version 1"), HasSubstr("expected version 3 to 4")));
+}
+
+// Version 3 lacks the flag behind each keyframe that says whether it has an inertial state; of a
+// map of one keyframe that is the content's last byte.
+TEST_F(MapFileTest, MapsOfVersion3AreRead) {
+  AisleMap one(aisle_, {Pose{}});
+  std::string older = format_map(one.map, one.rig);
+  ASSERT_EQ(older[older.size() - 9], 0);
+  older.erase(older.size() - 9, 1);
+  older[8] = 3;
+  const std::uint64_t content = older.size() - 28;
+  for (std::size_t i = 0; i < 8; ++i) older[12 + i] = static_cast<char>(content >> (8 * i) & 0xffU);
+  const Map map = parse_map(sealed(older), one.rig, "older.map");
+  ASSERT_EQ(map.keyframes().size(), 1u);
+  EXPECT_FALSE(map.keyframe(0).inertial);
+  EXPECT_EQ(map.landmarks().size(), one.map.landmarks().size());
+}
+
+TEST_F(MapFileTest, InertialStatesAreKept) {
+  made_.map.keyframe(1).inertial = InertialState{{1, 2, 3}, {0.01, 0.02, 0.03}, {0.1, 0.2, 0.3}};
+  const std::string bytes = format_map(made_.map, made_.rig);
+  const Map map = parse(bytes);
+  EXPECT_FALSE(map.keyframe(0).inertial);
+  ASSERT_TRUE(map.keyframe(1).inertial);
+  EXPECT_EQ(map.keyframe(1).inertial->velocity, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(map.keyframe(1).inertial->gyroscope_bias, Eigen::Vector3d(0.01, 0.02, 0.03));
+  EXPECT_EQ(map.keyframe(1).inertial->accelerometer_bias, Eigen::Vector3d(0.1, 0.2, 0.3));
+  EXPECT_EQ(format_map(map, made_.rig), bytes);
 }
 
 TEST_F(MapFileTest, AnotherRigIsSaidSo) {

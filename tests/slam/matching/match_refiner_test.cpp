@@ -31,7 +31,7 @@ TEST_F(MatchRefinerTest, MovesMatchesToWhereTheLandmarkIs) {
   }
   const float disparity =
       frame->views[0].features.keypoints[0].x - frame->views[0].stereo[0].x_right;
-  refine_matches(map, T_map_body, rig, *frame, associations);
+  refine_matches(map, T_map_body, rig, RefinementConfig{}, *frame, associations);
 
   int placed = 0;
   double squares = 0;
@@ -60,7 +60,7 @@ TEST_F(MatchRefinerTest, UntiesWhatThePatchContradicts) {
     add_feature(*frame, places[i], places[i].x() > 160 ? 2 : 0);
     associations[0].push_back(static_cast<int>(i + row));
   }
-  refine_matches(map, Pose{}, rig, *frame, associations);
+  refine_matches(map, Pose{}, rig, RefinementConfig{}, *frame, associations);
   const auto kept =
       std::count_if(associations[0].begin(), associations[0].end(), [](int id) { return id >= 0; });
   EXPECT_LE(kept, static_cast<int>(associations[0].size()) / 20);
@@ -71,7 +71,7 @@ TEST_F(MatchRefinerTest, LeavesAFrameWithoutImagesAlone) {
   add_feature(*frame, places[0], 0);
   frame->pyramids.clear();
   Associations associations{{0}};
-  refine_matches(map, Pose{}, rig, *frame, associations);
+  refine_matches(map, Pose{}, rig, RefinementConfig{}, *frame, associations);
   EXPECT_EQ(associations[0][0], 0);
   EXPECT_FALSE(frame->views[0].is_placed(0));
 }

@@ -29,13 +29,14 @@ class PatchFollowerTest : public testing::Test, protected testing_support::Slant
   const Pose pose_{exp_so3({0.01, -0.02, 0.02}), {0.03, -0.01, 0.08}};
   std::vector<int> all_;
   Associations associations_ = Associations(1);
+  FollowSettings settings_;
 };
 
 TEST_F(PatchFollowerTest, FindsLandmarksInBothCameras) {
   const auto frame = stereo_image(pose_);
   // The pose is known to about a pixel.
   const Pose guess = pose_ * Pose{exp_so3({0.002, -0.002, 0}), {0.001, 0, 0}};
-  follow_patches(map, all_, guess, rig, *frame, associations_);
+  follow_patches(map, all_, guess, rig, settings_, *frame, associations_);
   const StereoView& view = frame->views[0];
   const std::size_t n = view.features.size();
   EXPECT_GT(n, places.size() / 2);  // others leave the image or have too little texture
@@ -73,7 +74,7 @@ TEST_F(PatchFollowerTest, LeavesWhatIsTiedAndWhatIsNotAskedFor) {
   associations_[0] = {0, -1};
   std::vector<int> asked(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(all_.size() / 2));
   map.remove_landmark(2);
-  follow_patches(map, asked, pose_, rig, *frame, associations_);
+  follow_patches(map, asked, pose_, rig, settings_, *frame, associations_);
   ASSERT_GT(associations_[0].size(), 4u);
   EXPECT_EQ(associations_[0][0], 0);
   EXPECT_EQ(associations_[0][1], -1);  // a corner of nothing stays one
@@ -92,7 +93,7 @@ TEST_F(PatchFollowerTest, LeavesWhatIsTiedAndWhatIsNotAskedFor) {
 TEST_F(PatchFollowerTest, FindsNothingOnAnotherSurface) {
   texture = 99;
   const auto frame = stereo_image(pose_);
-  follow_patches(map, all_, pose_, rig, *frame, associations_);
+  follow_patches(map, all_, pose_, rig, settings_, *frame, associations_);
   EXPECT_LE(associations_[0].size(), places.size() / 20);  // by chance
 }
 
@@ -103,15 +104,15 @@ TEST_F(PatchFollowerTest, LooksOnlyForWhatIsSeenFromAboutThatSide) {
     map.landmark(id).normal = around.rotation * map.landmark(id).position.normalized();
   }
   const auto frame = stereo_image(Pose{});
-  follow_patches(map, all_, Pose{}, rig, *frame, associations_);
+  follow_patches(map, all_, Pose{}, rig, settings_, *frame, associations_);
   EXPECT_TRUE(associations_[0].empty());
 }
 
 TEST_F(PatchFollowerTest, SpreadsAsManyAsAreAllowed) {
   // The image has 7 x 6 cells of 48 px; at most one landmark in each.
-  rig.refinement.follow = 42;
+  settings_.refinement.follow = 42;
   const auto frame = stereo_image(pose_);
-  follow_patches(map, all_, pose_, rig, *frame, associations_);
+  follow_patches(map, all_, pose_, rig, settings_, *frame, associations_);
   ASSERT_GT(associations_[0].size(), 5u);
   std::vector<int> per_cell(42, 0);
   for (const int id : associations_[0]) {
@@ -124,14 +125,14 @@ TEST_F(PatchFollowerTest, SpreadsAsManyAsAreAllowed) {
 
 TEST_F(PatchFollowerTest, CanBeSwitchedOffAndNeedsImages) {
   const auto frame = stereo_image(pose_);
-  rig.refinement.follow = 0;
-  follow_patches(map, all_, pose_, rig, *frame, associations_);
-  rig.refinement.follow = 1200;
-  rig.refinement.enabled = false;
-  follow_patches(map, all_, pose_, rig, *frame, associations_);
-  rig.refinement.enabled = true;
+  settings_.refinement.follow = 0;
+  follow_patches(map, all_, pose_, rig, settings_, *frame, associations_);
+  settings_.refinement.follow = 1200;
+  settings_.refinement.enabled = false;
+  follow_patches(map, all_, pose_, rig, settings_, *frame, associations_);
+  settings_.refinement.enabled = true;
   frame->pyramids.clear();
-  follow_patches(map, all_, pose_, rig, *frame, associations_);
+  follow_patches(map, all_, pose_, rig, settings_, *frame, associations_);
   EXPECT_TRUE(associations_[0].empty());
   EXPECT_TRUE(frame->views[0].features.keypoints.empty());
 }
@@ -139,7 +140,7 @@ TEST_F(PatchFollowerTest, CanBeSwitchedOffAndNeedsImages) {
 TEST_F(PatchFollowerTest, WithoutTheRightCameraThereIsNoDepth) {
   const auto frame = image(pose_);
   frame->right_pyramids.resize(1);
-  follow_patches(map, all_, pose_, rig, *frame, associations_);
+  follow_patches(map, all_, pose_, rig, settings_, *frame, associations_);
   ASSERT_GT(associations_[0].size(), 5u);
   for (const StereoMatch& match : frame->views[0].stereo) EXPECT_LE(match.depth, 0);
 }

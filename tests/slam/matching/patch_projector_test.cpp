@@ -27,11 +27,11 @@ class PatchProjectorTest : public testing::Test, protected testing_support::Slan
       if (!lens().contains(pixel, 30)) continue;
       const std::optional<PatchView> view = predict(i);
       if (!view) continue;
-      const double scale = rig.level_scales[static_cast<std::size_t>(view->level)];
+      const double scale = rig.noise.level_scales[static_cast<std::size_t>(view->level)];
       const Eigen::Vector2d at(to_level(pixel.x(), scale), to_level(pixel.y(), scale));
       const auto fit = fit_patch(
           view->window, frame->pyramids[0][static_cast<std::size_t>(view->level)], at.x(), at.y());
-      if (!fit || !rig.refinement.accepts(*fit)) continue;
+      if (!fit || !RefinementConfig{}.accepts(*fit)) continue;
       ++found;
       squares += (Eigen::Vector2d(fit->x, fit->y) - at).squaredNorm();
     }

@@ -60,8 +60,9 @@ TEST_F(TagFixTest, APosesErrorsAreAsItsCovarianceSays) {
   constexpr int kDraws = 400;
   for (int i = 0; i < kDraws; ++i) {
     const TagSighting seen = sighting(0, a_, 0.1, &random);
-    const Matrix6d covariance = tag_covariance(seen, kSize, rig_, 0);
-    sum += pose_chi_squared(T_body_cam() * a_, T_body_tag(seen, rig_), covariance) / kDraws;
+    const Matrix6d covariance = tag_covariance(seen, kSize, rig_.tag_cameras, 0);
+    sum += pose_chi_squared(T_body_cam() * a_, T_body_tag(seen, rig_.tag_cameras), covariance) /
+           kDraws;
   }
   // Six degrees of freedom: variance 12 a draw, 0.17 of the mean of 400; three times that.
   EXPECT_NEAR(sum, 6, 0.55);
@@ -70,7 +71,8 @@ TEST_F(TagFixTest, APosesErrorsAreAsItsCovarianceSays) {
 TEST_F(TagFixTest, FarAndAslantCountsLess) {
   const auto deviation = [&](const Pose& T_cam_tag) {
     const TagSighting seen = sighting(0, T_cam_tag, 0.1);
-    return std::sqrt(tag_covariance(seen, kSize, rig_, 0).topLeftCorner<3, 3>().trace());
+    return std::sqrt(
+        tag_covariance(seen, kSize, rig_.tag_cameras, 0).topLeftCorner<3, 3>().trace());
   };
   const double near = deviation({exp_so3({0.2, 0.2, 0}), {0, 0, 0.7}});
   const double far = deviation({exp_so3({0.2, 0.2, 0}), {0, 0, 2.8}});
@@ -100,15 +102,15 @@ TEST_F(TagFixTest, CovariancesAreCarriedAsPosesMove) {
 TEST_F(TagFixTest, TwoTagsKnowTogetherWhatEachKnows) {
   RandomSequence random(RandomStream(2, "corners"));
   const auto information = [&](const TagSighting& seen) -> Matrix6d {
-    const Matrix6d by_tag = tag_covariance(seen, kSize, rig_, 0);
-    return carry_covariance(by_tag, T_body_tag(seen, rig_).inverse()).inverse();
+    const Matrix6d by_tag = tag_covariance(seen, kSize, rig_.tag_cameras, 0);
+    return carry_covariance(by_tag, T_body_tag(seen, rig_.tag_cameras).inverse()).inverse();
   };
   double sum = 0;
   constexpr int kDraws = 400;
   for (int i = 0; i < kDraws; ++i) {
     const TagSighting a = sighting(0, a_, 0.1, &random);
     const TagSighting b = sighting(1, b_, 0.1, &random);
-    const auto by_both = locate_by_tags({placed(a, a_), placed(b, b_)}, rig_, 0);
+    const auto by_both = locate_by_tags({placed(a, a_), placed(b, b_)}, rig_.tag_cameras, 0);
     ASSERT_TRUE(by_both);
     const Matrix6d covariance = (information(a) + information(b)).inverse();
     sum += pose_chi_squared(body_, *by_both, covariance) / kDraws;
@@ -122,9 +124,9 @@ TEST_F(TagFixTest, OfTwoThatContradictEachOtherNoneIsBelieved) {
   const TagSighting c = sighting(2, c_);
   PlacedSighting moved = placed(b, b_);
   moved.T_ref_tag.translation.y() += 0.3;
-  EXPECT_FALSE(locate_by_tags({placed(a, a_), moved}, rig_, 0.1));
-  EXPECT_FALSE(locate_by_tags({}, rig_, 0.1));
-  const auto by_most = locate_by_tags({moved, placed(a, a_), placed(c, c_)}, rig_, 0.1);
+  EXPECT_FALSE(locate_by_tags({placed(a, a_), moved}, rig_.tag_cameras, 0.1));
+  EXPECT_FALSE(locate_by_tags({}, rig_.tag_cameras, 0.1));
+  const auto by_most = locate_by_tags({moved, placed(a, a_), placed(c, c_)}, rig_.tag_cameras, 0.1);
   ASSERT_TRUE(by_most);
   EXPECT_LT(distance(*by_most, body_), 1e-6);
   EXPECT_LT(angle(*by_most, body_), 1e-6);

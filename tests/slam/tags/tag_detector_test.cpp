@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/util/error.h"
-#include "slam/optimisation/bundle_adjustment.h"
+#include "slam/tags/tag_sightings.h"
 #include "tests/support/synthetic_tag.h"
 
 namespace vinebench::slam {

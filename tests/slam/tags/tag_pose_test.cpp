@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/util/random.h"
-#include "slam/optimisation/bundle_adjustment.h"
+#include "slam/tags/tag_sightings.h"
 
 namespace vinebench::slam {
 namespace {

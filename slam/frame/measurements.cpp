@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/frame/measurements.h"
+
+#include <cmath>
+
+namespace vinebench::slam {
+
+PixelMeasurement measure(const StereoView& view, int feature, const MeasurementNoise& noise) {
+  const auto f = static_cast<std::size_t>(feature);
+  const Keypoint& keypoint = view.features.keypoints[f];
+  PixelMeasurement m;
+  m.pixel = {keypoint.x, keypoint.y};
+  m.sigma = m.right_sigma = noise.level_scales[static_cast<std::size_t>(keypoint.level)];
+  if (view.is_placed(f)) {
+    m.right_sigma *= std::hypot(noise.placed_sigma, noise.placed_disparity_sigma);
+    m.sigma *= noise.placed_sigma;
+    m.tolerance = noise.placed_tolerance;
+  }
+  if (view.stereo[f].depth > 0) m.right_x = view.stereo[f].x_right;
+  return m;
+}
+
+Eigen::Vector3d stereo_point(const StereoView& view, int feature, const PinholeCamera& lens,
+                             const Pose& T_map_body, const Pose& T_body_cam) {
+  const auto f = static_cast<std::size_t>(feature);
+  const Keypoint& keypoint = view.features.keypoints[f];
+  const Eigen::Vector3d ray = lens.unproject({keypoint.x, keypoint.y});
+  const Eigen::Vector3d p_cam = ray * static_cast<double>(view.stereo[f].depth);
+  return T_map_body * (T_body_cam * p_cam);
+}
+
+void correct_depths(const StereoCameraModel& camera, double max_depth_baselines, StereoView& view) {
+  if (camera.disparity_offset == 0) return;
+  for (std::size_t f = 0; f < view.stereo.size(); ++f) {
+    StereoMatch& match = view.stereo[f];
+    if (match.x_right < 0) continue;
+    const double depth =
+        camera.depth_of(static_cast<double>(view.features.keypoints[f].x - match.x_right));
+    const bool near = depth > 0 && depth < max_depth_baselines * camera.baseline;
+    match.depth = near ? static_cast<float>(depth) : -1.0F;
+  }
+}
+
+}  // namespace vinebench::slam

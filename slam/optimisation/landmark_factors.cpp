@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/optimisation/landmark_factors.h"
+
+#include "slam/frame/measurements.h"
+
+namespace vinebench::slam {
+
+namespace {
+
+/// Landmarks that these keyframes see, ascending.
+std::vector<int> landmarks_of(const std::vector<int>& keyframes, const Map& map) {
+  std::vector<char> seen(map.landmarks().size(), 0);
+  for (const int id : keyframes) {
+    for (const std::vector<int>& view : map.keyframe(id).landmarks) {
+      for (const int landmark : view) {
+        if (landmark >= 0) seen[static_cast<std::size_t>(landmark)] = 1;
+      }
+    }
+  }
+  std::vector<int> ids;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (seen[i]) ids.push_back(static_cast<int>(i));
+  }
+  return ids;
+}
+
+}  // namespace
+
+LandmarkFactors::LandmarkFactors(const EstimatorRig& rig, bool offsets_unknown)
+    : rig_(rig), offsets_unknown_(offsets_unknown) {
+  for (const StereoCameraModel& camera : rig.left_cameras) {
+    offsets_.push_back(camera.disparity_offset);
+  }
+  offset_used_.assign(offsets_.size(), 0);
+}
+
+void LandmarkFactors::add_to(ProblemBuilder& problem, const Map& map) {
+  landmark_ids_ = landmarks_of(problem.window().moved, map);
+  points_.reserve(landmark_ids_.size());
+  for (const int id : landmark_ids_) add_landmark(map.landmark(id), map, problem);
+}
+
+void LandmarkFactors::add_landmark(const Landmark& landmark, const Map& map,
+                                   ProblemBuilder& problem) {
+  points_.push_back(landmark.position);
+  double* point = points_.back().data();
+  problem.add_block(point, 3, ProblemBuilder::Group::kLandmarks);
+  for (const Observation& o : landmark.observations) {
+    if (!problem.takes_part(o.keyframe)) continue;
+    const auto v = static_cast<std::size_t>(o.view);
+    const StereoView& view = map.keyframe(o.keyframe).frame->views[v];
+    const PixelMeasurement m = measure(view, o.feature, rig_.noise);
+    const bool with_offset = offsets_unknown_ && m.right_x;
+    factors_.emplace_back(rig_.left_cameras[v], m, with_offset);
+    std::vector<double*> blocks{problem.pose_of(o.keyframe), point};
+    if (with_offset) blocks.push_back(offset_of(v, problem));
+    problem.add_factor(factors_.back(), &cauchy_, blocks);
+    terms_.push_back({landmark.id, o, &factors_.back(), chi_squared_limit(m)});
+  }
+}
+
+double* LandmarkFactors::offset_of(std::size_t view, ProblemBuilder& problem) {
+  double* offset = &offsets_[view];
+  if (!offset_used_[view]) {
+    problem.add_block(offset, 1, ProblemBuilder::Group::kOthers);
+    problem.hold(offset);
+    offset_used_[view] = 1;
+  }
+  return offset;
+}
+
+void LandmarkFactors::free_offsets(ProblemBuilder& problem) {
+  for (std::size_t v = 0; v < offsets_.size(); ++v) {
+    if (offset_used_[v]) problem.release(&offsets_[v]);
+  }
+}
+
+void LandmarkFactors::write_back(Map& map) const {
+  for (std::size_t i = 0; i < landmark_ids_.size(); ++i) {
+    map.landmark(landmark_ids_[i]).position = points_[i];
+  }
+}
+
+void LandmarkFactors::remove_outliers(Map& map) const {
+  for (const Term& term : terms_) {
+    const Keyframe& keyframe = map.keyframe(term.observation.keyframe);
+    const double chi_squared =
+        term.factor->chi_squared(keyframe.T_map_body, map.landmark(term.landmark).position);
+    if (chi_squared > term.limit) map.remove_observation(term.landmark, term.observation);
+  }
+  for (const int id : landmark_ids_) map.refresh(id, rig_.T_body_cams);
+}
+
+}  // namespace vinebench::slam

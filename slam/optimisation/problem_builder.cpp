@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/optimisation/problem_builder.h"
+
+namespace vinebench::slam {
+
+namespace {
+
+constexpr std::size_t kAbsent = static_cast<std::size_t>(-1);
+
+ceres::Problem::Options ownership() {
+  ceres::Problem::Options options;
+  options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.disable_all_safety_checks = true;
+  return options;
+}
+
+}  // namespace
+
+ProblemBuilder::ProblemBuilder(const Map& map, const AdjustmentWindow& window)
+    : window_(window), pose_index_(map.keyframes().size(), kAbsent), problem_(ownership()) {
+  poses_.reserve(window_.moved.size() + window_.fixed.size());
+  const auto add = [&](int id) {
+    pose_index_[static_cast<std::size_t>(id)] = poses_.size();
+    poses_.push_back(to_block(map.keyframe(id).T_map_body));
+    add_pose(poses_.back().data());
+  };
+  for (const int id : window_.moved) add(id);
+  for (const int id : window_.fixed) {
+    add(id);
+    hold(pose_of(id));
+  }
+}
+
+bool ProblemBuilder::takes_part(int keyframe) const {
+  return pose_index_[static_cast<std::size_t>(keyframe)] != kAbsent;
+}
+
+double* ProblemBuilder::pose_of(int keyframe) {
+  return poses_[pose_index_[static_cast<std::size_t>(keyframe)]].data();
+}
+
+void ProblemBuilder::add_block(double* block, int size, Group group) {
+  problem_.AddParameterBlock(block, size);
+  ordering_.AddElementToGroup(block, static_cast<int>(group));
+}
+
+void ProblemBuilder::add_pose(double* block) {
+  problem_.AddParameterBlock(block, 7, &manifold_);
+  ordering_.AddElementToGroup(block, static_cast<int>(Group::kOthers));
+}
+
+void ProblemBuilder::add_factor(ceres::CostFunction& factor, ceres::LossFunction* loss,
+                                const std::vector<double*>& blocks) {
+  problem_.AddResidualBlock(&factor, loss, blocks);
+}
+
+double ProblemBuilder::solve(ceres::Solver::Options options) {
+  options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>(ordering_);
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem_, &summary);
+  return summary.final_cost;
+}
+
+void ProblemBuilder::write_poses(Map& map) const {
+  for (const int id : window_.moved) {
+    const std::size_t index = pose_index_[static_cast<std::size_t>(id)];
+    map.keyframe(id).T_map_body = from_block(poses_[index].data());
+  }
+}
+
+}  // namespace vinebench::slam

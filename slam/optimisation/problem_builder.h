@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ceres/ceres.h>
+
+#include <vector>
+
+#include "slam/factors/pose_manifold.h"
+#include "slam/optimisation/adjustment_window.h"
+
+namespace vinebench::slam {
+
+/// A least-squares problem over the keyframes of a window, put together from the factors of whoever
+/// has some. Blocks and factors are added in a fixed order, so that the problem is the same every
+/// time. It owns the keyframes' poses; other blocks and all factors belong to those who add them,
+/// and must stay where they are until the builder is gone.
+class ProblemBuilder {
+ public:
+  /// Which unknowns are eliminated first (Schur complement).
+  enum class Group { kLandmarks = 0, kOthers = 1 };
+
+  ProblemBuilder(const Map& map, const AdjustmentWindow& window);
+  ProblemBuilder(const ProblemBuilder&) = delete;
+  ProblemBuilder& operator=(const ProblemBuilder&) = delete;
+
+  const AdjustmentWindow& window() const { return window_; }
+  bool takes_part(int keyframe) const;
+  /// The block of a keyframe that takes part.
+  double* pose_of(int keyframe);
+
+  /// Adds unknowns: `size` numbers, or a pose as PoseManifold has it.
+  void add_block(double* block, int size, Group group);
+  void add_pose(double* block);
+  void hold(double* block) { problem_.SetParameterBlockConstant(block); }
+  void release(double* block) { problem_.SetParameterBlockVariable(block); }
+
+  /// `loss` may be null: squared.
+  void add_factor(ceres::CostFunction& factor, ceres::LossFunction* loss,
+                  const std::vector<double*>& blocks);
+
+  /// Half the sum of the squared residuals in the end, under their losses.
+  double solve(ceres::Solver::Options options);
+
+  void write_poses(Map& map) const;
+
+ private:
+  AdjustmentWindow window_;
+  PoseManifold manifold_;
+  std::vector<PoseBlock> poses_;
+  std::vector<std::size_t> pose_index_;  ///< by keyframe id
+  ceres::ParameterBlockOrdering ordering_;
+  ceres::Problem problem_;  // last: it must go before the blocks it points to
+};
+
+/// Whoever has factors for an adjustment: landmarks, tags, wheels.
+class FactorSource {
+ public:
+  virtual ~FactorSource() = default;
+  virtual void add_to(ProblemBuilder& problem, const Map& map) = 0;
+  /// Writes the values of its own blocks into the map.
+  virtual void write_back(Map&) const {}
+  /// Takes out of the map what contradicts it, once all is written back.
+  virtual void remove_outliers(Map&) const {}
+};
+
+}  // namespace vinebench::slam

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/optimisation/tag_factors.h"
+
+#include <cmath>
+
+#include "slam/factors/reprojection.h"
+#include "slam/tags/tag_sightings.h"
+
+namespace vinebench::slam {
+
+TagFactors::TagFactors(const TagCameras& cameras, double corner_sigma, bool tags_move)
+    : cameras_(cameras),
+      corner_sigma_(corner_sigma),
+      tags_move_(tags_move),
+      huber_(std::sqrt(kChiSquared2)) {}
+
+void TagFactors::add_to(ProblemBuilder& problem, const Map& map) {
+  for (const MapTag& tag : map.tags()) blocks_.push_back(to_block(tag.T_map_tag));
+  used_.assign(blocks_.size(), 0);
+  for (const int id : problem.window().moved) add_sightings(id, map, problem);
+  for (const int id : problem.window().fixed) add_sightings(id, map, problem);
+}
+
+double* TagFactors::block_of(const MapTag& tag, std::size_t index, ProblemBuilder& problem) {
+  double* block = blocks_[index].data();
+  if (!used_[index]) {
+    problem.add_pose(block);
+    if (tag.fixed || !tags_move_) problem.hold(block);
+    used_[index] = 1;
+  }
+  return block;
+}
+
+void TagFactors::add_sightings(int keyframe, const Map& map, ProblemBuilder& problem) {
+  for (const TagSighting& sighting : map.keyframe(keyframe).frame->tags) {
+    const MapTag* tag = map.find_tag(sighting.family, sighting.id);
+    if (tag == nullptr) continue;
+    double* block = block_of(*tag, static_cast<std::size_t>(tag - map.tags().data()), problem);
+    const std::array<Eigen::Vector3d, 4> corners = tag_corners(tag->size);
+    const double sigma = corner_sigma(sighting, corner_sigma_);
+    const auto camera = static_cast<std::size_t>(sighting.camera);
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      factors_.emplace_back(cameras_.undistorted[camera], ideal_corner(sighting, c, cameras_),
+                            sigma, corners[c]);
+      problem.add_factor(factors_.back(), &huber_, {problem.pose_of(keyframe), block});
+    }
+  }
+}
+
+void TagFactors::write_back(Map& map) const {
+  for (std::size_t t = 0; t < blocks_.size(); ++t) {
+    if (used_[t]) map.tags()[t].T_map_tag = from_block(blocks_[t].data());
+  }
+}
+
+}  // namespace vinebench::slam

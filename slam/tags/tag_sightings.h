@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "core/slam_system.h"
+#include "slam/camera/tag_cameras.h"
+
+namespace vinebench::slam {
+
+/// Corners of a tag of side `size` in its own frame (x right, y down), in the order of TagSighting.
+std::array<Eigen::Vector3d, 4> tag_corners(double size);
+
+/// Standard deviation of a sighting's corners, px: their noise and `systematic`.
+double corner_sigma(const TagSighting& sighting, double systematic);
+
+/// A corner where the tag camera would see it without distortion, px.
+Eigen::Vector2d ideal_corner(const TagSighting& sighting, std::size_t corner,
+                             const TagCameras& cameras);
+
+/// The tag as the sighting has it, in the body frame.
+Pose T_body_tag(const TagSighting& sighting, const TagCameras& cameras);
+
+}  // namespace vinebench::slam

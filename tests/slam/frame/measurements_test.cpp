@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/frame/measurements.h"
+
+#include <gtest/gtest.h>
+
+#include "slam/camera/estimator_rig.h"
+#include "tests/support/synthetic_aisle.h"
+
+namespace vinebench::slam {
+namespace {
+
+using testing_support::SyntheticAisle;
+
+TEST(MeasurementsTest, MeasuresWithTheRightCameraWhereThereIsADepth) {
+  const SyntheticAisle aisle(0, 1, 300);
+  const EstimatorRig rig(aisle.rig, OrbConfig{});
+  StereoView view = aisle.frame(0, Pose{})->views[0];
+  view.features.keypoints[2].level = 3;
+  view.stereo[3] = StereoMatch{100, -1};  // matched, but beyond the limit
+  view.stereo[4] = StereoMatch{};
+  const PixelMeasurement m = measure(view, 2, rig.noise);
+  EXPECT_EQ(m.pixel.x(), static_cast<double>(view.features.keypoints[2].x));
+  EXPECT_EQ(m.pixel.y(), static_cast<double>(view.features.keypoints[2].y));
+  ASSERT_TRUE(m.right_x);
+  EXPECT_EQ(*m.right_x, static_cast<double>(view.stereo[2].x_right));
+  EXPECT_NEAR(m.sigma, 1.2 * 1.2 * 1.2, 1e-12);
+  EXPECT_FALSE(measure(view, 3, rig.noise).right_x);
+  EXPECT_FALSE(measure(view, 4, rig.noise).right_x);
+}
+
+TEST(MeasurementsTest, StereoPutsAPointWhereItIs) {
+  const SyntheticAisle aisle(0, 1, 300);
+  const EstimatorRig rig(aisle.rig, OrbConfig{});
+  const Pose body{exp_so3({0.02, 0.01, 0.4}), {0.3, 0.1, 0.02}};
+  const auto frame = aisle.frame(0, body);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const StereoView& view = frame->views[k];
+    ASSERT_GT(view.features.size(), 5u);
+    for (std::size_t f = 0; f < view.features.size(); ++f) {
+      const auto& truth = aisle.point(aisle.point_of(view.features.descriptors[f]));
+      const Eigen::Vector3d point = stereo_point(
+          view, static_cast<int>(f), rig.left_cameras[k].lens, body, rig.T_body_cams[k]);
+      EXPECT_LT((point - truth).norm(), 1e-6);  // floats: 1e-7 of up to 4.8 m
+    }
+  }
+}
+
+// Half a pixel more of disparity, and the depth that this is. What lies beyond the limit has no
+// depth any more, and keeps its match.
+TEST(MeasurementsTest, CorrectsDepthsByTheDisparityOffset) {
+  const SyntheticAisle aisle(0, 1, 300);
+  const EstimatorRig rig(aisle.rig, OrbConfig{});
+  const double limit = StereoConfig{}.max_depth_baselines;
+  const StereoView view = aisle.frame(0, Pose{})->views[0];
+  StereoView corrected = view;
+  correct_depths(rig.left_cameras[0], limit, corrected);
+  EXPECT_EQ(corrected.stereo[5].depth, view.stereo[5].depth);
+  const EstimatorRig found = rig.with_disparity_offsets({0.5, 0});
+  corrected.stereo[3].x_right = view.features.keypoints[3].x - 0.1F;
+  correct_depths(found.left_cameras[0], limit, corrected);
+  const StereoCameraModel& camera = rig.left_cameras[0];
+  const double disparity =
+      static_cast<double>(view.features.keypoints[5].x - view.stereo[5].x_right);
+  EXPECT_NEAR(corrected.stereo[5].depth, camera.lens.fx * camera.baseline / (disparity + 0.5),
+              1e-6);
+  EXPECT_EQ(corrected.stereo[5].x_right, view.stereo[5].x_right);
+  EXPECT_EQ(corrected.stereo[3].depth, -1);
+}
+
+}  // namespace
+}  // namespace vinebench::slam
