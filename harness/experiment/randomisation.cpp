@@ -66,7 +66,7 @@ struct RandomisationConfig {
     for (std::size_t i = 0; i < draws.size(); ++i) {
       const auto same = [&](const Draw& other) { return other.key == draws[i].key; };
       archive.require(std::ranges::count_if(draws, same) == 1, fmt::format("draws.{}.key", i),
-                      "stands twice");
+                      "duplicate key");
     }
   }
 };

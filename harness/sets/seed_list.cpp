@@ -35,7 +35,7 @@ std::vector<std::int64_t> parse_seeds(const std::string& text) {
     if (last < first) fail("seeds '{}': {} runs backwards", text, part);
     if (last - first >= kMost) fail("seeds '{}': expected at most {}", text, kMost);
     for (std::int64_t seed = first; seed <= last; ++seed) {
-      if (std::ranges::count(seeds, seed) > 0) fail("seeds '{}': {} stands twice", text, seed);
+      if (std::ranges::count(seeds, seed) > 0) fail("seeds '{}': {} is repeated", text, seed);
       seeds.push_back(seed);
     }
   }

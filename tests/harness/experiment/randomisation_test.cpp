@@ -84,7 +84,7 @@ TEST_F(RandomisationTest, FaultsNameFileLineAndKey) {
   EXPECT_THAT(error("  - {key: a, choice: [1, 2], weights: [1]}"),
               HasSubstr("one for each choice"));
   EXPECT_THAT(error("  - {key: a, integer: [1, 2]}\n  - {key: a, integer: [1, 2]}"),
-              HasSubstr("stands twice"));
+              HasSubstr("duplicate key"));
   EXPECT_THAT(error("  - {kee: a, integer: [1, 2]}"), HasSubstr("kee: unknown key"));
   EXPECT_THAT(error_of([&] { draw_overrides(folder_ / "none.yaml", 1); }), HasSubstr("none.yaml"));
 }

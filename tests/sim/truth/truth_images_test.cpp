@@ -122,10 +122,10 @@ TEST_F(TwoPanelsTruthTest, WrongViewsAreErrors) {
   TruthView bent = right;
   bent.camera.distortion[0] = 0.1;
   EXPECT_THAT(error_of([&] { optical_flow(left, bent); }), HasSubstr("distortion"));
-  EXPECT_THAT(error_of([&] { disparity(right, left); }), HasSubstr("no rectified pair"));
+  EXPECT_THAT(error_of([&] { disparity(right, left); }), HasSubstr("not a rectified pair"));
   TruthView turned = right;
   turned.T_world_cam.rotation = turned.T_world_cam.rotation * exp_so3({0, 0.01, 0});
-  EXPECT_THAT(error_of([&] { disparity(left, turned); }), HasSubstr("no rectified pair"));
+  EXPECT_THAT(error_of([&] { disparity(left, turned); }), HasSubstr("not a rectified pair"));
 }
 
 TEST_F(TwoPanelsTruthTest, NumbersSayWhatTheyStandFor) {
