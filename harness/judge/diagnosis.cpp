@@ -18,13 +18,13 @@ constexpr double kShown = 1.0 / 3;         // of a segment's ticks, for a cause 
 constexpr double kOccluded = 0.5;          // of an image's pixels
 constexpr double kClearView = 0.2;         // likewise, at most
 constexpr double kBlurPixels = 2;          // px
-constexpr double kNearThings = 1;          // m, seldom is anything seen nearer
+constexpr double kNearThings = 1;          // m, closest usual distance
 constexpr double kFewOfUsual = 0.4;        // of a camera's median of features
-constexpr double kFewFeatures = 100;       // however few are usual
+constexpr double kFewFeatures = 100;       // absolute minimum
 constexpr double kHealthyInliers = 0.5;    // of the run's median
 constexpr double kSpacingTolerance = 0.2;  // of the plants' spacing
 
-/// What shows in the ticks of a segment.
+/// Which causes are present in the ticks of a segment.
 class CauseFinder {
  public:
   CauseFinder(const RunRecord& record, const RunResults& results, const Trial& trial)
@@ -86,7 +86,7 @@ class CauseFinder {
     if (share >= kShown) found.push_back(with(segment, cause, share));
   }
 
-  /// The cameras that it shows in for long enough, and the share of the worst of them.
+  /// The cameras in which it is present long enough, and the largest share among them.
   DegradedSegment seen_by_cameras(const DegradedSegment& segment, Cause cause,
                                   const auto& shows) const {
     DegradedSegment explanation = with(segment, cause, 0);
@@ -133,7 +133,7 @@ class CauseFinder {
     return features < std::max(kFewOfUsual * usual, kFewFeatures);
   }
 
-  /// A loop that was closed wrongly weighs more than tags that were not believed.
+  /// A wrong loop closure takes precedence over rejected tags.
   double wrong_tags(const DegradedSegment& segment) const {
     const bool closed = std::ranges::any_of(results_.loops.closures, [&](const JudgedClosure& c) {
       return c.judged && !c.correct && c.tick >= segment.first && c.tick <= segment.last;
@@ -158,7 +158,7 @@ class CauseFinder {
     });
   }
 
-  /// Along a row, by once or several times the plants' spacing, while tracking looked well.
+  /// Along a row, by a multiple of the plant spacing, while tracking was good.
   bool jumped_by_plants(const DegradedSegment& segment) const {
     const Site& site = trial_.site;
     const auto error = error_growth(record_, segment.first, segment.last);
@@ -183,7 +183,7 @@ class CauseFinder {
   const RunResults& results_;
   const Trial& trial_;
   std::vector<std::size_t>
-      cameras_;  ///< left cameras: a right camera's features are found from theirs
+      cameras_;  ///< left cameras: a right camera's features are matches of theirs
   std::vector<double> usual_features_;
   bool reads_tags_ = false;
 };
@@ -250,9 +250,9 @@ std::vector<DegradedSegment> diagnose(const RunRecord& record, const RunResults&
 std::string format_diagnosis(const RunRecord& record,
                              const std::vector<DegradedSegment>& segments) {
   if (segments.empty()) {
-    return "the estimate suffered nowhere: no weak tracking, no fast growth of the error\n";
+    return "no degraded segment: no weak tracking, no fast growth of the error\n";
   }
-  std::string text = "where the estimate suffered, and from what:\n";
+  std::string text = "degraded segments and their causes:\n";
   for (const DegradedSegment& explanation : segments) text += line_of(record, explanation);
   return text;
 }

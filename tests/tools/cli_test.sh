@@ -152,7 +152,7 @@ expect 2 "load of no map" "junk.map: not a map of Vinebench" -- \
   run "$quick_loop" --out "$work/out" --load-map "$work/junk.map"
 expect 2 "load of a missing map" "none.map" -- \
   run "$quick_loop" --out "$work/out" --load-map "$work/none.map"
-expect 2 "save where no folder is" "there is no folder" -- \
+expect 2 "save where no folder is" "does not exist" -- \
   run "$quick_loop" --out "$work/out" --save-map "$work/none/row.map"
 
 # A world without a block, and one place: some seconds.

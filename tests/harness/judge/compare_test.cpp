@@ -101,10 +101,10 @@ TEST(CompareTest, RunsArePairedByScenarioAndSeed) {
               HasSubstr("empty: has no run"));
   write("b/again", run(2, 0.02));
   EXPECT_THAT(test::error_of([&] { pair_runs(folder / "a", folder / "b"); }),
-              HasSubstr("row, seed 2 is there twice"));
+              HasSubstr("row, seed 2 is duplicate"));
   folder.write("b/again/metrics.json", "{");
   EXPECT_THAT(test::error_of([&] { pair_runs(folder / "a", folder / "b"); }),
-              HasSubstr("is no metrics.json of a run"));
+              HasSubstr("is not a metrics.json of a run"));
 }
 
 // Reference values of the distribution's 97.5 % quantile: 2.0395 (31), 1.9840 (100), 1.9600 (inf).
