@@ -26,7 +26,7 @@ std::int64_t parse_seed(const std::string& text, const std::string& whole) {
 
 std::vector<std::int64_t> parse_seeds(const std::string& text) {
   std::vector<std::int64_t> seeds;
-  std::istringstream in(text + ",");  // so that a trailing comma shows as an empty part
+  std::istringstream in(text + ",");  // so that a trailing comma gives an empty part
   for (std::string part; std::getline(in, part, ',');) {
     const std::size_t dots = part.find("..");
     const std::int64_t first = parse_seed(part.substr(0, dots), text);

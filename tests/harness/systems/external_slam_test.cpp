@@ -105,7 +105,7 @@ TEST_F(ExternalSlamTest, SaysWhatWentWrong) {
       error("echo no vocabulary >&2; exit 3"),
       testing::AllOf(HasSubstr("slam.sh: exit code 3"), HasSubstr("log.txt: no vocabulary")));
   EXPECT_THAT(error("kill -SEGV $$"), HasSubstr("slam.sh: ended by signal 11; it printed nothing"));
-  EXPECT_THAT(error(":"), HasSubstr("left no trajectory; expected "));
+  EXPECT_THAT(error(":"), HasSubstr("wrote no trajectory; expected "));
   EXPECT_THAT(error("echo 1 2 3 >trajectory.txt"), HasSubstr("trajectory.txt:1: expected 8"));
   config_.timeout = 0.1;
   EXPECT_THAT(error("sleep 60"), HasSubstr("took more than 0.1 s"));

@@ -76,7 +76,7 @@ TEST(ForeignTrajectoryTest, SaysWhatIsWrong) {
   EXPECT_THAT(error("0 1 2 nan 0 0 0 1\n"), HasSubstr("expected a number, found 'nan'"));
   EXPECT_THAT(error("0 1 2 3 0 0 0 2\n"), HasSubstr("expected a unit quaternion, found norm 2"));
   EXPECT_THAT(error("1403636579.7 1 2 3 0 0 0 1\n"),
-              HasSubstr("none of its 1 poses is of a frame: they are from 1.403636580 to"));
+              HasSubstr("none of its 1 poses matches a frame: they are from 1.403636580 to"));
 }
 
 }  // namespace
