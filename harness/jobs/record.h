@@ -41,8 +41,8 @@ struct RecordOutcome {
   std::uint64_t bytes = 0;     ///< likewise, in images
 };
 
-/// Simulates without a SLAM system and records. Sequences complete ones are kept where it resumes,
-/// one that is not is recorded anew. Throws Error for an invalid request or folder; what has been
+/// Simulates without a SLAM system and records. When resuming, complete sequences are kept and an
+/// incomplete one is recorded again. Throws Error for an invalid request or folder; what has been
 /// recorded is kept.
 RecordOutcome record_dataset(const RecordRequest& request, const RecordWatch& watch);
 

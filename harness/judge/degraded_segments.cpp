@@ -56,7 +56,7 @@ struct Growth {
   std::size_t from = 0;  ///< tick
   std::size_t to = 0;    ///< tick
   double metres = 0;
-  double way = 0;  ///< m, between the true positions
+  double distance = 0;  ///< m, between the true positions
 };
 
 std::vector<Growth> growths_of(const RunRecord& record, const RunResults& results) {
@@ -67,10 +67,10 @@ std::vector<Growth> growths_of(const RunRecord& record, const RunResults& result
     if (record.ticks[to].stamp < record.ticks.front().stamp + kWindow) continue;
     const auto growth = error_growth(record, from, to);
     if (!growth || is_corrected(results, from, to)) continue;
-    const double way = (record.ticks[to].truth.T_world_body.translation -
-                        record.ticks[from].truth.T_world_body.translation)
-                           .norm();
-    growths.push_back({from, to, growth->norm(), way});
+    const double distance = (record.ticks[to].truth.T_world_body.translation -
+                             record.ticks[from].truth.T_world_body.translation)
+                                .norm();
+    growths.push_back({from, to, growth->norm(), distance});
   }
   return growths;
 }
@@ -83,7 +83,7 @@ void mark_growth(const std::vector<Growth>& growths, std::vector<bool>& bad) {
   for (const Growth& growth : growths) metres.push_back(growth.metres);
   const double fast = std::max(kFastGrowth, kTimesUsual * percentile(metres, 0.5));
   for (const Growth& growth : growths) {
-    const double drift = std::max(kLeastDrift, kDrift * growth.way);
+    const double drift = std::max(kLeastDrift, kDrift * growth.distance);
     if (growth.metres < fast && growth.metres < drift) continue;
     for (std::size_t i = growth.from + 1; i <= growth.to; ++i) bad[i] = true;
   }

@@ -75,10 +75,10 @@ class CauseFinder {
   }
 
   static DegradedSegment with(const DegradedSegment& segment, Cause cause, double share) {
-    DegradedSegment explanation = segment;
-    explanation.cause = cause;
-    explanation.share = share;
-    return explanation;
+    DegradedSegment diagnosed = segment;
+    diagnosed.cause = cause;
+    diagnosed.share = share;
+    return diagnosed;
   }
 
   static void add_share(std::vector<DegradedSegment>& found, const DegradedSegment& segment,
@@ -89,14 +89,14 @@ class CauseFinder {
   /// The cameras in which it is present long enough, and the largest share among them.
   DegradedSegment seen_by_cameras(const DegradedSegment& segment, Cause cause,
                                   const auto& shows) const {
-    DegradedSegment explanation = with(segment, cause, 0);
+    DegradedSegment diagnosed = with(segment, cause, 0);
     for (const std::size_t camera : cameras_) {
       const double share = share_of(segment, [&](std::size_t i) { return bool(shows(i, camera)); });
       if (share < kShown) continue;
-      explanation.cameras.push_back(camera);
-      explanation.share = std::max(explanation.share, share);
+      diagnosed.cameras.push_back(camera);
+      diagnosed.share = std::max(diagnosed.share, share);
     }
-    return explanation;
+    return diagnosed;
   }
 
   static double share_of(const DegradedSegment& segment, const auto& shows) {
@@ -188,25 +188,25 @@ class CauseFinder {
   bool reads_tags_ = false;
 };
 
-std::string cameras_text(const RunRecord& record, const DegradedSegment& explanation) {
+std::string cameras_text(const RunRecord& record, const DegradedSegment& diagnosed) {
   std::vector<std::string> names;
-  for (const std::size_t camera : explanation.cameras) {
+  for (const std::size_t camera : diagnosed.cameras) {
     names.push_back(record.rig.cameras[camera].name);
   }
   return names.empty() ? "" : fmt::format(" in {}", fmt::join(names, ", "));
 }
 
-std::string line_of(const RunRecord& record, const DegradedSegment& explanation) {
+std::string line_of(const RunRecord& record, const DegradedSegment& diagnosed) {
   std::string text = fmt::format(
       "  {:.2f} to {:.2f} s: {}{} ({:.0f} % of the time); error grew by {:.1f} mm",
-      to_seconds(record.ticks[explanation.first].stamp),
-      to_seconds(record.ticks[explanation.last].stamp), name_of(explanation.cause),
-      cameras_text(record, explanation), 100 * explanation.share, 1e3 * explanation.error_growth);
-  if (explanation.usual_inliers > 0) {
-    text += fmt::format(", {:.0f} inliers of usually {:.0f}", explanation.inliers,
-                        explanation.usual_inliers);
+      to_seconds(record.ticks[diagnosed.first].stamp),
+      to_seconds(record.ticks[diagnosed.last].stamp), name_of(diagnosed.cause),
+      cameras_text(record, diagnosed), 100 * diagnosed.share, 1e3 * diagnosed.error_growth);
+  if (diagnosed.usual_inliers > 0) {
+    text += fmt::format(", {:.0f} inliers of usually {:.0f}", diagnosed.inliers,
+                        diagnosed.usual_inliers);
   }
-  if (explanation.untracked > 0) text += fmt::format(", {} frames lost", explanation.untracked);
+  if (diagnosed.untracked > 0) text += fmt::format(", {} frames lost", diagnosed.untracked);
   return text + "\n";
 }
 
@@ -253,7 +253,7 @@ std::string format_diagnosis(const RunRecord& record,
     return "no degraded segment: no weak tracking, no fast growth of the error\n";
   }
   std::string text = "degraded segments and their causes:\n";
-  for (const DegradedSegment& explanation : segments) text += line_of(record, explanation);
+  for (const DegradedSegment& diagnosed : segments) text += line_of(record, diagnosed);
   return text;
 }
 

@@ -59,7 +59,7 @@ class Drawing {
     add(fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" {}/>", x(centre.x()),
                     y(centre.y()), radius_px, style));
   }
-  void way(const std::vector<Eigen::Vector2d>& points, const std::string& style) {
+  void path(const std::vector<Eigen::Vector2d>& points, const std::string& style) {
     std::string list;
     for (const Eigen::Vector2d& p : points)
       list += fmt::format("{:.2f},{:.2f} ", x(p.x()), y(p.y()));
@@ -188,8 +188,8 @@ void draw_truth(Drawing& drawing, const RunRecord& record, const RunResults& res
     }
   }
   const std::string round = "stroke-linejoin=\"round\" stroke-linecap=\"round\"";
-  drawing.way(all, "stroke=\"#bbbbbb\" stroke-width=\"8\" " + round);
-  drawing.way(blind, "stroke=\"#555555\" stroke-width=\"8\" " + round);
+  drawing.path(all, "stroke=\"#bbbbbb\" stroke-width=\"8\" " + round);
+  drawing.path(blind, "stroke=\"#555555\" stroke-width=\"8\" " + round);
 }
 
 void draw_estimate(Drawing& drawing, const RunRecord& record, const RunResults& results,
@@ -210,11 +210,11 @@ void draw_estimate(Drawing& drawing, const RunRecord& record, const RunResults& 
 
 /// Without a truth for alignment and colours.
 void draw_estimate_alone(Drawing& drawing, const RunRecord& record) {
-  std::vector<Eigen::Vector2d> way;
+  std::vector<Eigen::Vector2d> path;
   for (const StampedPose& at : record.summary.trajectory) {
-    way.push_back(at.pose.translation.head<2>());
+    path.push_back(at.pose.translation.head<2>());
   }
-  drawing.way(way, fmt::format("stroke=\"{}\" stroke-width=\"3\"", kScale.front()));
+  drawing.path(path, fmt::format("stroke=\"{}\" stroke-width=\"3\"", kScale.front()));
 }
 
 void draw_closures(Drawing& drawing, const RunRecord& record, const RunResults& results) {
@@ -229,10 +229,10 @@ void draw_closures(Drawing& drawing, const RunRecord& record, const RunResults& 
 
 void draw_ends(Drawing& drawing, const RunRecord& record) {
   const Trajectory truth = true_trajectory(record);
-  const Trajectory& way = truth.empty() ? record.summary.trajectory : truth;
-  if (way.empty()) return;
-  const Eigen::Vector2d start = way.front().pose.translation.head<2>();
-  const Eigen::Vector2d end = way.back().pose.translation.head<2>();
+  const Trajectory& path = truth.empty() ? record.summary.trajectory : truth;
+  if (path.empty()) return;
+  const Eigen::Vector2d start = path.front().pose.translation.head<2>();
+  const Eigen::Vector2d end = path.back().pose.translation.head<2>();
   drawing.circle(start, 5, "fill=\"white\" stroke=\"black\" stroke-width=\"2\"");
   drawing.circle(end, 3, "fill=\"black\"");
 }

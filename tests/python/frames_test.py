@@ -141,7 +141,7 @@ class FramesTest(unittest.TestCase):
     def test_bad_requests_are_one_error(self):
         cases = {
             "none.yaml": lambda: vinebench.Scenario("none.yaml"),
-            "'colour' is none": lambda: open_frames(truth=["colour"]),
+            "unknown 'colour'": lambda: open_frames(truth=["colour"]),
             "no camera named 'top'": lambda: vinebench.Scenario(SCENARIO, cameras=["top"]),
             "has no camera named 'top'": lambda: self.frames[0].things("top"),
             "world.sunn": lambda: open_frames(set={"world.sunn": 1}),
