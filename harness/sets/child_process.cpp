@@ -127,7 +127,7 @@ class RunningJobs {
     running_.emplace(index, Child(jobs_.name(index), [this, index, parent] {
                        setpgid(0, 0);
                        prctl(PR_SET_PDEATHSIG, SIGTERM);
-                       if (getppid() != parent) _exit(1);  // it ended before prctl
+                       if (getppid() != parent) _exit(1);  // the parent ended before prctl
                        return jobs_.job(index);
                      }));
   }

@@ -11,8 +11,9 @@
 namespace vinebench::sim {
 namespace {
 
-constexpr double kStandstill = 1e-9;      // m or rad: a way shorter than this is none
-constexpr double kKinkSeconds = 0.1;      // of acceleration, at once, where a waypoint is passed
+constexpr double kStandstill = 1e-9;  // m or rad: shorter legs are empty
+constexpr double kKinkSeconds =
+    0.1;  // of acceleration, as an instantaneous change at a passed waypoint
 constexpr double kCorrection = 2;         // 1/s
 constexpr double kMaxCorrection = 0.3;    // m/s
 constexpr double kMaxTurnCorrection = 1;  // rad/s
@@ -25,7 +26,7 @@ Eigen::Vector3d pose_of(const RouteConfig::Waypoint& waypoint) {
   return {waypoint.position.x(), waypoint.position.y(), radians(waypoint.heading_deg)};
 }
 
-/// Greatest speed from which `end_speed` is reached within the way.
+/// Maximum speed from which `end_speed` is reached within the distance.
 double braking_speed(double end_speed, double acceleration, double way) {
   return std::sqrt(end_speed * end_speed + 2 * acceleration * way);
 }
