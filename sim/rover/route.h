@@ -86,7 +86,7 @@ class Route {
     Stamp end = 0;
     Eigen::Vector3d from = Eigen::Vector3d::Zero();
     Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of the pose, per unit of distance
-    double way = 0;
+    double length = 0;
     double speed = 0;  ///< limit
     double acceleration = 0;
     double speed_in = 0;
@@ -94,7 +94,7 @@ class Route {
     double wait = 0;  ///< s, at its end
     bool turns_only = false;
 
-    Eigen::Vector3d to() const { return from + way * direction; }
+    Eigen::Vector3d to() const { return from + length * direction; }
     double peak() const;
     double seconds() const;
     Reference at(double t) const;

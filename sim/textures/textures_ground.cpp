@@ -124,9 +124,9 @@ void scatter_blades(cv::Mat& rgb, RandomSequence& random, const cv::Mat& share, 
     const cv::Scalar skin = jitter(random, random.below(6) == 0 ? dry : fresh, 0.25);
     const bool grows = random.uniform() < value_at(share, at);
     if (!grows) continue;
-    const cv::Point2d way(length * std::cos(angle), length * std::sin(angle));
+    const cv::Point2d offset(length * std::cos(angle), length * std::sin(angle));
     draw_wrapped(rgb, at, 2 * length,
-                 [&](const cv::Point2d& p) { cv::line(rgb, p, p + way, skin, 1, cv::LINE_AA); });
+                 [&](const cv::Point2d& p) { cv::line(rgb, p, p + offset, skin, 1, cv::LINE_AA); });
   }
 }
 
@@ -147,10 +147,10 @@ void scatter_tufts(cv::Mat& rgb, RandomSequence& random, const cv::Mat& share, i
     for (int b = 0; b < blades; ++b) {
       const double turn = first + 2 * std::numbers::pi * b / blades + random.uniform(-0.3, 0.3);
       const double length = reach * random.uniform(0.5, 1.0);
-      const cv::Point2d way(length * std::cos(turn), length * std::sin(turn));
+      const cv::Point2d offset(length * std::cos(turn), length * std::sin(turn));
       const cv::Scalar skin = jitter(random, tip, 0.3);
       draw_wrapped(rgb, at, 2 * reach, [&](const cv::Point2d& p) {
-        cv::line(rgb, p + 0.25 * way, p + way, skin, 1 + b % 2, cv::LINE_AA);
+        cv::line(rgb, p + 0.25 * offset, p + offset, skin, 1 + b % 2, cv::LINE_AA);
       });
     }
   }
