@@ -39,7 +39,7 @@ bool same(const cv::Mat& a, const cv::Mat& b) {
 
 class SimulationTest : public testing::Test {
  protected:
-  /// Ten frames of driving off beside a short row.
+  /// Ten frames of a start beside a short row.
   SimulationConfig config() const {
     SimulationConfig config;
     config.world.rows = {{{0, 1.5}, {2, 1.5}}};

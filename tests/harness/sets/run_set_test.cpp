@@ -19,7 +19,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// The estimate slides sideways by `seed` centimetres once it has left the start.
+/// After the start the estimate is off sideways by `seed` centimetres.
 RunOutcome slide(const ScenarioConfig& scenario, int, const RunOptions& options) {
   const double offset = 0.01 * static_cast<double>(scenario.seed);
   fakes::Source source;

@@ -59,7 +59,7 @@ TEST(ForeignTrajectoryTest, FramesTakeTheNearestPoseAndMayHaveNone) {
   EXPECT_EQ(trajectory[1].pose.translation.x(), 5);
 }
 
-// The sensor sits 0.5 m ahead of the body and looks the same way: the body is 0.5 m behind it.
+// The sensor is 0.5 m in front of the body with the same orientation: the body is 0.5 m behind it.
 TEST(ForeignTrajectoryTest, PosesOfASensorBecomeTheBodys) {
   const Pose T_body_sensor{Eigen::Quaterniond::Identity(), {0.5, 0, 0}};
   const Trajectory trajectory = read("0 2 0 0 0 0 0 1\n", T_body_sensor.inverse());

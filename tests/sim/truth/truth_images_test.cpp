@@ -22,8 +22,8 @@ using testing::HasSubstr;
 
 constexpr double kBaseline = 0.2;  // m
 
-/// A panel of 0.5 x 3 m at 2 m before one of 4 x 1 m at 3 m, and sky round them. Both cameras look
-/// along +y, the right one 0.2 m beside the left one.
+/// A panel of 0.5 x 3 m at 2 m in front of one of 4 x 1 m at 3 m, surrounded by sky. Both cameras
+/// look along +y, the right one 0.2 m beside the left one.
 class TwoPanelsTruthTest : public testing::Test {
  protected:
   TwoPanelsTruthTest() {
@@ -39,7 +39,7 @@ class TwoPanelsTruthTest : public testing::Test {
   }
   static Pose eye(double x) { return look_at({x, 0, 0}, {x, 1, 0}); }
 
-  /// Whether u is within 0.6 px of one of the edges: pixels there may fall either way.
+  /// Whether u is within 0.6 px of one of the edges: pixels there are ambiguous.
   static bool on_edge(double u, std::initializer_list<double> edges) {
     return std::ranges::any_of(edges, [u](double edge) { return std::abs(u - edge) < 0.6; });
   }
@@ -108,7 +108,7 @@ TEST_F(TwoPanelsTruthTest, WhatIsBehindTheOtherCameraHasNoFlow) {
   const FlowTruth truth = optical_flow(view(eye(0)), view(look_at({0, 4, 0}, {0, 5, 0})));
   EXPECT_TRUE(std::isnan(truth.flow.at<cv::Vec2f>(239, 375)[0]));
   EXPECT_EQ(truth.visible.at<std::uint8_t>(239, 375), 0);
-  // The sky is ahead of both.
+  // The sky is in front of both.
   EXPECT_NEAR(truth.flow.at<cv::Vec2f>(10, 10)[0], 0, 0.001);
   EXPECT_NE(truth.visible.at<std::uint8_t>(10, 10), 0);
 }
