@@ -7,12 +7,12 @@
 #   verdict  its expectations are met, and a second run is the same to the byte
 #   threads  one thread gives the same as two (needs verdict)
 #   resolved its own scenario.resolved.yaml repeats it (needs verdict)
-#   map      a run in the map that verdict left finds its place there, by tag and by appearance (needs
+#   map      a run with the map of verdict is relocalised in it, by tag and by appearance (needs
 #            verdict)
 #   replayed replays of recordings of it, EuRoC and KITTI, give the same estimate (0.8 s)
-#   plugin   the SLAM core behind the door for others' gives the same estimate (0.8 s); PLUGIN is
+#   plugin   the SLAM core as a plug-in gives the same estimate (0.8 s); PLUGIN is
 #            examples/slam_plugin
-#   external a program takes the core's place, and its poses are judged (0.3 s)
+#   external a program replaces the core, and its poses are evaluated (0.3 s)
 #   front    with the front cameras only it is lost or ten times worse (needs verdict)
 set -euo pipefail
 step=$1 vinebench=$2 root=$3 work=$4

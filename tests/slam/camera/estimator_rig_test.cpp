@@ -44,8 +44,8 @@ TEST(EstimatorRigTest, StereoPutsAPointWhereItIs) {
   }
 }
 
-// Half a pixel more of disparity, and the depth that this is. What lies beyond the limit has no
-// depth any more, and keeps its match.
+// Half a pixel more of disparity, and the depth that this is. Matches beyond the limit lose their
+// depth and remain matches.
 TEST(EstimatorRigTest, CorrectsDepthsByTheDisparityOffset) {
   const SyntheticAisle aisle(0, 1, 300);
   EstimatorRig rig(aisle.rig, OrbConfig{});

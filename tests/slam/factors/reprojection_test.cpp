@@ -18,7 +18,7 @@ Pose body() {
   return {exp_so3({0.1, 0.2, -0.3}), {0.5, -0.2, 0.1}};
 }
 
-/// A point 1.5 m ahead of the camera, off its axis.
+/// A point 1.5 m in front of the camera, off its axis.
 Eigen::Vector3d point() {
   return body() * (camera().T_cam_body.inverse() * Eigen::Vector3d(0.4, -0.3, 1.5));
 }
@@ -137,8 +137,7 @@ TEST(ReprojectionTest, StepsThePoseAsTheManifoldDoes) {
   }
 }
 
-// To the bit: a step that is tried is judged by the one, and what it is judged against by the
-// other.
+// Bitwise equal: a trial step is evaluated by one and compared with a value of the other.
 TEST(ReprojectionTest, TheResidualAloneIsThatOfTheLinearisation) {
   const StereoCameraModel e = camera();
   const Eigen::Vector3d behind = body() * (e.T_cam_body.inverse() * Eigen::Vector3d(0, 0, -1));

@@ -30,10 +30,10 @@ TEST(DeadReckoningTest, DoubtsWheelsByTheWayTheyWent) {
   DeadReckoning dark{DeadReckoningConfig{}};
   const Pose step{Eigen::Quaterniond::Identity(), {0.1, 0, 0}};
   for (int i = 0; i < 20; ++i) dark.advance(step, Vector6d::Zero(), 0.1);
-  // 2 m: 5 % is 0.1 m of slip; 0.05 rad a metre is 0.1 rad, half of it over 2 m is 0.1 m aside.
+  // 2 m: 5 % is 0.1 m of slip; 0.05 rad a metre is 0.1 rad, half of it over 2 m is 0.1 m sideways.
   EXPECT_NEAR(dark.sigma_position(), std::hypot(0.1, 0.1), 1e-9);
   EXPECT_NEAR(dark.sigma_rotation(), 0.1, 1e-9);
-  // The same time on a kept velocity would leave 1 m.
+  // The same time with a constant velocity would give 1 m.
   EXPECT_FALSE(dark.is_lost());
 }
 

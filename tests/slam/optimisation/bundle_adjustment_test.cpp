@@ -22,7 +22,7 @@ std::vector<Pose> way() {
   return poses;
 }
 
-/// Moves keyframes by 1 cm and 0.6 degrees and landmarks by 1 cm, each its own way.
+/// Perturbs keyframes by 1 cm and 0.6 degrees and landmarks by 1 cm, in random directions.
 void perturb(Map& map, const std::vector<int>& keyframes) {
   RandomSequence random(RandomStream(1, "perturb"));
   const auto draw = [&]() -> Eigen::Vector3d {
@@ -36,7 +36,7 @@ void perturb(Map& map, const std::vector<int>& keyframes) {
   for (Landmark& landmark : map.landmarks()) landmark.position += 0.01 * draw();
 }
 
-/// A tag 0.6 m before the side camera of the first keyframe, in view of all of them.
+/// A tag 0.6 m in front of the side camera of the first keyframe, in view of all of them.
 Pose tag_pose(const SyntheticAisle& aisle) {
   return aisle.rig.cameras[4].T_body_cam * Pose{exp_so3({0.2, 0.3, 0}), {0.1, 0.02, 0.6}};
 }
@@ -96,7 +96,7 @@ TEST_P(BundleAdjustmentTest, PerturbedKeyframesAndLandmarksReturn) {
   // Pixels are floats, good to 1.5e-5 px: a point 1 m away stands within 1e-6 m along its ray (its
   // disparity is 32 px), and with the square of its distance less so.
   for (const auto& [point, landmark] : known.landmark_of) {
-    // What only the fixed keyframe sees takes no part.
+    // Landmarks seen by the fixed keyframe only are not adjusted.
     if (known.map.landmark(landmark).observations.back().keyframe == 0) continue;
     const Eigen::Vector3d& truth = aisle.point(point);
     const double range = std::max(1.0, (truth - Eigen::Vector3d(0.2, 0, 0.5)).norm());
@@ -124,7 +124,7 @@ TEST_P(BundleAdjustmentTest, OutliersAreRemovedAndHarmLittle) {
   for (const int f : hurt) {
     EXPECT_EQ(known.map.keyframe(2).landmarks[0][static_cast<std::size_t>(f)], -1) << f;
   }
-  // The noise is a third of what the limit assumes: next to nothing else goes.
+  // The noise is a third of what the limit assumes: almost nothing else is removed.
   EXPECT_GT(count_observations(known.map), before - hurt.size() - before / 100);
   // They pulled a little until they were removed; the next adjustment is without them, and as good
   // as one that never had them but for a few observations less: a tenth of 0.3 px or 1 mm.
@@ -167,7 +167,7 @@ TEST(AdjustmentTest, ATagOfKnownPoseHoldsTheMap) {
     known.add(aisle.frame_with_tag(static_cast<std::int64_t>(k), way()[k], T_world_tag), way()[k]);
   }
   known.map.tags().push_back({"tag36h11", 0, 0.161, T_world_tag, true});
-  // The whole map is off by 5 cm and 1 degree, all in agreement with itself but for the tag.
+  // The whole map is off by 5 cm and 1 degree, consistent except for the tag.
   const Pose off{exp_so3({0.01, 0, 0.015}), {0.03, -0.04, 0.01}};
   for (Keyframe& k : known.map.keyframes()) k.T_map_body = off * k.T_map_body;
   for (Landmark& landmark : known.map.landmarks()) landmark.position = off * landmark.position;
@@ -215,7 +215,7 @@ TEST(AdjustmentTest, SameMapSameBits) {
   EXPECT_EQ(ends[0], ends[1]);
 }
 
-/// Frames whose feature i has no meaning but its number.
+/// Frames whose features are only indices.
 Map chain() {
   Map map(1.2);
   auto frame = std::make_shared<FrameFeatures>();
