@@ -61,10 +61,10 @@ class Drive {
   const slam::SlamConfig& config() const { return scenario_.slam; }
 
   /// The expectations not met by a SLAM core with this rig and these settings.
-  std::set<std::string> broken_expectations(const Rig& told, const slam::SlamConfig& config) {
+  std::set<std::string> broken_expectations(const Rig& nominal, const slam::SlamConfig& config) {
     frames_.rewind();
     const auto slam =
-        slam::make_slam(config, told, sim::registered_tags(scenario_.simulation.world), pool_);
+        slam::make_slam(config, nominal, sim::registered_tags(scenario_.simulation.world), pool_);
     RunRecorder recorder(frames_.rig(), sim::world_tags(scenario_.simulation.world));
     run_lockstep(frames_, *slam, {&recorder});
     std::set<std::string> broken;

@@ -22,16 +22,17 @@ class DrivenRoverTest : public testing::Test {
     route_.waypoints[1].position = {1, 0};
     route_.waypoints[1].wait = 1;
   }
-  /// The rover's final position when it is steered, 15 times a second, by `told` of its true pose.
-  template <class Told>
-  Eigen::Vector3d end_of_drive(Told told) const {
+  /// The rover's final position when it is steered, 15 times a second, by `feedback`, given its
+  /// true pose.
+  template <class Feedback>
+  Eigen::Vector3d end_of_drive(Feedback feedback) const {
     DrivenRover rover(rover_, world_, route_, 1);
     const std::int64_t frames = rover.route().duration() * 15 / kNanosecondsPerSecond;
     Stamp stamp = 0;
     for (std::int64_t i = 0; i <= frames; ++i) {
       stamp = stamp_of_frame(i, 15);
       rover.advance_to(stamp);
-      told(rover, i, stamp);
+      feedback(rover, i, stamp);
     }
     return rover.T_world_body(stamp).translation;
   }

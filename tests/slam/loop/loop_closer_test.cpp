@@ -69,9 +69,9 @@ TEST_F(LoopCloserTest, ALoadedMapLiesInTheWorldAsItsRegisteredTagSays) {
   loop.take_over(map_);
   // With a body pose off by 0.1 m, the tag is still at its registered pose.
   const Pose T_map_tag = T_map_world * second.T_world_tag;
-  Pose believed = T_map_tag * T_body_tag_.inverse();
-  believed.translation.x() += 0.1;
-  loop.record(*frame(0, {sighting(2, T_body_tag_)}), believed, 0, map_);
+  Pose estimated = T_map_tag * T_body_tag_.inverse();
+  estimated.translation.x() += 0.1;
+  loop.record(*frame(0, {sighting(2, T_body_tag_)}), estimated, 0, map_);
   ASSERT_EQ(map_.tags().size(), 2u);
   EXPECT_LT(distance(map_.tags()[1].T_map_tag, T_map_tag), 1e-12);
 }

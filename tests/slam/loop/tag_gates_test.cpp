@@ -99,31 +99,31 @@ TEST_F(TagJudgementTest, AMovedTagIsRefused) {
 
 TEST_F(TagJudgementTest, TheLongerTheWayTheMoreDriftIsAllowed) {
   see_first();
-  const auto believed = [&](double by, double way) {
+  const auto accepted = [&](double by, double travelled) {
     FrameFeatures seen = frame(100, {shifted(3, by)});
-    return loop_.gate(seen, body_, way, map_).empty();
+    return loop_.gate(seen, body_, travelled, map_).empty();
   };
-  EXPECT_TRUE(believed(0.10, 5));
-  EXPECT_FALSE(believed(0.25, 5));
-  EXPECT_TRUE(believed(0.25, 15));  // 0.35 m
-  EXPECT_FALSE(believed(0.6, 15));
+  EXPECT_TRUE(accepted(0.10, 5));
+  EXPECT_FALSE(accepted(0.25, 5));
+  EXPECT_TRUE(accepted(0.25, 15));  // 0.35 m
+  EXPECT_FALSE(accepted(0.6, 15));
 }
 
 TEST_F(TagJudgementTest, AfterAnOdometryGapMoreIsAllowed) {
   see_first();
-  const auto believed = [&](double by) {
+  const auto accepted = [&](double by) {
     FrameFeatures seen = frame(100, {shifted(3, by)});
     return loop_.gate(seen, body_, 5, map_).empty();
   };
-  EXPECT_FALSE(believed(0.25));  // 0.05 + 0.02 x 5 = 0.15 m
+  EXPECT_FALSE(accepted(0.25));  // 0.05 + 0.02 x 5 = 0.15 m
   Matrix6d covariance = Matrix6d::Zero();
   covariance.topLeftCorner<3, 3>().diagonal().setConstant(0.04 * 0.04);      // m^2
   covariance.bottomRightCorner<3, 3>().diagonal().setConstant(0.02 * 0.02);  // rad^2
   loop_.cross_gap(3, covariance);
   // In variances: 3 x 0.04^2 and 3 x 0.02^2 x 2^2 m^2 besides (0.15 m / 4.74)^2, together 0.104 m
   // squared: 4.74 of them are 0.49 m.
-  EXPECT_TRUE(believed(0.25));
-  EXPECT_FALSE(believed(0.6));
+  EXPECT_TRUE(accepted(0.25));
+  EXPECT_FALSE(accepted(0.6));
 }
 
 TEST_F(TagJudgementTest, ATagTurnedOverIsRefused) {

@@ -53,8 +53,8 @@ Frame frame(std::int64_t index) {
 
 TEST(LiveSlamTest, TheNewestFrameIsWorkedOnAndOthersAreCounted) {
   HeldSystem system;
-  std::vector<Stamp> told;
-  LiveSlam live(system, [&](const Estimate& estimate) { told.push_back(estimate.stamp); });
+  std::vector<Stamp> answered;
+  LiveSlam live(system, [&](const Estimate& estimate) { answered.push_back(estimate.stamp); });
   live.push(frame(0));
   system.begun.acquire();  // frame 0 is being processed
   for (std::int64_t i = 1; i <= 4; ++i) live.push(frame(i));
@@ -66,7 +66,7 @@ TEST(LiveSlamTest, TheNewestFrameIsWorkedOnAndOthersAreCounted) {
   const SlamSummary summary = live.finish();
   EXPECT_EQ(live.dropped(), 3);
   EXPECT_EQ(summary.landmarks, 3u);
-  EXPECT_THAT(told, testing::ElementsAre(frame(0).stamp, frame(4).stamp, frame(5).stamp));
+  EXPECT_THAT(answered, testing::ElementsAre(frame(0).stamp, frame(4).stamp, frame(5).stamp));
   // Inertial samples of dropped frames are not lost.
   ASSERT_EQ(system.frames[1].imu.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -130,7 +130,7 @@ TEST(LiveSlamTest, EndsWithoutFinish) {
     live.push(frame(0));
     system.begun.acquire();
     live.push(frame(1));
-    system.allowed.release(2);  // the thread may have taken up frame 1 before it is told to end
+    system.allowed.release(2);  // the thread may have taken up frame 1 before it is asked to end
   }
   EXPECT_LE(system.frames.size(), 2u);
   EXPECT_EQ(system.frames.at(0).index, 0);

@@ -215,15 +215,15 @@ TEST(PoseAtTest, LiesBetweenItsNeighbours) {
   const auto at = [](Stamp stamp, double x) {
     return StampedPose{stamp, {Eigen::Quaterniond::Identity(), {x, 0, 0}}};
   };
-  const Trajectory way{at(1'000'000'000, 0), at(1'200'000'000, 2), at(3'000'000'000, 9)};
+  const Trajectory trajectory{at(1'000'000'000, 0), at(1'200'000'000, 2), at(3'000'000'000, 9)};
   const Stamp gap = kNanosecondsPerSecond / 4;
-  EXPECT_NEAR(pose_at(way, 1'050'000'000, gap)->translation.x(), 0.5, 1e-12);
-  EXPECT_EQ(pose_at(way, 1'200'000'000, gap)->translation.x(), 2);
-  EXPECT_EQ(pose_at(way, 1'200'000'800, gap)->translation.x(), 2);  // within a microsecond
-  EXPECT_EQ(pose_at(way, 3'000'000'000, gap)->translation.x(), 9);
-  EXPECT_FALSE(pose_at(way, 2'000'000'000, gap));  // a gap of 1.8 s
-  EXPECT_FALSE(pose_at(way, 900'000'000, gap));
-  EXPECT_FALSE(pose_at(way, 3'100'000'000, gap));
+  EXPECT_NEAR(pose_at(trajectory, 1'050'000'000, gap)->translation.x(), 0.5, 1e-12);
+  EXPECT_EQ(pose_at(trajectory, 1'200'000'000, gap)->translation.x(), 2);
+  EXPECT_EQ(pose_at(trajectory, 1'200'000'800, gap)->translation.x(), 2);  // within a microsecond
+  EXPECT_EQ(pose_at(trajectory, 3'000'000'000, gap)->translation.x(), 9);
+  EXPECT_FALSE(pose_at(trajectory, 2'000'000'000, gap));  // a gap of 1.8 s
+  EXPECT_FALSE(pose_at(trajectory, 900'000'000, gap));
+  EXPECT_FALSE(pose_at(trajectory, 3'100'000'000, gap));
   EXPECT_FALSE(pose_at({}, 0, gap));
 }
 

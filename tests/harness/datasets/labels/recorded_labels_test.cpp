@@ -113,9 +113,9 @@ TEST_F(RecordedLabelsTest, FlowLeadsToThePointInTheNextFrame) {
         const Eigen::Vector3d p = T_next_now * (z.at<float>(y, x) * model.unproject({x, y}));
         const auto& steps = code.at<cv::Vec3w>(y, x);  // valid, v, u
         ASSERT_EQ(steps[0], 1);
-        const Eigen::Vector2d told((steps[2] - 32768) / 64.0, (steps[1] - 32768) / 64.0);
+        const Eigen::Vector2d recorded((steps[2] - 32768) / 64.0, (steps[1] - 32768) / 64.0);
         const Eigen::Vector2d expected = model.project(p) - Eigen::Vector2d(x, y);
-        ASSERT_LT((told - expected).norm(), 0.1) << camera << " " << x << " " << y;  // px
+        ASSERT_LT((recorded - expected).norm(), 0.1) << camera << " " << x << " " << y;  // px
         std::array<float, 2> raw{};
         std::memcpy(raw.data(), flo.data() + 12 + 8 * (y * z.cols + x), 8);
         ASSERT_NEAR(raw[0], expected.x(), 0.02);
