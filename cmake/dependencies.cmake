@@ -19,7 +19,7 @@ find_package(CLI11 REQUIRED)
 find_package(assimp 5 REQUIRED)
 find_package(TinyGLTF REQUIRED)
 include(${CMAKE_CURRENT_LIST_DIR}/mujoco.cmake)
-# Either of the two platforms for OpenGL without a display will do.
+# At least one of the two platforms for OpenGL without a display is required.
 pkg_check_modules(OSMESA IMPORTED_TARGET osmesa)
 pkg_check_modules(EGL IMPORTED_TARGET egl)
 if(NOT OSMESA_FOUND AND NOT EGL_FOUND)

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 
 # Defines mujoco::mujoco, by default from the package that find_package finds (2.2.2 or newer).
-# VINEBENCH_MUJOCO_ROOT names another one in its place: a folder with include/mujoco/mujoco.h and,
-# in itself or in lib/, libmujoco.so*. That is a release archive, or the folder `mujoco` of an
-# unpacked Python wheel.
+# VINEBENCH_MUJOCO_ROOT selects another one: a folder with include/mujoco/mujoco.h and, in itself or
+# in lib/, libmujoco.so*. That is a release archive, or the folder `mujoco` of an unpacked Python
+# wheel.
 set(VINEBENCH_MUJOCO_ROOT "" CACHE PATH "Folder of a MuJoCo to use in place of the installed one")
 
 if(NOT VINEBENCH_MUJOCO_ROOT)

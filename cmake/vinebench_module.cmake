@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 
-# Options of all our code. Results must not depend on the optimiser: no contraction of floating-point
-# expressions, no fast-math. x86-64-v2 brings popcnt and SSE4 and leaves Eigen's alignment as
-# Debian's libraries were built with it.
+# Options of all our code. Results must not depend on the optimiser: no contraction of
+# floating-point expressions, no fast-math. x86-64-v2 has popcnt and SSE4 and keeps the alignment of
+# Eigen types in Debian's libraries.
 function(vinebench_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wno-psabi)
   target_compile_options(${target} PRIVATE -ffp-contract=off)
@@ -22,7 +22,7 @@ function(vinebench_options target)
   endif()
 endfunction()
 
-# What every target shares.
+# Options of every target.
 function(vinebench_flags target)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -38,8 +38,8 @@ function(vinebench_precompile target)
   endif()
 endfunction()
 
-# vinebench_module(NAME dependencies...): one static library of every source in this folder and those
-# below it, but for folders that are libraries of their own.
+# vinebench_module(NAME dependencies...): one static library of every source in this folder and
+# those below it, except folders that are separate libraries.
 function(vinebench_module name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
   list(FILTER sources EXCLUDE REGEX "/rosbag/")
@@ -48,9 +48,9 @@ function(vinebench_module name)
   vinebench_flags(vinebench_${name})
 endfunction()
 
-# vinebench_shards(PROGRAM): its tests in some processes, since with sanitizers one takes long to
-# start, and few would leave a core idle at the end. VINEBENCH_TEST_FILTER (as for --gtest_filter)
-# chooses among them.
+# vinebench_shards(PROGRAM): its tests in several processes, because a process with sanitizers
+# starts slowly, and too few would leave a core idle at the end. VINEBENCH_TEST_FILTER (as for
+# --gtest_filter) selects tests.
 function(vinebench_shards program)
   set(shards 8)
   foreach(shard RANGE 1 ${shards})
@@ -65,7 +65,7 @@ endfunction()
 # vinebench_library(NAME): a module that is linked into shared objects too.
 function(vinebench_library name)
   set_target_properties(vinebench_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-  # Nobody puts a function of his own in the place of one of ours.
+  # No interposition of our functions.
   target_compile_options(vinebench_${name} PRIVATE -fno-semantic-interposition)
 endfunction()
 
@@ -87,7 +87,7 @@ function(vinebench_tests folder)
   if(VINEBENCH_SANITIZE AND NOT VINEBENCH_SIMULATION)
     vinebench_shards(${name}_test)
   else()
-    # What drives through a world is a scenario's business: tests/CMakeLists.txt.
+    # Complete drives are scenario tests: tests/CMakeLists.txt.
     gtest_discover_tests(${name}_test TEST_FILTER -BrokenSlam* PROPERTIES LABELS unit
                          DISCOVERY_TIMEOUT 60)
   endif()

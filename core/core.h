@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// What the simulation and the SLAM core share: time, poses, camera model, rig, frame, trajectory,
-/// strict YAML and the interface of a SLAM system. Nothing here knows of either side.
+/// Shared by simulation and SLAM core: time, poses, camera model, rig, frame, trajectory, strict
+/// YAML and the interface of a SLAM system. Independent of both.
 
 #include "core/frame.h"
 #include "core/geometry/camera.h"

@@ -25,15 +25,15 @@ struct WheelSample {
   std::array<double, 4> velocity{};  ///< rad/s
 };
 
-/// All that a SLAM system may know of one instant: what the sensors gave.
+/// The sensor data of one instant: the complete input of a SLAM system.
 struct Frame {
   std::int64_t index = 0;
   Stamp stamp = 0;
-  /// One image a camera of the rig, in its order; CV_8UC1 (grey) or CV_8UC3 (RGB), top row first.
-  /// An empty image is a camera that delivered none.
+  /// One image for each camera, in the rig's order; CV_8UC1 (grey) or CV_8UC3 (RGB), top row first.
+  /// Empty if the camera delivered none.
   std::vector<cv::Mat> images;
-  std::vector<ImuSample> imu;       ///< since the frame before, oldest first
-  std::vector<WheelSample> wheels;  ///< since the frame before, oldest first
+  std::vector<ImuSample> imu;       ///< since the previous frame, oldest first
+  std::vector<WheelSample> wheels;  ///< since the previous frame, oldest first
 };
 
 }  // namespace vinebench

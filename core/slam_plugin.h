@@ -1,19 +1,19 @@
 /* SPDX-FileCopyrightText: Vinebench authors
  * SPDX-License-Identifier: Apache-2.0
  *
- * How a SLAM system in a shared object is run by the test bench, frame by frame. Plain C, so that
- * compilers and libraries may differ on the two sides; include it from C or C++.
+ * Interface of a SLAM system in a shared object that the test bench runs frame by frame. Plain C,
+ * so that compilers and libraries may differ on the two sides; include it from C or C++.
  *
  * The shared object exports vinebench_slam(), which returns a table of functions. For a run the
  * bench calls create once, process for each frame in order of the stamps, finish once and destroy
- * once, all on one thread. The truth never comes near: frames are what sensors gave.
+ * once, all on one thread. Frames contain sensor data only, no ground truth.
  *
- * Metres, radians, seconds; stamps are whole nanoseconds. T_a_b takes coordinates in b to
- * coordinates in a. body: x ahead, y left, z up; cam: x right, y down, z into the scene; map: the
+ * Metres, radians, seconds; stamps are integer nanoseconds. T_a_b takes coordinates in b to
+ * coordinates in a. body: x forward, y left, z up; cam: x right, y down, z into the scene; map: the
  * system's own world; tag: x right and y down on the printed face, z into the tag. Pixel (0, 0) is
  * the centre of the top left pixel.
  *
- * Pointers that a call is given are valid during that call; those in a setup until destroy.
+ * Pointers passed to a call are valid during that call; those in a setup until destroy.
  */
 #ifndef VINEBENCH_SLAM_PLUGIN_H
 #define VINEBENCH_SLAM_PLUGIN_H
@@ -25,7 +25,7 @@
 extern "C" {
 #endif
 
-/* Grows with every change that an older shared object would not survive. */
+/* Incremented by every incompatible change. */
 #define VINEBENCH_SLAM_PLUGIN_VERSION 1
 
 typedef struct vinebench_pose {
@@ -54,7 +54,7 @@ typedef struct vinebench_tag {
   vinebench_pose T_world_tag;
 } vinebench_tag;
 
-/* All that a system may know before the first frame. */
+/* The input of a system before the first frame. */
 typedef struct vinebench_setup {
   const char* rig;
   double rate_hz;
@@ -62,17 +62,17 @@ typedef struct vinebench_setup {
   size_t camera_count;
   const vinebench_stereo_pair* stereo_pairs;
   size_t stereo_pair_count;
-  const int32_t* tag_cameras; /* that AprilTags are looked for in */
+  const int32_t* tag_cameras; /* in which AprilTags are detected */
   size_t tag_camera_count;
   const vinebench_tag* tags;
   size_t tag_count;
-  double wheel_radius, half_track, half_wheelbase; /* of the mecanum wheels; 0 where not known */
-  const char* settings;                            /* a file; empty where the scenario has none */
-  int32_t threads;                                 /* that it may use, itself included */
+  double wheel_radius, half_track, half_wheelbase; /* of the mecanum wheels; 0 if unknown */
+  const char* settings;                            /* a file; empty if the scenario has none */
+  int32_t threads;                                 /* available, the calling one included */
 } vinebench_setup;
 
 typedef struct vinebench_image {
-  const uint8_t* data; /* top row first; NULL where the camera delivered no image */
+  const uint8_t* data; /* top row first; NULL if the camera delivered no image */
   int32_t width, height;
   int32_t channels; /* 1: grey, 3: red, green, blue */
   size_t stride;    /* bytes from a row to the next */
@@ -95,7 +95,7 @@ typedef struct vinebench_frame {
   int64_t index;
   int64_t stamp;
   const vinebench_image* images;   /* one a camera, in the setup's order */
-  const vinebench_imu_sample* imu; /* since the frame before, oldest first */
+  const vinebench_imu_sample* imu; /* since the previous frame, oldest first */
   size_t imu_count;
   const vinebench_wheel_sample* wheels; /* likewise */
   size_t wheel_count;
@@ -108,19 +108,19 @@ enum { /* vinebench_estimate.status */
        VINEBENCH_LOST = 3
 };
 
-/* How well a camera took part in a frame; zeros where a system does not tell. */
+/* Feature counts of one camera in a frame; zeros if unknown. */
 typedef struct vinebench_counts {
   int32_t features, stereo, matches, inliers;
 } vinebench_counts;
 
 typedef struct vinebench_loop_closure {
-  int32_t tag_id;                 /* -1 where it was no tag */
-  int64_t earlier, later;         /* stamps of the two frames that it ties together */
+  int32_t tag_id;                 /* -1 if it was not closed by a tag */
+  int64_t earlier, later;         /* stamps of the two constrained frames */
   vinebench_pose T_earlier_later; /* body to body */
   double correction;              /* how far this frame's body moved, m */
 } vinebench_loop_closure;
 
-/* What the system says of a frame. The bench hands it over as zeros, with room for the counts. */
+/* The estimate at a frame. The bench passes it zeroed, with memory for the counts. */
 typedef struct vinebench_estimate {
   int32_t status;
   int32_t has_pose;
@@ -137,7 +137,7 @@ typedef struct vinebench_stamped_pose {
   vinebench_pose T_map_body;
 } vinebench_stamped_pose;
 
-/* What it says in the end, after all corrections; the poses are its own until destroy. */
+/* The final result, after all corrections; the system owns the poses until destroy. */
 typedef struct vinebench_summary {
   const vinebench_stamped_pose* trajectory; /* of every frame that has a pose, in order */
   size_t trajectory_count;
@@ -146,7 +146,7 @@ typedef struct vinebench_summary {
   int64_t landmarks;
 } vinebench_summary;
 
-/* Where a function says why it failed: text that ends with a zero, cut to size. */
+/* Buffer for the reason of a failure: zero-terminated text, truncated to size. */
 typedef struct vinebench_message {
   char* text;
   size_t size;

@@ -11,7 +11,7 @@
 namespace vinebench {
 namespace {
 
-/// What a Stamp can hold, 292 years, a little less.
+/// Slightly less than the range of a Stamp, 292 years.
 constexpr double kMostSeconds = 9.2e9;
 
 }  // namespace

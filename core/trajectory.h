@@ -18,15 +18,15 @@ struct StampedPose {
 /// Poses in ascending order of their stamps.
 using Trajectory = std::vector<StampedPose>;
 
-/// Reads a TUM file: `t[s] x y z qx qy qz qw` a line, '#' begins a comment line.
-/// Throws Error with file and line for a wrong column count, a number that is none, a quaternion
-/// that cannot be normalised or stamps that do not ascend.
+/// Reads a TUM file: `t[s] x y z qx qy qz qw` on each line; '#' begins a comment line. Throws Error
+/// with file and line for a wrong number of columns, an invalid number, a quaternion that is not of
+/// unit length, or stamps that do not ascend.
 Trajectory read_tum(const std::filesystem::path& file);
 
 /// The text of a TUM file: stamps with nine decimals, the rest to 1e-9.
 std::string format_tum(const Trajectory& trajectory);
 
-/// Writes a TUM file, whole or not at all.
+/// Writes a TUM file atomically.
 void write_tum(const Trajectory& trajectory, const std::filesystem::path& file);
 
 }  // namespace vinebench

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// The experiments and the judge: reads a scenario, runs a SLAM system on its simulation in
-/// lockstep, compares what it says with the truth, and writes down what happened. Only here do
-/// simulation and SLAM meet.
+/// Runs and evaluates experiments: reads a scenario, runs a SLAM system on its simulation in
+/// lockstep, compares the estimate with the ground truth and writes the results. The only folder
+/// that uses both simulation and SLAM.
 
 #include "harness/experiment/scenario.h"
 #include "harness/jobs/run_scenario.h"

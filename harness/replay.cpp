@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kSection = "slam.";
 
-/// A scenario's keys begin with "slam."; those of its section alone do not.
+/// Keys of a scenario begin with "slam."; those of the section alone do not.
 std::string key_of_section(const std::string& key) {
   if (!key.starts_with(kSection) || key.size() == kSection.size()) {
     fail("--set {}: expected a key of the SLAM core, such as slam.cameras", key);
@@ -42,7 +42,7 @@ void prepare_replay_folder(const std::filesystem::path& folder, const slam::Slam
 RunOutcome run_replay(Recording recording, const slam::SlamConfig& slam, int threads,
                       const RunOptions& options) {
   WorkerPool pool(threads);
-  // A recording has no site and expects nothing.
+  // A recording has no site and no expectations.
   Trial trial;
   trial.name = recording.name;
   const auto system = slam::make_slam(slam, recording.rig, recording.tags, pool);

@@ -17,15 +17,15 @@ namespace vinebench::harness {
 slam::SlamConfig replay_settings(const Recording& recording, const std::filesystem::path& file,
                                  const std::vector<Override>& overrides);
 
-/// Makes the run's folder, with slam.resolved.yaml in it.
+/// Creates the run's folder, with slam.resolved.yaml.
 void prepare_replay_folder(const std::filesystem::path& folder, const slam::SlamConfig& slam);
 
-/// Runs the SLAM core on the recording's frames and judges it by the recording's ground truth,
-/// where there is one; writes the same files as a scenario's run.
+/// Runs the SLAM core on the recording's frames and evaluates it with the recording's ground truth,
+/// if there is one; writes the same files as a scenario's run.
 RunOutcome run_replay(Recording recording, const slam::SlamConfig& slam, int threads,
                       const RunOptions& options);
 
-/// Figures and faults of a replay for people, a line each.
+/// Human-readable metrics and faults of a replay, one line each.
 std::string format_replay(const Json& metrics);
 
 }  // namespace vinebench::harness

@@ -37,7 +37,7 @@ struct Sinks {
   std::optional<Progress> progress;
 };
 
-/// Keeps what is a function of the inputs first, then what the clock and the machine said.
+/// First the metrics that are a function of the inputs, then times and memory.
 Json complete_metrics(const Json& results, const FrameSource& source, const SlamSystem& slam,
                       double wall_seconds, const std::string& hash) {
   StageTimes times = source.times();
@@ -57,7 +57,7 @@ Json complete_metrics(const Json& results, const FrameSource& source, const Slam
 void expect_folder(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-    fail("{}: there is no folder {}", file.string(), folder.string());
+    fail("{}: folder {} does not exist", file.string(), folder.string());
   }
 }
 
@@ -81,7 +81,7 @@ RunOutcome run_lockstep_and_judge(const Trial& trial, FrameSource& source, SlamS
   RunOutcome outcome;
   outcome.summary = format_diagnosis(record, segments);
   outcome.frames = static_cast<std::int64_t>(record.ticks.size());
-  // A system that works at the end alone may be stopped there.
+  // A system that runs after the last frame may be stopped there.
   const bool whole = outcome.frames == source.size() && !record.summary.trajectory.empty();
   outcome.interrupted = options.stopped && options.stopped() && !whole;
   if (outcome.interrupted) return outcome;

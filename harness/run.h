@@ -14,7 +14,7 @@
 
 namespace vinebench::harness {
 
-/// Maps that a run begins with and leaves. None where empty.
+/// Maps to load before a run and to save after it. None if empty.
 struct MapFiles {
   std::filesystem::path load;
   std::filesystem::path save;
@@ -22,37 +22,36 @@ struct MapFiles {
 };
 
 struct RunOptions {
-  std::filesystem::path folder;  ///< where results go; nothing is written when empty
+  std::filesystem::path folder;  ///< for the results; nothing is written if empty
   MapFiles maps;
   int images = 12;                   ///< frames whose images are kept as PNG
-  std::ostream* progress = nullptr;  ///< told how far the run is
+  std::ostream* progress = nullptr;  ///< receives the progress
   bool terminal = false;             ///< `progress` is a terminal
   std::string title = "run";         ///< of the progress line
-  std::function<bool()> stopped;     ///< asked before each frame
-  std::vector<Sink*> sinks;          ///< told of each tick after the run's own
+  std::function<bool()> stopped;     ///< polled before each frame
+  std::vector<Sink*> sinks;          ///< receive each tick after the run's own sinks
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
 };
 
 struct RunOutcome {
-  bool interrupted = false;  ///< `stopped` said so; there is no metrics.json and no verdict
+  bool interrupted = false;  ///< by `stopped`; there is no metrics.json and no verdict
   std::int64_t frames = 0;
   std::vector<Check> checks;
   Json metrics;
   std::string hash;
-  std::string summary;  ///< for people: where the estimate suffered, and from what
+  std::string summary;  ///< human-readable: degraded segments and their causes
 };
 
-/// Runs a SLAM system on a source in lockstep, judges it and writes the run's files. The folder
+/// Runs a SLAM system on a source in lockstep, evaluates it and writes the run's files. The folder
 /// must have been prepared.
 RunOutcome run_lockstep_and_judge(const Trial& trial, FrameSource& source, SlamSystem& slam,
                                   const RunOptions& options);
 
-/// Throws Error where a map is to be written into a folder that is not there: better before a long
-/// run than after it.
+/// Throws Error if the folder for a map does not exist, so that the error comes before a long run.
 void check_map_folders(const MapFiles& maps);
 
-/// Runs a SLAM system on a source and judges it, with the maps of the options loaded before and
-/// saved after.
+/// Runs a SLAM system on a source and evaluates it. Loads the maps of the options before and saves
+/// them after.
 RunOutcome run_mapping_system(const Trial& trial, FrameSource& source, slam::MappingSystem& slam,
                               const RunOptions& options);
 

@@ -57,7 +57,7 @@ py::array to_array(const cv::Mat& mat) {
   return {dtype_of(mat), std::move(shape), std::move(strides), pixels, owner};
 }
 
-/// What a Python program holds of a run: the stream, and the frame's place in it.
+/// A frame and the stream that it belongs to.
 struct Scenario {
   std::shared_ptr<harness::FrameStream> stream;
 };
@@ -73,7 +73,7 @@ struct PyFrame {
   }
 };
 
-/// One array a camera that delivered, by its name.
+/// One array for each camera that delivered an image, by name.
 template <class ImageOf>
 py::dict by_camera(const PyFrame& self, const ImageOf& image_of) {
   py::dict arrays;
@@ -210,20 +210,20 @@ void define_camera(py::module_& module) {
           "distortion", [](const RigCamera& c) { return c.model.distortion; }, "k1, k2, p1, p2")
       .def_property_readonly(
           "T_body_camera", [](const RigCamera& c) { return c.T_body_cam.matrix(); },
-          "4 x 4, m: takes points of the camera (x right, y down, z ahead) to "
-          "the body's (x ahead, y left, z up)");
+          "4 x 4, m: transforms points of the camera frame (x right, y down, z ahead) to "
+          "the body frame (x forward, y left, z up)");
 }
 
 void define_frame(py::module_& module) {
   py::class_<PyFrame>(module, "Frame", "One instant: images and truth, each by camera name.")
       .def_property_readonly(
           "number", [](const PyFrame& f) { return f.frame->number; },
-          "among those asked for, from 0 on")
+          "among the requested frames, from 0")
       .def_property_readonly(
           "index", [](const PyFrame& f) { return f.frame->frame.index; }, "in the run")
       .def_property_readonly(
           "stamp", [](const PyFrame& f) { return f.frame->frame.stamp; },
-          "ns from the scenario's start, as the cameras say")
+          "ns from the scenario's start, as stamped by the cameras")
       .def_property_readonly(
           "time", [](const PyFrame& f) { return to_seconds(f.frame->frame.stamp); },
           "the same in s")
@@ -241,30 +241,30 @@ void define_frame(py::module_& module) {
           "float32 (h, w), m along the optical axis; 0 for sky")
       .def_property_readonly(
           "labels", [](const PyFrame& f) { return truth_arrays(f, &RenderedImage::labels); },
-          "uint8 (h, w), what label_names says")
+          "uint8 (h, w), indices into label_names")
       .def_property_readonly(
           "instances", [](const PyFrame& f) { return truth_arrays(f, &RenderedImage::instances); },
-          "int32 (h, w): 256 times the thing's number, and of a vine its bunch in the low byte")
+          "int32 (h, w): 256 times the object's number, plus a vine's bunch in the low byte")
       .def_property_readonly(
           "normals", [](const PyFrame& f) { return truth_arrays(f, &RenderedImage::normals); },
           "float32 (h, w, 3), unit, camera axes, towards the camera")
       .def_property_readonly("imu", &inertial_readings,
-                             "(n, 7) since the frame before: s, rad/s x y z, m/s^2 x y z")
+                             "(n, 7) since the previous frame: s, rad/s x y z, m/s^2 x y z")
       .def_property_readonly("wheels", &wheel_readings,
-                             "(n, 9) since the frame before: s, rad of front left, front right, "
+                             "(n, 9) since the previous frame: s, rad of front left, front right, "
                              "rear left, rear right, then rad/s of them")
       .def("things", &things_of, py::arg("camera"),
            "list of dicts: category, number, box (x, y, width, height), mask (bool), visibility "
            "and truncation (0 to 1, or None)")
       .def("flow_to", &flow_to, py::arg("next"), py::arg("camera"),
            "(float32 (h, w, 2) px, uint8 (h, w)): where each pixel's point is in the next frame, "
-           "NaN where that is nowhere, and 255 where it is seen there");
+           "NaN where undefined, and 255 where it is visible there");
 }
 
 void define_scenario(py::module_& module) {
   py::class_<Scenario>(module, "Scenario",
-                       "The frames of a simulated scenario, in order, each made when it is asked "
-                       "for. It can be gone through once.")
+                       "The frames of a simulated scenario, in order, computed "
+                       "on demand. It can be iterated once.")
       .def(py::init([](const std::filesystem::path& scenario, std::optional<std::int64_t> seed,
                        const std::map<std::string, py::object>& set,
                        const std::optional<std::filesystem::path>& randomise,
@@ -283,10 +283,10 @@ void define_scenario(py::module_& module) {
       .def_property_readonly("seed", [](const Scenario& s) { return s.stream->scenario().seed; })
       .def_property_readonly(
           "cameras", [](const Scenario& s) { return s.stream->rig().cameras; },
-          "as a SLAM system is told of them")
+          "nominal, as given to a SLAM system")
       .def_property_readonly(
           "true_cameras", [](const Scenario& s) { return s.stream->true_rig().cameras; },
-          "as they are: what truth agrees with")
+          "true, consistent with the truth images")
       .def("__len__", [](const Scenario& s) { return s.stream->size(); })
       .def("__iter__", [](const Scenario& s) { return s; })
       .def("__next__", &next_frame);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// The simulated half of the test bench: vineyard, rover physics, renderer, sensors and the truth.
-/// It knows nothing of SLAM; what it hands over is core's Frame, and Truth for the judge.
+/// The simulation of the test bench: vineyard, rover physics, renderer, sensors and ground truth.
+/// Independent of SLAM; its output is core's Frame, and Truth for the evaluation.
 
 #include "sim/render/renderer.h"
 #include "sim/rover/route.h"

@@ -84,8 +84,8 @@ class Simulation : public SimulatedSource {
   const StageTimes& times() const override { return times_; }
 
  private:
-  /// Past the frame's instant, where an image's exposure or the stamps ask for it; readings are
-  /// handed out up to the stamp.
+  /// Past the frame's instant, if an image's exposure or the stamps require it; readings are taken
+  /// up to the stamp.
   void drive(Frame& frame) {
     const ScopedTimer timer(times_, "physics");
     const Stamp instant = timing_.instant(frame.index);
@@ -106,7 +106,7 @@ class Simulation : public SimulatedSource {
                   [&](WheelSample& reading) { wheels_.measure(reading); });
   }
 
-  /// Every image has its part in what an automatic exposure does next.
+  /// An automatic exposure needs every image.
   bool takes_all() const { return config_.sensors.camera.exposure.automatic; }
   bool takes(std::size_t camera) const { return takes_all() || plan_.has_camera(camera); }
 
@@ -120,7 +120,7 @@ class Simulation : public SimulatedSource {
     return plan_.labels || plan_.depth || plan_.instances || plan_.normals || plan_.motion;
   }
 
-  /// Each renderer draws every n-th camera; who draws what changes no pixel.
+  /// Each renderer renders every N-th camera; the assignment changes no pixel.
   void render(Sample& sample) {
     const std::size_t cameras = rig_.cameras.size();
     std::vector<double> spent(cameras);
@@ -221,9 +221,9 @@ class Simulation : public SimulatedSource {
   CapturePlan plan_;
   SceneIndex index_of_scene_;
   Rig nominal_rig_;
-  Rig rig_;  ///< the true one
+  Rig rig_;  ///< the true rig
   DrivenRover rover_;
-  std::optional<Pose> T_world_map_;  ///< the estimator's map, once there is one
+  std::optional<Pose> T_world_map_;  ///< aligns the estimator's map, once there is one
   FrameTiming timing_;
   ExposureControl exposure_;
   InertialSensor inertial_;
@@ -231,7 +231,7 @@ class Simulation : public SimulatedSource {
   std::vector<CameraSensor> cameras_;
   std::vector<Renderer> renderers_;
   StageTimes times_;
-  Stamp window_ = 0;  ///< the most that an image is exposed before or after the frame's instant
+  Stamp window_ = 0;  ///< maximum time between an image's exposure and the frame's instant
   std::int64_t frames_ = 0;
   std::int64_t index_ = 0;
 };

@@ -28,7 +28,7 @@ struct SimulationConfig {
   RouteConfig route;
   RendererConfig renderer;
   SensorsConfig sensors;
-  std::optional<double> duration;  ///< s; the whole route where absent
+  std::optional<double> duration;  ///< s; the whole route if absent
   template <class Archive>
   void serialize(Archive& archive) {
     archive("world", world);
@@ -41,16 +41,15 @@ struct SimulationConfig {
 };
 
 /// Drives the rover along its route and takes an image with every camera at each frame's instant.
-/// rig() is what a SLAM system is told; the images are taken by the true one, which differs by
-/// the calibration error. Stamps are what the cameras say; the truth is that of the frame's
-/// instant. An image that is dropped is empty and shows nothing: its box share is 0 and no tag is
-/// visible. Where the route says so the rover is steered by the estimates that it is answered:
-/// the first one of a pose is taken to be where the rover stands, and while there is none it goes
-/// on as commanded.
+/// rig() is the nominal rig; the images are taken with the true one, which differs by the
+/// calibration error. Stamps may have errors; the truth is that of the frame's instant. A dropped
+/// image is empty: its box share is 0 and no tag is visible. With `steering: estimate` the rover is
+/// steered by the estimates: the first pose is aligned with the rover's true pose, and without a
+/// pose the last command continues.
 ///
-/// A frame that the plan leaves out is driven through and not delivered; its readings come with the
-/// next one. No image that is delivered depends on the plan: where exposure is automatic, the
-/// others are taken too.
+/// A frame that is not in the plan is simulated but not delivered; its readings are part of the
+/// next one. Delivered images do not depend on the plan: with automatic exposure, the others are
+/// rendered too.
 std::unique_ptr<SimulatedSource> make_simulation(const SimulationConfig& config, std::uint64_t seed,
                                                  const std::filesystem::path& cache,
                                                  WorkerPool& pool, const CapturePlan& plan = {});

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Makes the pictures of docs/images anew: worlds, growth stages, lights, sensor effects and labels,
-# each on one sheet. Needs ImageMagick's montage. Usage: tools/contact_sheets.sh [VINEBENCH]
+# Regenerates the contact sheets of docs/images: worlds, growth stages, lights, sensor effects and
+# labels. Needs ImageMagick's montage. Usage: tools/contact_sheets.sh [VINEBENCH]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 vinebench=${1:-build/vinebench}
@@ -11,7 +11,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 command -v montage >/dev/null || { echo "contact_sheets: expected ImageMagick's montage" >&2; exit 2; }
 
-# tile SHEET TITLE ARGUMENTS...: one picture of a sheet, in the order of the calls.
+# tile SHEET TITLE ARGUMENTS...: one image of a sheet, in the order of the calls.
 count=0
 tile() {
   count=$((count + 1))
@@ -70,8 +70,7 @@ tile lights 20_September,_45_degrees_north,_16:30_UTC "$typical" "${view[@]}" \
   --set 'sun.at={latitude_deg: 45.4, longitude_deg: 9, date: 2026-09-20, time: "16:30"}'
 sheet lights 3 420x
 
-# Sensor effects need exposures in motion: the rover turns on the spot, and a frame of the run is
-# taken.
+# Sensor effects need exposures in motion: a frame of a run in which the rover turns on the spot.
 cat >"$work/sensors.yaml" <<END
 name: sensors
 seed: 1
@@ -90,7 +89,7 @@ END
 effect() {
   count=$((count + 1))
   mkdir -p "$work/sensors"
-  # No scenario is judged here, and tracking may be lost.
+  # The verdict is irrelevant here; tracking may be lost.
   "$vinebench" run "$work/sensors.yaml" --out "$work/run_$count" "${@:2}" >/dev/null 2>&1 || true
   cp "$work/run_$count/frames/000006_front_left.png" \
     "$(printf '%s/sensors/%02d_%s.png' "$work" "$count" "$1")"
@@ -125,7 +124,7 @@ mkdir -p "$labels"
   --flow "$labels/07_flow.png" --flow-visible "$labels/08_flow_visible.png"
 mogrify -level 0,10000 -depth 8 "$labels"/05_depth.png
 mogrify -auto-level -depth 8 "$labels"/06_disparity.png
-# COCO's things as the Python module gives them: masks tinted, boxes drawn.
+# COCO's things from the Python module: tinted masks and boxes.
 PYTHONPATH=build/python /usr/bin/python3 - "$labels/09_coco,_bunches_and_posts.ppm" <<'END'
 import sys
 import vinebench

@@ -2,10 +2,10 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# All scenarios in full over the seeds 1 to 5: builds, runs what has not been run by this build yet
-# (out/nightly keeps it), and puts the table into docs/results.md between its two markers. Further
-# arguments go to `vinebench run`, e.g. --jobs 4 or --force. Exit code 1 when an expectation fails;
-# the table is written all the same.
+# All scenarios in full over the seeds 1 to 5: builds, makes the runs that this build has not made yet
+# (they are kept in out/nightly), and writes the table into docs/results.md between its two markers.
+# Further arguments go to `vinebench run`, e.g. --jobs 4 or --force. Exit code 1 if an expectation
+# fails; the table is written in any case.
 #   SEEDS=1..5  OUT=out/nightly  RESULTS=docs/results.md  SCENARIOS="scenarios/*.yaml"
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -16,7 +16,7 @@ read -ra scenarios <<<"${SCENARIOS:-$(echo scenarios/*.yaml)}"
 begin='<!-- results -->'
 end='<!-- /results -->'
 
-# Better before some hours of runs than after them.
+# Checked before hours of runs.
 [[ -f $results ]] || { echo "nightly.sh: $results: is no file" >&2; exit 2; }
 if [[ $(grep -cFx -- "$begin" "$results") -ne 1 || $(grep -cFx -- "$end" "$results") -ne 1 ]]; then
   echo "nightly.sh: $results: expected one line '$begin' and, after it, one '$end'" >&2

@@ -13,9 +13,9 @@ namespace vinebench::tools {
 /// `run` with several scenarios or seeds.
 struct ManyRuns {
   std::vector<harness::ScenarioConfig> scenarios;
-  std::vector<std::int64_t> seeds;  ///< each scenario's own where empty
+  std::vector<std::int64_t> seeds;  ///< each scenario's own if empty
   std::filesystem::path out;
-  std::filesystem::path junit;  ///< none where empty
+  std::filesystem::path junit;  ///< none if empty
   int jobs = 1;
   int threads = 1;
   bool force = false;

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Builds the SLAM library and its tests with sanitizers, each in a build of its own, and runs them,
-# from single functions to pictures driven past and mapped. Usage: sanitize.sh [PRESET]..., by
+# Builds the SLAM library and its tests with sanitizers, each in a separate build, and runs them,
+# from single functions to complete mapping runs on images. Usage: sanitize.sh [PRESET]..., by
 # default `address` (with undefined behaviour; without the long drives, and without the checks for
 # null and misaligned pointers and the sizes of objects, which address errors and Eigen's own
 # assertions tell of, and which take most of the time) and `thread` (what has threads). The preset

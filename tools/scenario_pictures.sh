@@ -2,9 +2,9 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Makes the pictures of docs/images/scenarios and docs/images/routes from the folders of finished runs:
-# three cameras in one moment, a fifth of the way in or at the frame given, and the plot. Needs
-# ImageMagick and librsvg's rsvg-convert.
+# Makes the images of docs/images/scenarios and docs/images/routes from the folders of finished
+# runs: three cameras at one instant, after a fifth of the run or at the given frame, and the plot.
+# Needs ImageMagick and librsvg's rsvg-convert.
 # Usage: tools/scenario_pictures.sh RUN[@FRAME]...
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -18,7 +18,7 @@ for argument in "$@"; do
   name=$(sed -nE 's/^name: "?([^"]*)"?$/\1/p' "$run/scenario.resolved.yaml" | head -1)
   if [[ $argument == *@* ]]; then
     frame=$run/frames/$(printf '%06d' "$((10#${argument##*@}))")
-  else # which is in the first aisle
+  else # in the first aisle
     mapfile -t lefts < <(ls "$run"/frames/*_front_left.png)
     frame=${lefts[$((${#lefts[@]} / 5))]%_front_left.png}
   fi

@@ -2,9 +2,9 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Installs the Debian packages that Vinebench is built from, those that are missing. As root, or
-# through sudo. Does nothing when all are there. Usage: setup.sh [--ros]; with --ros also those for
-# recording ROS bags, and for the tests that read them with Python: 135 packages, 322 MB.
+# Installs missing Debian packages for building Vinebench, as root or through sudo. No effect if all
+# are installed. Usage: setup.sh [--ros]; with --ros also those for recording ROS bags, and for the
+# tests that read them with Python: 135 packages, 322 MB.
 set -euo pipefail
 
 packages=(

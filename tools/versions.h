@@ -6,7 +6,7 @@
 
 namespace vinebench::tools {
 
-/// The program's version and those of the libraries it runs with, a line each.
+/// The versions of the program and its libraries, one a line.
 std::string versions_text();
 
 }  // namespace vinebench::tools

@@ -16,14 +16,14 @@ namespace vinebench {
 //       archive.require(low <= high, "low", "expected at most high");
 //     }
 //
-// That one list reads it strictly (YamlDocument::read in yaml.h), writes it with all defaults
-// resolved (format_yaml in yaml_writer.h), checks it (validate in validate.h) and documents its
+// This list is used to read it strictly (YamlDocument::read in yaml.h), write it with all defaults
+// resolved (format_yaml in yaml_writer.h), validate it (validate in validate.h) and document its
 // keys. Fields may be bool, int, std::int64_t, std::uint64_t, double, std::string,
 // std::filesystem::path, Eigen vectors, std::array, std::vector, std::optional, other such structs,
-// and enums with a `yaml_names(Enum)` that gives their names in order. A path names a file that
-// must exist, relative to the YAML file it stands in.
+// and enums with a `yaml_names(Enum)` that returns their names in order. A path must name an
+// existing file, relative to the YAML file.
 
-/// The numbers a field may take; also the text of the error when it does not.
+/// The valid range of a numeric field, and its text for error messages.
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
@@ -39,7 +39,7 @@ struct Range {
   std::string text() const;
 };
 
-/// Throws one Error that lists the violations, a line each, when there is any.
+/// Throws one Error that lists all violations, one a line; returns if there are none.
 void throw_violations(const std::vector<std::string>& violations);
 
 }  // namespace vinebench

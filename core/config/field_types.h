@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-// What kind of field a type is, for those that read, write and check configurations.
+// Classification of field types for reading, writing and validating configurations.
 namespace vinebench::field_types {
 
 template <class T>

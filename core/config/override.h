@@ -7,10 +7,10 @@
 
 namespace vinebench {
 
-/// A dotted key and the YAML value it takes: "slam.cameras", "front".
+/// A dotted key and its YAML value: "slam.cameras", "front".
 using Override = std::pair<std::string, std::string>;
 
-/// Splits "KEY=VALUE". Throws Error when there is no '=' or no key.
+/// Splits "KEY=VALUE". Throws Error if '=' or the key is missing.
 Override parse_override(const std::string& text);
 
 }  // namespace vinebench

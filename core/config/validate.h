@@ -16,7 +16,7 @@
 
 namespace vinebench {
 
-/// Checks the requirements and ranges of a struct that did not come from a file; throws one Error
+/// Checks the requirements and ranges of a struct that was not read from a file. Throws one Error
 /// that lists every violation.
 template <class T>
 void validate(T value);

@@ -11,7 +11,7 @@
 namespace vinebench {
 namespace {
 
-/// What was found, short enough for a message.
+/// The value found, shortened for a message.
 std::string describe(const YAML::Node& node) {
   if (node.IsNull()) return "nothing";
   if (node.IsSequence()) return fmt::format("a list of {}", node.size());
@@ -52,7 +52,7 @@ void assign(YAML::Node node, const std::vector<std::string>& parts, std::size_t 
   if (node.IsSequence()) {
     const bool number = !part.empty() && part.find_first_not_of("0123456789") == std::string::npos;
     if (!number || part.size() > 6 || std::stoul(part) >= node.size()) {
-      fail("--set {}: '{}' is no item of a list of {}", key, part, node.size());
+      fail("--set {}: '{}' is not an index into a list of {}", key, part, node.size());
     }
     const std::size_t index = std::stoul(part);
     if (last) {
@@ -63,7 +63,7 @@ void assign(YAML::Node node, const std::vector<std::string>& parts, std::size_t 
     return;
   }
   if (node.IsDefined() && !node.IsMap() && !node.IsNull()) {
-    fail("--set {}: unknown key, what stands before '{}' has no parts", key, part);
+    fail("--set {}: unknown key, the value before '{}' has no keys", key, part);
   }
   if (last) {
     node[part] = value;
@@ -107,7 +107,7 @@ void YamlDocument::inherit(const std::string& key, const std::vector<std::string
   *this = std::move(base);
 }
 
-/// Puts the items of `source`, which stand in `file`, into `target`.
+/// Merges the items of `source`, which come from `file`, into `target`.
 void YamlDocument::overlay(YAML::Node target, const YAML::Node& source, const std::string& prefix,
                            const std::filesystem::path& file) {
   std::set<std::string> present;
@@ -203,7 +203,7 @@ void YamlReader::finish() {
                                         document_.place_of(full(key), place), full(key), expected));
     } else if (!seen.insert(key).second) {
       violations_.push_back(
-          fmt::format("{}: {}: stands twice", document_.place_of(full(key), place), full(key)));
+          fmt::format("{}: {}: duplicate key", document_.place_of(full(key), place), full(key)));
     }
   }
 }

@@ -22,31 +22,31 @@ namespace vinebench {
 
 class YamlReader;
 
-/// A YAML file with where each part of it came from: its own lines, files it names, and overrides
+/// A YAML file and the origin of each of its parts: its own lines, included files, and overrides
 /// from the command line.
 class YamlDocument {
  public:
-  /// Throws Error when the file cannot be read or is no YAML (with its line).
+  /// Throws Error if the file cannot be read or is not valid YAML (with the line).
   static YamlDocument load(const std::filesystem::path& file);
 
   /// Replaces the top-level scalar `key`, a file name relative to this file, by that file's
-  /// content. Nothing happens where the key is absent or already a map.
+  /// content. No effect if the key is absent or already a map.
   void include(const std::string& key);
 
-  /// Takes over what this document does not say itself from the file that the top-level scalar
-  /// `key` names, relative to this file: maps are joined key by key, all else counts as a whole. A
-  /// base may have a base; `parts` are included in it. Nothing happens where the key is absent.
-  /// Throws Error for a missing file and for bases that go round in a circle.
+  /// Inherits keys from the file that the top-level scalar `key` names, relative to this file: maps
+  /// are merged key by key, other values of this document replace those of the base. A base may
+  /// have a base; `parts` are included in it. No effect if the key is absent. Throws Error for a
+  /// missing file and for bases that go round in a circle.
   void inherit(const std::string& key, const std::vector<std::string>& parts) {
     inherit(key, parts, 0);
   }
 
-  /// Sets a dotted key ("slam.tracking.radius", "route.2.speed") to the YAML value `value`. A key
-  /// that no struct knows is reported when the document is read.
+  /// Sets a dotted key ("slam.tracking.radius", "route.2.speed") to the YAML value `value`. An
+  /// unknown key is reported by read().
   void set(const std::string& key, const std::string& value);
 
-  /// Reads the whole document into a struct. Throws one Error that lists every violation, a line
-  /// each: unknown or duplicate key, wrong type, number out of range, failed requirement.
+  /// Reads the whole document into a struct. Throws one Error that lists every violation, one a
+  /// line: unknown or duplicate key, wrong type, number out of range, failed requirement.
   template <class T>
   T read() const;
 
@@ -59,11 +59,11 @@ class YamlDocument {
   std::string place_of(const std::string& key, const YAML::Node& node) const;
 
   YAML::Node root_;
-  std::map<std::string, std::filesystem::path> files_;  ///< by the dotted key they begin at
-  std::map<std::string, std::string> overrides_;        ///< dotted key to the value given
+  std::map<std::string, std::filesystem::path> files_;  ///< by the dotted key of their root
+  std::map<std::string, std::string> overrides_;        ///< dotted key to value
 };
 
-/// Reads a struct out of a document and gathers every violation. See config_field.h.
+/// Reads a struct from a document and collects every violation. See config_field.h.
 class YamlReader {
  public:
   YamlReader(const YamlDocument& document, YAML::Node node, std::string prefix,
@@ -83,7 +83,7 @@ class YamlReader {
 
   void require(bool ok, const std::string& key, const std::string& expectation);
 
-  /// Reports keys that no field asked for, and keys that stand twice.
+  /// Reports unknown and duplicate keys.
   void finish();
 
  private:
@@ -129,9 +129,9 @@ class YamlReader {
     } else if constexpr (field_types::IsVector<T>::value) {
       value.clear();
       if (node.IsScalar() && !std::is_class_v<typename T::value_type>) {
-        read(node, key, value.emplace_back(), range);  // one number stands for a list of one
+        read(node, key, value.emplace_back(), range);  // a single number is a list of one
       } else if (node.IsScalar() && std::is_same_v<typename T::value_type, std::string>) {
-        read(node, key, value.emplace_back(), range);  // so does one name
+        read(node, key, value.emplace_back(), range);  // a single name likewise
       } else if (expect_sequence(node, key, node.size())) {
         value.resize(node.size());
         for (std::size_t i = 0; i < node.size(); ++i) {

@@ -5,7 +5,7 @@
 namespace vinebench {
 namespace {
 
-/// Brown-Conrady: where the lens puts the ideal point (x, y) of the plane z = 1.
+/// Brown-Conrady: the distorted position of the ideal point (x, y) of the plane z = 1.
 Eigen::Vector2d distort(const Eigen::Vector2d& p, const std::array<double, 4>& d) {
   const double x = p.x();
   const double y = p.y();

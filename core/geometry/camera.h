@@ -22,14 +22,14 @@ struct PinholeCamera {
 
   bool has_distortion() const;
 
-  /// Pixel of a point in the camera frame; the caller sees to z > 0.
+  /// Pixel of a point in the camera frame. Requires z > 0.
   Eigen::Vector2d project(const Eigen::Vector3d& p_cam) const;
 
   /// Point of the plane z = 1 that is seen at `pixel`. Inverts the distortion by fixed-point
   /// iteration to 1e-10 for lenses whose distortion is monotonic in the image.
   Eigen::Vector3d unproject(const Eigen::Vector2d& pixel) const;
 
-  /// Whether the pixel is on the image, at least `margin` pixels from its edge.
+  /// Whether the pixel is inside the image, at least `margin` pixels from its border.
   bool contains(const Eigen::Vector2d& pixel, double margin = 0) const {
     return pixel.x() >= margin - 0.5 && pixel.y() >= margin - 0.5 &&
            pixel.x() < width - 0.5 - margin && pixel.y() < height - 0.5 - margin;

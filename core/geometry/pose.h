@@ -33,7 +33,7 @@ struct Pose {
 Eigen::Quaterniond exp_so3(const Eigen::Vector3d& rotation_vector);
 Eigen::Vector3d log_so3(const Eigen::Quaterniond& rotation);
 
-/// The small motion (rho, theta) in a body's own frame as a pose: m, then a rotation vector, rad.
+/// A small motion (rho, theta) in the body frame as a pose: m, then a rotation vector, rad.
 Pose step_of(const Vector6d& step);
 
 /// Roll about x, then pitch about y, then yaw about z of the fixed axes (R = Rz Ry Rx), rad.
@@ -42,7 +42,7 @@ Eigen::Quaterniond from_roll_pitch_yaw(const Eigen::Vector3d& rpy);
 /// Heading of the x axis in the x-y plane, rad in (-pi, pi].
 double yaw_of(const Eigen::Quaterniond& rotation);
 
-/// The pose part-way between two others: linear in translation, slerp in rotation.
+/// Interpolates between two poses: linear in translation, slerp in rotation.
 Pose interpolate(const Pose& a, const Pose& b, double fraction);
 
 /// Angle of the rotation, rad in [0, pi].

@@ -17,7 +17,7 @@
 
 namespace vinebench {
 
-/// One camera of a rig: its lens and where it sits on the body.
+/// One camera of a rig: its model and its pose on the body.
 struct RigCamera {
   std::string name;
   PinholeCamera model;
@@ -37,7 +37,7 @@ struct Rig {
   double rate_hz = 15;
   std::vector<RigCamera> cameras;
   std::vector<StereoPair> stereo_pairs;  ///< used for tracking
-  std::vector<int> tag_cameras;          ///< searched for AprilTags
+  std::vector<int> tag_cameras;          ///< in which AprilTags are detected
 
   /// Index of the camera with that name, or -1.
   int find_camera(const std::string& name) const;
@@ -49,12 +49,12 @@ struct Rig {
   /// right camera is `baseline` (m) to the right of it. Its cameras are "left" and "right".
   static Rig stereo(const PinholeCamera& lens, double baseline);
 
-  /// Pose of a camera that sits at `position` (m) and looks along the x axis of a body-like frame
-  /// (x ahead, y left, z up) turned by roll, pitch, yaw (rad) against the body.
+  /// Pose of a camera at `position` (m) that looks along the x axis of a body-like frame (x
+  /// forward, y left, z up) rotated by roll, pitch, yaw (rad) against the body.
   static Pose mount(const Eigen::Vector3d& position, const Eigen::Vector3d& rpy);
 };
 
-/// How a rig is written in YAML. Angles in degrees there.
+/// The YAML form of a rig, with angles in degrees.
 struct RigConfig {
   struct Camera {
     std::string name;
@@ -62,8 +62,8 @@ struct RigConfig {
     int height = 480;                    ///< px
     double fx = 263.2786;                ///< px
     double fy = 263.2786;                ///< px
-    std::optional<double> cx;            ///< px; the middle, (width - 1) / 2, where absent
-    std::optional<double> cy;            ///< px; the middle, (height - 1) / 2, where absent
+    std::optional<double> cx;            ///< px; default: the centre, (width - 1) / 2
+    std::optional<double> cy;            ///< px; default: the centre, (height - 1) / 2
     std::array<double, 4> distortion{};  ///< k1, k2, p1, p2
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, in the body frame
     Eigen::Vector3d rpy_deg = Eigen::Vector3d::Zero();   ///< view direction against the body
@@ -111,7 +111,7 @@ struct RigConfig {
     check(archive);
   }
 
-  /// Throws Error where a name is unknown (a validated config has none).
+  /// Throws Error if a name is unknown (not possible with a validated config).
   Rig make() const;
 
  private:

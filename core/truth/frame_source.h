@@ -22,41 +22,41 @@ class FrameSource {
   virtual ~FrameSource() = default;
   /// The next sample, or nothing after the last.
   virtual std::optional<Sample> next() = 0;
-  /// What a SLAM system said of the last sample, before the next one is asked for. Most sources do
-  /// not care.
+  /// The estimate for the last sample, passed before the next one is requested. Ignored by most
+  /// sources.
   virtual void answer(const Estimate&) {}
-  /// How many there will be.
+  /// Number of samples in total.
   virtual std::int64_t size() const = 0;
-  /// The cameras as a SLAM system is told of them.
+  /// The nominal rig, as given to a SLAM system.
   virtual const Rig& rig() const = 0;
   virtual const StageTimes& times() const = 0;
 };
 
-/// A simulation, with what its truth images mean.
+/// A simulation, with the meaning of its truth images.
 class SimulatedSource : public FrameSource {
  public:
   virtual const SceneIndex& scene() const = 0;
-  /// The cameras that take the images.
+  /// The true rig, which takes the images.
   virtual const Rig& true_rig() const = 0;
 };
 
-/// What a recording asks of a simulation: more than a SLAM system needs, or less.
+/// What a simulation delivers for a recording: more than a SLAM system needs, or less.
 struct CapturePlan {
-  // Which truth images come with each image (RenderedImage says what they are).
+  // Which truth images come with each image (defined by RenderedImage).
   bool labels = false;
   bool depth = false;
   bool instances = false;
   bool normals = false;
   bool motion = false;
-  std::vector<bool> cameras;  ///< of the rig, which ones deliver images; all where empty
-  std::int64_t first = 0;     ///< the first frame that is delivered
+  std::vector<bool> cameras;  ///< of the rig, which ones deliver images; all if empty
+  std::int64_t first = 0;     ///< index of the first delivered frame
   std::int64_t last = std::numeric_limits<std::int64_t>::max();
-  std::int64_t every = 1;  ///< from the first on, every n-th frame is delivered
+  std::int64_t every = 1;  ///< from the first on, every N-th frame is delivered
 
   bool has_frame(std::int64_t index) const {
     return index >= first && index <= last && (index - first) % every == 0;
   }
-  /// Of a run of so many frames.
+  /// For a run of that many frames.
   std::int64_t count(std::int64_t frames) const {
     const std::int64_t end = std::min(last, frames - 1);
     return end < first ? 0 : (end - first) / every + 1;

@@ -7,7 +7,7 @@
 
 namespace vinebench {
 
-/// What a pixel shows.
+/// The class of a pixel.
 enum class Label : std::uint8_t {
   kSky,
   kGround,
@@ -24,7 +24,7 @@ enum class Label : std::uint8_t {
   kPerson
 };
 
-/// What kind of thing an instance is.
+/// The kind of an instance.
 enum class Thing {
   kNone,    ///< sky and wires
   kGround,  ///< the terrain's surface
@@ -34,18 +34,18 @@ enum class Thing {
   kBox,
   kPerson,
   kRover,
-  kCover  ///< what lies or grows on the ground: weeds, stones, fallen leaves, hedges, hills
+  kCover  ///< on the ground: weeds, stones, fallen leaves, hedges, hills
 };
 
 /// "none", "ground", "vine" and so on.
 std::string name_of(Thing thing);
 
-/// What a number of RenderedImage::instances stands for.
+/// The meaning of a number of RenderedImage::instances.
 struct InstanceName {
   Thing thing = Thing::kNone;
   int index = -1;     ///< into Scene::instances; -1 for kNone and kRover
-  int id = -1;        ///< Instance::id: a vine's place in its world, a tag's place in the list
-  int part = 0;       ///< from 1 on a bunch of a vine, counted within it
+  int id = -1;        ///< Instance::id: a vine's index in its world, a tag's index in the list
+  int part = 0;       ///< bunch of a vine, from 1
   std::string model;  ///< Model::name, such as a box's own
 };
 

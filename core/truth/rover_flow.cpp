@@ -18,8 +18,8 @@ void move_rover(const PinholeCamera& camera, const Pose& T_world_cam, const Pose
       if (label[x] != static_cast<std::uint8_t>(Label::kRover)) continue;
       const double z = static_cast<double>(depth.at<float>(y, x));
       const Eigen::Vector3d p = T_world_cam * (z * camera.unproject({x, y}));
-      const Eigen::Vector3f way = (other_from_this * p - p).cast<float>();
-      moved[x] = {way.x(), way.y(), way.z()};
+      const Eigen::Vector3f displacement = (other_from_this * p - p).cast<float>();
+      moved[x] = {displacement.x(), displacement.y(), displacement.z()};
     }
   }
 }

@@ -14,11 +14,10 @@
 
 namespace vinebench {
 
-/// What the numbers of RenderedImage::instances mean, and where these things are, without their
-/// meshes.
+/// Names and positions of the numbers in RenderedImage::instances, without meshes.
 class SceneIndex {
  public:
-  /// Where an instance of a scene is.
+  /// An instance of a scene and its pose.
   struct Place {
     InstanceName name;  ///< of the whole
     int model = -1;
@@ -30,18 +29,18 @@ class SceneIndex {
 
   SceneIndex() = default;
   /// Of all instances of a scene in its order, the points of their models, at most kMostPoints a
-  /// part, and the rover, where there is one.
+  /// part, and the rover, if there is one.
   SceneIndex(std::vector<Place> places, Points points, std::optional<InstanceName> rover)
       : places_(std::move(places)), rover_(std::move(rover)), points_(std::move(points)) {}
 
   /// Throws Error for a number that the scene does not have.
   InstanceName name(std::int32_t number) const;
 
-  /// The name's kind alone.
+  /// The kind only.
   Thing thing(std::int32_t number) const;
 
-  /// Points spread over the surface of a plant, a bunch of it (by the part) or another thing, m in
-  /// the world frame, in still air: at most kMostPoints. None of ground, cover and rover.
+  /// Points spread over the surface of a plant, a bunch of it (by the part) or another object, m in
+  /// the world frame, in still air: at most kMostPoints. None for ground, cover and rover.
   std::vector<Eigen::Vector3d> points(std::int32_t number) const;
 
   /// Numbers of all bunches of the scene, in ascending order.

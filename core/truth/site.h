@@ -11,7 +11,7 @@
 
 namespace vinebench {
 
-/// An AprilTag of the world, as it truly stands.
+/// An AprilTag of the world at its true pose.
 struct WorldTag {
   std::string family;
   int id = 0;
@@ -20,14 +20,14 @@ struct WorldTag {
   bool registered = true;  ///< whether the SLAM system is given its pose
 };
 
-/// A vineyard seen from above: what the judge, plots and data sets need to know of a world. Empty
-/// where a source has none, such as a recording of others.
+/// Top view of a vineyard, for evaluation, plots and data sets. Empty if a source has none, such as
+/// a recording of others.
 struct Site {
   struct Row {
     Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< m
     Eigen::Vector2d end = Eigen::Vector2d::Zero();    ///< m
   };
-  /// What may stand before a camera.
+  /// An object that may occlude a camera.
   struct Object {
     Label label = Label::kBox;
     Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< m
@@ -37,10 +37,10 @@ struct Site {
   };
   std::string name;  ///< of the world
   std::vector<Row> rows;
-  std::vector<Eigen::Vector2d> vines;  ///< m, their feet
-  std::vector<Eigen::Vector2d> posts;  ///< m, their feet
+  std::vector<Eigen::Vector2d> vines;  ///< m, positions on the ground
+  std::vector<Eigen::Vector2d> posts;  ///< m, positions on the ground
   std::vector<Object> objects;
-  std::vector<WorldTag> tags;  ///< in the order that Truth::visible_tags counts
+  std::vector<WorldTag> tags;  ///< in the order of the indices in Truth::visible_tags
   double vine_spacing = 0;     ///< m, along a row
   double canopy_depth = 0;     ///< m, across a row
   double post_radius = 0;      ///< m

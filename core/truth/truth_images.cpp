@@ -13,12 +13,12 @@
 namespace vinebench {
 namespace {
 
-constexpr double kNearest = 1e-3;         // m before a camera; nearer points are not in its image
-constexpr double kShare = 1e-3;           // of depth: levels of detail, rounding
-constexpr double kResolution = 4e-6;      // 1/m: depth of 32 bits from 0.03 m on, twice
-constexpr double kSlopeShare = 0.25;      // px, of the depth's slope
-constexpr double kMostBySlope = 0.01;     // of depth
-constexpr double kSameAxes = 1e-6;        // rad, of the cameras and of the baseline off the x axis
+constexpr double kNearest = 1e-3;      // m in front of a camera; nearer points are not in its image
+constexpr double kShare = 1e-3;        // of depth: levels of detail, rounding
+constexpr double kResolution = 4e-6;   // 1/m: depth of 32 bits from 0.03 m on, twice
+constexpr double kSlopeShare = 0.25;   // px, of the depth's slope
+constexpr double kMostBySlope = 0.01;  // of depth
+constexpr double kSameAxes = 1e-6;     // rad, of the cameras and of the baseline off the x axis
 constexpr double kSameIntrinsics = 1e-9;  // px
 
 void check(const TruthView& view, const char* which) {
@@ -34,14 +34,14 @@ void check(const TruthView& view, const char* which) {
   }
 }
 
-/// Where rays of z = 1 through the centres of pixels go, along one axis of the image.
+/// Directions (z = 1) of the rays through the pixel centres, along one axis of the image.
 std::vector<double> rays(int size, double focal, double centre) {
   std::vector<double> at(static_cast<std::size_t>(size));
   for (int i = 0; i < size; ++i) at[static_cast<std::size_t>(i)] = (i - centre) / focal;
   return at;
 }
 
-/// The place in b of what a pixel of a shows.
+/// The position in b of the point seen by a pixel of a.
 class Warp {
  public:
   Warp(const TruthView& a, const TruthView& b) : a_(a), b_(b) {
@@ -52,7 +52,7 @@ class Warp {
     t_b_a_ = T_b_a.translation;
   }
 
-  /// Point in camera b's frame; of sky the direction.
+  /// Point in camera b's frame; for sky, the direction.
   Eigen::Vector3d point(int x, int y) const {
     const double depth = a_.image.depth.at<float>(y, x);
     const Eigen::Vector3d ray =
@@ -65,10 +65,10 @@ class Warp {
 
   bool is_sky(int x, int y) const { return a_.image.depth.at<float>(y, x) == 0; }
 
-  /// Whether b shows the point, or the sky, at a place of its image.
+  /// Whether the point, or the sky, is visible in b at a position of its image.
   bool shows(const Eigen::Vector2d& place, const Eigen::Vector3d& point, bool sky) const {
     if (!b_.camera.contains(place)) return false;
-    // The nearest pixel; places begin at -0.5.
+    // The nearest pixel; positions begin at -0.5.
     const int x = std::min(static_cast<int>(place.x() + 0.5), b_.camera.width - 1);
     const int y = std::min(static_cast<int>(place.y() + 0.5), b_.camera.height - 1);
     const double seen = b_.image.depth.at<float>(y, x);
@@ -92,7 +92,7 @@ class Warp {
                           n.y() * b_rows_[static_cast<std::size_t>(y)] + n.z();
     const double expected = seen * facing * point.z() / n.dot(point);
     const double off = std::abs(point.z() - expected) - kShare * seen - kResolution * seen * seen;
-    if (!(off > 0)) return off <= 0;  // nearly all, and what is not a number
+    if (!(off > 0)) return off <= 0;  // nearly all, and NaN
     const double slope = seen * Eigen::Vector2d(n.x() / b_.camera.fx, n.y() / b_.camera.fy).norm() /
                          std::abs(facing);
     return off <= std::min(kSlopeShare * slope, kMostBySlope * seen);
@@ -118,8 +118,9 @@ void check_rectified(const TruthView& left, const TruthView& right) {
       t.tail<2>().norm() > kSameAxes * t.x() || !same(l.fx, r.fx) || !same(l.fy, r.fy) ||
       !same(l.cy, r.cy)) {
     fail(
-        "disparity: the views are no rectified pair, expected the right camera beside the left one "
-        "along its x axis, looking the same way, with the same focal lengths and cy");
+        "disparity: the views are not a rectified pair, expected the right camera beside the left "
+        "one "
+        "along its x axis, with the same orientation, focal lengths and cy");
   }
 }
 

@@ -8,11 +8,11 @@
 
 namespace vinebench {
 
-/// The whole of a file. Throws Error when it cannot be read.
+/// The content of a file. Throws Error if it cannot be read.
 std::string read_file(const std::filesystem::path& file);
 
-/// Writes beside the final name and renames when whole, so that an interrupted run leaves no half
-/// file. Throws Error with the system's reason (permission, disk full).
+/// Writes to a temporary file and renames it when complete, so that an interrupted run leaves no
+/// incomplete file. Throws Error with the system's reason (permission, disk full).
 void write_file_atomically(const std::filesystem::path& file, std::string_view content);
 
 }  // namespace vinebench

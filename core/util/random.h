@@ -7,13 +7,13 @@
 
 namespace vinebench {
 
-/// Counter-based randomness: every draw is a function of (seed, stream name, frame, index) alone,
-/// so that a further sensor, plant or thread changes no other draw.
+/// Counter-based randomness: every draw is a function of (seed, stream name, frame, index) only, so
+/// that an additional sensor, plant or thread changes no other draw.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::string_view name, std::uint64_t frame = 0);
 
-  /// 64 well-mixed bits for that index (SplitMix64's finaliser over a Weyl sequence).
+  /// 64 hashed bits for that index (SplitMix64's finaliser over a Weyl sequence).
   std::uint64_t bits(std::uint64_t index) const {
     std::uint64_t z = key_ + (index + 1) * 0x9e3779b97f4a7c15ULL;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -52,7 +52,7 @@ class RandomSequence {
   std::uint64_t next_ = 0;
 };
 
-/// FNV-1a of bytes, continued from `hash`; the building block of stream names and run hashes.
+/// FNV-1a of bytes, continued from `hash`; used for stream names and run hashes.
 std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash = 0xcbf29ce484222325ULL);
 
 }  // namespace vinebench

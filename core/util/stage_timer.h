@@ -9,7 +9,7 @@
 
 namespace vinebench {
 
-/// Wall-clock samples by stage, milliseconds. Kept beside the results, never in them.
+/// Wall-clock times by stage, milliseconds. Reported beside the results, never part of them.
 class StageTimes {
  public:
   void add(const std::string& stage, double milliseconds) {

@@ -12,11 +12,11 @@
 
 namespace vinebench {
 
-/// A few threads that share independent work. Which thread does which item never reaches a result:
-/// each item writes only its own slot.
+/// A few threads for independent work items. The assignment of items to threads does not affect
+/// results: each item writes only to its own slot.
 class WorkerPool {
  public:
-  /// `threads` counts the calling thread too; 1 runs everything in the caller.
+  /// `threads` includes the calling thread; 1 runs everything in the caller.
   explicit WorkerPool(int threads);
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
@@ -24,8 +24,8 @@ class WorkerPool {
 
   int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
-  /// Calls work(0) … work(n - 1), each once, and returns when all are done. Rethrows the exception
-  /// of the lowest item that threw. Not re-entrant.
+  /// Calls work(0) … work(n - 1), each once, and returns when all have finished. Rethrows the
+  /// exception of the lowest item that threw. Not re-entrant.
   void for_each(std::size_t n, const std::function<void(std::size_t)>& work);
 
  private:

@@ -6,8 +6,8 @@
 
 namespace vinebench {
 
-/// Text as it may stand in XML, between tags and in attributes: markup and line ends escaped,
-/// characters that XML does not have left out.
+/// Escapes text for XML elements and attributes: markup and line ends are escaped, characters not
+/// allowed in XML are removed.
 std::string xml_escaped(const std::string& text);
 
 }  // namespace vinebench

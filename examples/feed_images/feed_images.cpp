@@ -7,13 +7,13 @@
 
 using namespace vinebench;
 
-/// Reads FOLDER/left/000000.png, FOLDER/right/000000.png and on, and prints where the left camera
-/// is.
+/// Reads FOLDER/left/000000.png, FOLDER/right/000000.png and so on, and prints the position of the
+/// left camera.
 int main(int argc, char** argv) try {
   const std::string folder = argc == 2 ? argv[1] : throw Error("usage: feed_images FOLDER");
   const PinholeCamera lens{640, 400, 400, 400, 319.5, 199.5};  // width, height, fx, fy, cx, cy, px
   const Rig rig = Rig::stereo(lens, 0.12);  // rectified, the cameras 0.12 m apart
-  WorkerPool threads(2);                    // more or fewer change no result
+  WorkerPool threads(2);                    // the number changes no result
   const auto slam = slam::make_slam(slam::SlamConfig{}, rig, {}, threads);
 
   Frame frame;

@@ -2,12 +2,12 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Runs ORB-SLAM3's example program stereo_euroc (release 1.0) on a recording of Vinebench, as
-# slam.external asks. Usage: run.sh STEREO_EUROC VOCABULARY RECORDING OUTPUT
+# Runs ORB-SLAM3's example program stereo_euroc (release 1.0) on a recording of Vinebench, for
+# slam.external. Usage: run.sh STEREO_EUROC VOCABULARY RECORDING OUTPUT
 #   STEREO_EUROC  the program, as built from its own sources
 #   VOCABULARY    ORBvoc.txt, unpacked
-# Takes the first two cameras, which must be a rectified pair; leaves f_vinebench.txt, the poses of
-# the left one.
+# Takes the first two cameras, which must be a rectified pair; writes f_vinebench.txt, the poses
+# of the left one.
 set -euo pipefail
 [[ $# -eq 4 ]] || { echo "usage: run.sh STEREO_EUROC VOCABULARY RECORDING OUTPUT" >&2; exit 2; }
 program=$1 vocabulary=$2 recording=$3 output=$4
@@ -22,7 +22,7 @@ numbers() {
 read -r fx fy cx cy <<<"$(numbers intrinsics "$left/sensor.yaml")"
 read -r width height <<<"$(numbers resolution "$left/sensor.yaml")"
 rate=$(sed -nE 's/^rate_hz: //p' "$left/sensor.yaml")
-# Distance of the eyes, from the last column of both T_BS.
+# Baseline, from the last column of both T_BS.
 baseline=$(echo "$(numbers data "$left/sensor.yaml") $(numbers data "$right/sensor.yaml")" |
   awk '{ x = $4 - $20; y = $8 - $24; z = $12 - $28; printf "%.9f", sqrt(x * x + y * y + z * z) }')
 
@@ -56,14 +56,14 @@ Viewer.ViewpointY: -0.7
 Viewer.ViewpointZ: -1.8
 Viewer.ViewpointF: 500.0
 END
-# Frames that both eyes have, by the stamps that name the pictures.
+# Frames of both cameras, by the stamps in the image names.
 comm -12 <(ls "$left/data" | sort) <(ls "$right/data" | sort) | sed 's/\.png$//' | sort -n \
   >"$output/times.txt"
 
 cd "$output"
 code=0
 "$program" "$vocabulary" settings.yaml "$recording" times.txt vinebench || code=$?
-# It may crash in its own clean-up, after the trajectory is on the disk.
+# It may crash in its clean-up, after the trajectory has been written.
 if [[ $code -ne 0 && ! -s f_vinebench.txt ]]; then
   echo "run.sh: $program: exit code $code, and no trajectory" >&2
   exit "$code"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Vinebench's own SLAM core behind the door that any other system comes through.
+// Vinebench's own SLAM core as a plug-in, an example for other systems.
 #include <core/slam_plugin.h>
 #include <slam/slam.h>
 
@@ -106,7 +106,7 @@ void tell(const Estimate& estimate, vinebench_estimate& answer) {
                          loop.correction};
 }
 
-/// What stands behind the bench's pointer.
+/// The object behind the bench's void pointer.
 struct System {
   explicit System(const vinebench_setup& setup)
       : threads(setup.threads),
@@ -126,7 +126,7 @@ struct System {
   std::vector<vinebench_stamped_pose> keyframes;
 };
 
-/// No exception may pass through the door.
+/// No exception may cross the C interface.
 template <class Work>
 int guarded(vinebench_message message, const Work& work) {
   try {

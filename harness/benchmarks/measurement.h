@@ -7,7 +7,7 @@
 
 namespace vinebench::harness {
 
-/// What a piece of work took. For benchmarks only: no result of a run depends on it.
+/// CPU and wall time of a piece of work. For benchmarks only: no result of a run depends on it.
 struct Timing {
   double cpu_ms = 0;  ///< of all threads of the process
   double wall_ms = 0;
@@ -15,20 +15,20 @@ struct Timing {
 
 Timing measure(const std::function<void()>& work);
 
-/// The upper one of the middle two where the count is even. Expects at least one value.
+/// The upper of the middle two if the count is even. Requires at least one value.
 double median(std::vector<double> values);
 
-/// Of each figure by itself.
+/// Of each quantity separately.
 Timing median(const std::vector<Timing>& timings);
 
 /// Two decimals, for reports.
 double rounded(double value);
 
-/// The most memory that this process has held so far or since reset_peak_memory(), MiB.
+/// Peak memory of this process so far, or since reset_peak_memory(), MiB.
 double peak_memory_mib();
 
-/// Gives back what is free, and makes what is held then the most that was held. Without effect
-/// where the system has no such thing.
+/// Returns free memory to the system and resets the peak to the current value. No effect if the
+/// system does not support it.
 void reset_peak_memory();
 
 }  // namespace vinebench::harness

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kSecondsPerHour = 3600;
 
-/// Labels of each kind once, with the images that they are of.
+/// Every kind of label once, with its images.
 const std::vector<std::string> kEveryLabel{"rgb",     "depth", "semantic",  "instances",
                                            "normals", "flow",  "disparity", "coco"};
 const std::vector<std::string> kImages{"rgb"};
@@ -30,7 +30,7 @@ const std::vector<std::string> kTraining{"rgb", "depth", "semantic", "instances"
 
 /// What is timed.
 struct Kind {
-  std::vector<std::string> formats;  ///< none: nothing is recorded
+  std::vector<std::string> formats;  ///< empty: nothing is recorded
   std::vector<std::string> cameras;  ///< all where empty
   bool slam = false;                 ///< as `run`, else as `record`
 };
@@ -41,7 +41,7 @@ struct Measured {
   std::int64_t images = 0;
 };
 
-/// Counts the images that go by.
+/// Counts the delivered images.
 class ImageCount : public Sink {
  public:
   void on_tick(const Sample& sample, const Estimate&) override {
@@ -60,7 +60,7 @@ void drive(FrameSource& source, const std::vector<Sink*>& sinks) {
   for (Sink* sink : sinks) sink->on_finish({});
 }
 
-/// As run_scenario() does it, without the judge.
+/// As run_scenario(), without evaluation.
 void drive_and_estimate(const RecordBenchmark& benchmark, FrameSource& source,
                         const std::vector<Sink*>& sinks) {
   WorkerPool estimating(benchmark.threads);
@@ -129,7 +129,7 @@ Json measure_recording(const RecordBenchmark& benchmark) {
   const std::vector<std::string> pairs =
       pair_cameras(load_rig(benchmark.scenario.simulation.rover.rig));
   if (pairs.empty()) fail("bench record: the scenario's rig has no stereo pair");
-  measure_kind(benchmark, {});  // grows the plants and warms what keeps things warm
+  measure_kind(benchmark, {});  // generates the plants and fills caches
   Json result{{"scenario", benchmark.scenario.name},
               {"frames", benchmark.frames},
               {"threads", benchmark.threads}};

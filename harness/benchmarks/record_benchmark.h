@@ -10,22 +10,22 @@
 
 namespace vinebench::harness {
 
-/// What `vinebench bench record` measures: what recording costs beside the simulation.
+/// Settings of `vinebench bench record`: the cost of recording beside the simulation.
 struct RecordBenchmark {
   ScenarioConfig scenario;
   std::int64_t frames = 60;      ///< the first ones of the run
-  int threads = 2;               ///< that draw, and as many that encode
-  std::filesystem::path folder;  ///< for recordings, which are removed again
+  int threads = 2;               ///< for rendering, and as many for encoding
+  std::filesystem::path folder;  ///< for recordings, which are removed afterwards
 };
 
 /// Wall and CPU time of the frames (`wall_s`, `cpu_s` of all threads), the ratio of wall time to
 /// that without recording, `megabytes` and `images_per_hour`, in `rows`: simulated alone (`record`)
-/// and with the SLAM core (`run`), each without recording, with every camera's colour images as
-/// PNG (`rgb`) and with every kind of label besides (`labels`); `record training` is the stereo
-/// pairs' images with depth, semantic, instances and COCO. Growing the vineyard is in no figure.
+/// and with the SLAM core (`run`), each without recording, with every camera's colour images as PNG
+/// (`rgb`) and with every kind of label in addition (`labels`); `record training` is the stereo
+/// pairs' images with depth, semantic, instances and COCO. Without the generation of the vineyard.
 nlohmann::ordered_json measure_recording(const RecordBenchmark& benchmark);
 
-/// The result as a table for people.
+/// The result as a human-readable table.
 std::string record_table(const nlohmann::ordered_json& result);
 
 }  // namespace vinebench::harness

@@ -22,10 +22,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kBeside = 1.0;     // m from a row that stands alone
-constexpr double kHalfTrack = 0.2;  // m, of a rover that lies on its ground
+constexpr double kBeside = 1.0;     // m from a single row
+constexpr double kHalfTrack = 0.2;  // m, half of the rover's track
 
-/// Mesa reads these once a process. One thread draws all by itself, without helpers.
+/// Mesa reads these once per process. With one thread, Mesa uses no worker threads.
 void prepare_software_rendering(int threads) {
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
   setenv("LP_NUM_THREADS", std::to_string(threads == 1 ? 0 : threads).c_str(), 1);
@@ -74,7 +74,7 @@ double measure_frames(std::vector<sim::Renderer>& renderers, const RenderBenchma
   return rounded(median(std::move(wall)));
 }
 
-/// In a process of its own.
+/// In its own process.
 Json measure_with_threads(const RenderBenchmark& benchmark, int threads) {
   prepare_software_rendering(threads);
   std::optional<sim::Scene> scene;

@@ -13,7 +13,7 @@
 
 namespace vinebench::harness {
 
-/// What `vinebench bench render` measures of one world.
+/// Settings of `vinebench bench render` for one world.
 struct RenderBenchmark {
   std::string name;
   sim::WorldConfig world;
@@ -22,17 +22,17 @@ struct RenderBenchmark {
   std::uint64_t seed = 1;
   int threads = 2;
   bool mujoco = false;           ///< also measure MuJoCo's own renderer on the same scene
-  std::filesystem::path images;  ///< folder for both renderers' images of one place, if any
+  std::filesystem::path images;  ///< folder for both renderers' images of one pose, if any
 };
 
-/// Poses of a rover in the middle aisle (in the order of `rows`), which sees the most of a world:
-/// `count` places from one end to the other, by turns looking ahead and back.
+/// Poses of a rover in the middle aisle (in the order of `rows`), which sees most of a world:
+/// `count` poses from one end to the other, alternately looking ahead and back.
 std::vector<Pose> aisle_route(const sim::WorldConfig& world, int count);
 
-/// Measures in processes of their own, so that memory is the world's. Returns medians over the
-/// frames: for each camera `cpu_ms` (all threads of the process) and `wall_ms` of an image with
-/// one thread; for whole frames `frame_wall_ms` with 1 and with `threads` threads and their ratio
-/// `scaling`; and `memory_mib` of the process with `threads` threads. Throws Error.
+/// Measures in separate processes, so that memory is the world's. Returns medians over the frames:
+/// for each camera `cpu_ms` (all threads of the process) and `wall_ms` of an image with one thread;
+/// for whole frames `frame_wall_ms` with 1 and with `threads` threads and their ratio `scaling`;
+/// and `memory_mib` of the process with `threads` threads. Throws Error.
 nlohmann::ordered_json measure_rendering(const RenderBenchmark& benchmark);
 
 }  // namespace vinebench::harness

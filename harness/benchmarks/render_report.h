@@ -7,7 +7,7 @@
 
 namespace vinebench::harness {
 
-/// What measure_rendering() found of one world, as a table for people.
+/// The result of measure_rendering() for one world as a human-readable table.
 std::string render_table(const nlohmann::ordered_json& world);
 
 }  // namespace vinebench::harness

@@ -17,7 +17,7 @@
 namespace vinebench::harness {
 namespace {
 
-constexpr std::size_t kImages = 40;  // of which ORB and tags are measured, at most
+constexpr std::size_t kImages = 40;  // for measuring ORB and tags, at most
 constexpr std::size_t kQuarters = 4;
 
 double mean(const std::vector<double>& values) {
@@ -48,7 +48,7 @@ Json rounded_stages(const StageTimes& times) {
   return stages;
 }
 
-/// One run over all frames with some of the cameras.
+/// One run over all frames with a subset of the cameras.
 Json measure_cameras(const SlamBenchmark& benchmark, const std::string& name,
                      const std::vector<std::string>& cameras) {
   slam::SlamConfig config = benchmark.slam;
@@ -85,7 +85,7 @@ Json measure_images(const SlamBenchmark& benchmark, int camera,
   for (std::size_t i = 0; i < benchmark.frames.size(); i += step) {
     const cv::Mat& image = benchmark.frames[i].images[static_cast<std::size_t>(camera)];
     if (image.empty()) continue;
-    if (cpu.empty()) work(image);  // once for the caches
+    if (cpu.empty()) work(image);  // once to fill caches
     cpu.push_back(measure([&] { work(image); }).cpu_ms);
   }
   return cpu.empty() ? Json() : spread(cpu);

@@ -11,8 +11,8 @@
 
 namespace vinebench::harness {
 
-/// What `vinebench bench slam` measures: the SLAM core on frames that are in memory already, so
-/// that neither rendering nor decoding is in the figures.
+/// Settings of `vinebench bench slam`: the SLAM core on frames in memory, so that the times include
+/// neither rendering nor decoding.
 struct SlamBenchmark {
   std::string name;
   Rig rig;
@@ -20,20 +20,20 @@ struct SlamBenchmark {
   slam::SlamConfig slam;
   std::vector<Frame> frames;
   int threads = 2;
-  int warm_up = 10;  ///< frames at the beginning that do not count
+  int warm_up = 10;  ///< frames at the beginning that are not measured
 };
 
-/// The first frames of a source, at most so many, their images in grey.
+/// The first frames of a source, at most `count`, with grey images.
 std::vector<Frame> preload(FrameSource& source, std::int64_t most);
 
-/// Measures the whole rig; its stereo pairs alone where it has tag cameras too; and its first pair
-/// alone where it has several. For each `wall_ms` (p50, p95) and `cpu_ms` (mean, p50, p95; all
+/// Measures the whole rig; its stereo pairs only, if it also has tag cameras; and its first pair
+/// only, if it has several. For each `wall_ms` (p50, p95) and `cpu_ms` (mean, p50, p95; all
 /// threads) a frame, `cpu_ms_by_quarter` of the run, `stages_ms`, `tracked` share and `memory_mib`,
-/// what the run held at most beyond the frames. Of single images `orb_cpu_ms` and `tags_cpu_ms`
-/// (p50, p95). Throws Error when there are too few frames.
+/// the peak memory beyond the frames. For single images `orb_cpu_ms` and `tags_cpu_ms` (p50, p95).
+/// Throws Error if there are too few frames.
 nlohmann::ordered_json measure_slam(const SlamBenchmark& benchmark);
 
-/// The result as a table for people.
+/// The result as a human-readable table.
 std::string slam_table(const nlohmann::ordered_json& result);
 
 }  // namespace vinebench::harness

@@ -63,7 +63,7 @@ class Check {
     }
     std::set<std::string> listed{DatasetCard::kName, FileManifest::kName};
     for (const ListedFile& file : read_manifest(list)) {
-      if (!listed.insert(file.name).second) fault(file.name, "stands twice in the list");
+      if (!listed.insert(file.name).second) fault(file.name, "is listed twice");
       ++report_.files;
       std::error_code ignored;
       if (!fs::is_regular_file(folder_ / file.name, ignored)) {

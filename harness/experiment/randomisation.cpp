@@ -20,7 +20,7 @@ struct RandomisationConfig {
     std::optional<std::array<double, 2>> normal;         ///< mean, standard deviation
     std::optional<std::array<std::int64_t, 2>> integer;  ///< least, most, both included
     std::vector<std::string> choice;                     ///< YAML values
-    std::vector<double> weights;                         ///< of the choice; alike where absent
+    std::vector<double> weights;                         ///< of the choice; equal if absent
     std::optional<double> min;                           ///< of normal
     std::optional<double> max;                           ///< likewise
     template <class Archive>
@@ -52,7 +52,7 @@ struct RandomisationConfig {
       ascends(log_uniform, "log_uniform");
       ascends(integer, "integer");
       if (normal) archive.require((*normal)[1] >= 0, "normal", "expected [mean, deviation >= 0]");
-      archive.require(normal || (!min && !max), "min", "min and max go with normal alone");
+      archive.require(normal || (!min && !max), "min", "min and max require normal");
       double sum = 0;
       for (const double weight : weights) sum += weight;
       archive.require(weights.empty() || (weights.size() == choice.size() && sum > 0), "weights",
@@ -66,7 +66,7 @@ struct RandomisationConfig {
     for (std::size_t i = 0; i < draws.size(); ++i) {
       const auto same = [&](const Draw& other) { return other.key == draws[i].key; };
       archive.require(std::ranges::count_if(draws, same) == 1, fmt::format("draws.{}.key", i),
-                      "stands twice");
+                      "duplicate key");
     }
   }
 };

@@ -20,12 +20,12 @@ namespace vinebench::harness {
 ///       - {key: world.vines.bbch, choice: [75, 83, 89], weights: [1, 2, 1]}
 ///       - {key: world.vines.templates, integer: [4, 8]}
 ///
-/// A draw is a function of the seed and the key alone. Throws Error that names file, line and key;
-/// what a key may be is found out when the scenario is read with it.
+/// A draw is a function of the seed and the key only. Throws Error that names file, line and key;
+/// the values themselves are validated when the scenario is read.
 std::vector<Override> draw_overrides(const std::filesystem::path& file, std::int64_t seed);
 
-/// load_scenario() with the draws of its seed (the scenario's own where none is given); no
-/// randomisation where that file's name is empty.
+/// load_scenario() with the draws of its seed (the scenario's own if none is given); no
+/// randomisation if that file's name is empty.
 ScenarioConfig load_drawn_scenario(const std::filesystem::path& file,
                                    std::vector<Override> overrides,
                                    const std::filesystem::path& randomisation,

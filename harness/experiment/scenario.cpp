@@ -13,14 +13,15 @@
 namespace vinebench::harness {
 namespace {
 
-/// A file that stands in for a part of the scenario is looked for from where the user is.
+/// A file given on the command line for a part of the scenario is relative to the working
+/// directory.
 std::string part_value(const std::string& value) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(value, ignored)) return value;
   return fmt::format("\"{}\"", std::filesystem::absolute(value).string());
 }
 
-/// What a robot knows of its own wheels.
+/// The nominal wheel geometry.
 slam::MecanumWheels wheels_of(const sim::RoverConfig& rover) {
   return {rover.wheel_radius, rover.half_track, rover.half_wheelbase};
 }
@@ -54,8 +55,8 @@ ScenarioConfig load_scenario(const std::filesystem::path& file,
     check_external_slam(*external, rig);
     if (scenario.simulation.route.steering == sim::Steering::kEstimate) {
       fail(
-          "{}: route.steering: estimate: expected a SLAM system that answers at each frame; "
-          "slam.external answers in the end",
+          "{}: route.steering: estimate: expected a SLAM system with live estimates; "
+          "slam.external has none",
           file.string());
     }
   }

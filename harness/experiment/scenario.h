@@ -25,8 +25,8 @@ struct ScenarioConfig {
   std::string name;
   std::string description;
   std::int64_t seed = 1;
-  sim::SimulationConfig simulation;          ///< its fields stand at the top level of the file
-  std::vector<sim::WorldConfig::Box> boxes;  ///< put into the world beside its own
+  sim::SimulationConfig simulation;          ///< its fields are at the top level of the file
+  std::vector<sim::WorldConfig::Box> boxes;  ///< added to those of the world
   std::vector<sim::WorldConfig::Tag> tags;   ///< likewise
   SlamChoice slam;
   Expectations expectations;
@@ -45,18 +45,18 @@ struct ScenarioConfig {
   }
 };
 
-/// Reads a scenario. `base` names another one whose keys hold where this one is silent. `world` and
-/// `rover` may be maps or names of files beside the scenario; overrides apply after those are read
-/// in, so that "world.sun.elevation_deg" works. Boxes and tags of the scenario are moved into its
-/// world. The rig is read too, so that its faults show before anything is started. Throws Error
-/// that names file, line and key.
+/// Reads a scenario. `base` names another one from which missing keys are inherited. `world` and
+/// `rover` may be maps or names of files beside the scenario; overrides are applied after those are
+/// included, so that "world.sun.elevation_deg" works. Boxes and tags of the scenario are moved into
+/// its world. The rig is read too, so that its errors are reported first. Throws Error that names
+/// file, line and key.
 ScenarioConfig load_scenario(const std::filesystem::path& file,
                              const std::vector<Override>& overrides = {});
 
-/// What the judge needs to know of a scenario.
+/// The context of a scenario's run for the evaluation.
 Trial trial_of(const ScenarioConfig& scenario);
 
-/// The notes of a scenario's run. Throws Error when the rig's file cannot be read.
+/// The notes of a scenario's run. Throws Error if the rig's file cannot be read.
 RecordingNotes notes_of(const ScenarioConfig& scenario);
 
 }  // namespace vinebench::harness

@@ -18,8 +18,8 @@ namespace {
 
 CapturePlan plan_of(const StreamRequest& request, const Rig& rig) {
   if (request.first < 0 || request.last < request.first || request.every < 1) {
-    fail("frames: expected 0 <= first <= last, and every n-th from 1 on, found {} to {}, {}",
-         request.first, request.last, request.every);
+    fail("frames: expected 0 <= first <= last, and every >= 1, found {} to {}, {}", request.first,
+         request.last, request.every);
   }
   CapturePlan plan;
   plan.first = request.first;
@@ -28,7 +28,7 @@ CapturePlan plan_of(const StreamRequest& request, const Rig& rig) {
   const auto wants = [&](const char* name) { return std::ranges::count(request.truth, name) > 0; };
   for (const std::string& name : request.truth) {
     if (std::ranges::count(truth_names(), name) > 0) continue;
-    fail("truth: '{}' is none, expected some of {}", name, fmt::join(truth_names(), ", "));
+    fail("truth: unknown '{}', expected some of {}", name, fmt::join(truth_names(), ", "));
   }
   plan.labels = wants("labels") || wants("things") || wants("flow");
   plan.depth = wants("depth") || wants("flow");
@@ -39,11 +39,11 @@ CapturePlan plan_of(const StreamRequest& request, const Rig& rig) {
   return plan;
 }
 
-/// What label images and the like are made of, where the request said so.
+/// The requested truth images.
 const TruthView& view_of(const DatasetFrame& frame, std::size_t camera,
                          const cv::Mat RenderedImage::*part, const char* truth) {
   if (camera >= frame.truth.views.size() || (frame.truth.views[camera].image.*part).empty()) {
-    fail("{}: this camera's image of frame {} came without; ask for truth \"{}\"", truth,
+    fail("{}: not rendered for this camera's image of frame {}; request truth \"{}\"", truth,
          frame.number, truth);
   }
   return frame.truth.views[camera];
@@ -64,7 +64,7 @@ FrameStream::FrameStream(const StreamRequest& request)
       source_(sim::make_simulation(scenario_.simulation, static_cast<std::uint64_t>(scenario_.seed),
                                    default_cache(), pool_,
                                    plan_of(request, load_rig(scenario_.simulation.rover.rig)))) {
-  if (source_->size() == 0) fail("frames: the run has none from {} on", request.first);
+  if (source_->size() == 0) fail("frames: the run has no frame from {} on", request.first);
   ahead_.emplace(*source_);
 }
 

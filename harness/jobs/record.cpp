@@ -30,7 +30,7 @@ ScenarioConfig scenario_of(const RecordRequest& request, std::optional<std::int6
   return load_drawn_scenario(request.scenario, request.overrides, request.randomisation, seed);
 }
 
-/// Whether the folder has this very sequence already. Removes what there is of an interrupted one.
+/// Whether the folder has this sequence, complete. Removes an interrupted one.
 bool has_sequence(const fs::path& folder, const std::string& settings) {
   if (!has_card(folder)) return false;
   const DatasetCard card = read_card(folder);
@@ -77,7 +77,7 @@ void record_sequence(const ScenarioConfig& scenario, const fs::path& folder,
   if (!outcome.interrupted) ++outcome.sequences;
 }
 
-/// The card of the folder that holds the sequences, and COCO's lists of them all.
+/// dataset.yaml of the folder of all sequences, and COCO's lists of all of them.
 void write_whole(const RecordRequest& request, const std::vector<std::string>& sequences,
                  const DatasetCard& of_first, bool complete) {
   if (complete && request.options.has(RecordFormat::kCoco)) {

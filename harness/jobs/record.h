@@ -13,37 +13,37 @@
 
 namespace vinebench::harness {
 
-/// What `vinebench record` is asked for.
+/// The options of `vinebench record`.
 struct RecordRequest {
   std::filesystem::path scenario;
   std::vector<Override> overrides;
   std::filesystem::path randomisation;  ///< distributions that each seed draws keys from; or none
   std::filesystem::path out;
-  /// First and last seed. Each makes a sequence of its own, in a folder `seed_000012` of `out`;
-  /// where absent, `out` is the one sequence of the scenario's own seed.
+  /// First and last seed. Each is a separate sequence, in a folder `seed_000012` of `out`; if
+  /// absent, `out` is the single sequence of the scenario's own seed.
   std::optional<std::pair<std::int64_t, std::int64_t>> seeds;
   RecordOptions options;
   bool resume = false;  ///< `out` may hold an interrupted recording of the same request
 };
 
-/// How a person is told of it.
+/// Progress output and interruption.
 struct RecordWatch {
   std::ostream* progress = nullptr;
   bool terminal = false;
-  std::function<bool()> stopped;  ///< asked before each frame
+  std::function<bool()> stopped;  ///< polled before each frame
 };
 
 struct RecordOutcome {
   bool interrupted = false;
-  std::int64_t sequences = 0;  ///< that are complete
-  std::int64_t skipped = 0;    ///< of these, what an earlier recording had completed
+  std::int64_t sequences = 0;  ///< complete ones
+  std::int64_t skipped = 0;    ///< of these, completed by an earlier recording
   std::int64_t frames = 0;     ///< recorded now
   std::uint64_t bytes = 0;     ///< likewise, in images
 };
 
-/// Simulates without a SLAM system and records. Sequences that are complete are kept where it
-/// resumes, one that is not is recorded anew. Throws Error for what is wrong with the request or
-/// its folder; what is recorded by then is kept.
+/// Simulates without a SLAM system and records. When resuming, complete sequences are kept and an
+/// incomplete one is recorded again. Throws Error for an invalid request or folder; what has been
+/// recorded is kept.
 RecordOutcome record_dataset(const RecordRequest& request, const RecordWatch& watch);
 
 }  // namespace vinebench::harness

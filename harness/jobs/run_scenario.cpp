@@ -23,17 +23,17 @@ const char* non_empty(const char* variable) {
 
 void expect_no_maps(const MapFiles& maps) {
   if (!maps.load.empty() || !maps.save.empty() || !maps.cloud.empty()) {
-    fail("--load-map, --save-map and --save-cloud are for the built-in SLAM core alone");
+    fail("--load-map, --save-map and --save-cloud require the built-in SLAM core");
   }
 }
 
-/// Where a run without a folder of its own works meanwhile.
+/// Temporary folder of a run without an output folder.
 class ScratchFolder {
  public:
   explicit ScratchFolder(const std::filesystem::path& folder) : folder_(folder) {
     if (!folder.empty()) return;
     std::string name = (std::filesystem::temp_directory_path() / "vinebench-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) fail("{}: cannot be made", name);
+    if (mkdtemp(name.data()) == nullptr) fail("{}: cannot be created", name);
     folder_ = own_ = name;
   }
   ScratchFolder(const ScratchFolder&) = delete;
@@ -84,11 +84,11 @@ void prepare_scenario_folder(const std::filesystem::path& folder, const Scenario
 
 RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options,
                         const std::optional<RunRecording>& recording) {
-  check_map_folders(options.maps);  // before the vineyard is grown
+  check_map_folders(options.maps);  // before the vineyard is generated
   const bool ours = !scenario.slam.external && !scenario.slam.plugin;
   if (!ours) expect_no_maps(options.maps);
   if (recording) claim_folder(recording->folder);
-  // A pool each, for drawing and estimating go on at the same time.
+  // Separate pools, because rendering and estimation run concurrently.
   WorkerPool drawing(threads);
   WorkerPool estimating(threads);
   const CapturePlan plan =

@@ -10,22 +10,22 @@
 
 namespace vinebench::harness {
 
-/// Where grown plants are kept between runs: $VINEBENCH_CACHE, else $XDG_CACHE_HOME/vinebench, else
+/// Folder of the cache of generated plants: $VINEBENCH_CACHE, else $XDG_CACHE_HOME/vinebench, else
 /// ~/.cache/vinebench, else a folder for temporary files.
 std::filesystem::path default_cache();
 
-/// A data set that a run leaves beside its results: its whole rig and all of its frames.
+/// A data set that a run writes beside its results: all cameras and all frames.
 struct RunRecording {
   std::filesystem::path folder;
   RecordOptions options;
 };
 
-/// Prepares a folder for a scenario's run; it gets scenario.resolved.yaml. Throws Error as
-/// prepare_run_folder().
+/// Prepares a folder for a scenario's run, with scenario.resolved.yaml. Throws Error as
+/// prepare_run_folder() does.
 void prepare_scenario_folder(const std::filesystem::path& folder, const ScenarioConfig& scenario);
 
-/// Builds the simulation and the SLAM system of a scenario and runs one on the other, recording
-/// where that is asked for. `threads` counts all threads that share the work; it changes no result.
+/// Builds simulation and SLAM system of a scenario and runs them in lockstep, with recording if
+/// requested. `threads` is the total number of worker threads; it changes no result.
 RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options,
                         const std::optional<RunRecording>& recording = std::nullopt);
 

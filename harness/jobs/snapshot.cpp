@@ -110,10 +110,11 @@ cv::Mat turntable(const sim::WorldConfig& world, std::uint64_t seed, const Pinho
   cv::Mat sheet(camera.height * (kViews / kColumns), camera.width * kColumns, CV_8UC3);
   for (int i = 0; i < kViews; ++i) {
     const double yaw = (i + 0.5) * 2 * std::numbers::pi / kViews;
-    const Eigen::Vector2d eye =
+    const Eigen::Vector2d viewpoint =
         box.center() - distance * Eigen::Vector2d(std::cos(yaw), std::sin(yaw));
     const Pose T_world_cam =
-        Rig::mount({eye.x(), eye.y(), 0.5 + distance * std::tan(kPitchDown)}, {0, kPitchDown, yaw});
+        Rig::mount({viewpoint.x(), viewpoint.y(), 0.5 + distance * std::tan(kPitchDown)},
+                   {0, kPitchDown, yaw});
     const cv::Rect place((i % kColumns) * camera.width, (i / kColumns) * camera.height,
                          camera.width, camera.height);
     renderer.render(camera, T_world_cam, {}).rgb.copyTo(sheet(place));

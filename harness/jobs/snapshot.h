@@ -18,19 +18,18 @@ namespace vinebench::harness {
 /// Throws Error for anything else.
 PinholeCamera parse_camera(const std::string& text);
 
-/// Reads "X,Y,Z,YAW" or "X,Y,Z,YAW,PITCH" (m and degrees; x ahead of that heading, pitch up) as
-/// the pose of a frame with x ahead, y left, z up. Throws Error for anything else.
+/// Reads "X,Y,Z,YAW" or "X,Y,Z,YAW,PITCH" (m and degrees; pitch is positive upwards) as the pose of
+/// a frame with x forward, y left, z up. Throws Error for anything else.
 Pose parse_view(const std::string& text);
 
 /// Writes an image as PNG or JPEG by the name's ending: CV_8UC3 (RGB), CV_8UC1, or CV_32FC1 (depth
-/// in m, written as 16-bit PNG in mm). Throws Error for other endings and when it cannot be
-/// written.
+/// in m, written as 16-bit PNG in mm). Throws Error for other endings and if it cannot be written.
 void write_image(const std::filesystem::path& file, const cv::Mat& image);
 
-/// Labels (CV_8UC1 of Label) in colours for the camera, CV_8UC3.
+/// Labels (CV_8UC1 of Label) as colours for display, CV_8UC3.
 cv::Mat colour_labels(const cv::Mat& labels);
 
-/// Eight views of a world from all round, from above a person's cameras, on one sheet.
+/// A contact sheet of eight views of a world from all sides, from above eye level.
 cv::Mat turntable(const sim::WorldConfig& world, std::uint64_t seed, const PinholeCamera& camera);
 
 }  // namespace vinebench::harness

@@ -30,7 +30,7 @@ Json read_run(const fs::path& file) {
   const auto has = [&](const char* key) { return metrics.is_object() && metrics.contains(key); };
   if (!has("scenario") || !metrics["scenario"].is_string() || !has("seed") ||
       !metrics["seed"].is_number_integer()) {
-    fail("{}: is no metrics.json of a run", file.string());
+    fail("{}: is not a metrics.json of a run", file.string());
   }
   return metrics;
 }
@@ -47,14 +47,14 @@ std::map<RunName, Json> find_runs(const fs::path& folder) {
     const RunName name{metrics["scenario"], metrics["seed"]};
     if (runs.contains(name)) {
       const auto [first, second] = std::minmax(places[name], entry.path());
-      fail("{}: {} is there twice, in {} and {}", folder.string(), text_of(name), first.string(),
+      fail("{}: {} is duplicate, in {} and {}", folder.string(), text_of(name), first.string(),
            second.string());
     }
     places[name] = entry.path();
     runs.emplace(name, std::move(metrics));
   }
   if (runs.empty()) {
-    fail("{}: has no run; expected a metrics.json in it or in its folders", folder.string());
+    fail("{}: contains no run; expected a metrics.json in it or in its folders", folder.string());
   }
   return runs;
 }
@@ -90,7 +90,7 @@ MetricChange change_of(const Metric& figure, const std::vector<RunPair>& pairs) 
   return change;
 }
 
-/// Pairs scenario by scenario; all together at the end where there are several.
+/// Pairs by scenario; then all together if there are several.
 std::vector<std::pair<std::string, std::vector<RunPair>>> groups_of(const PairedRuns& runs) {
   std::vector<std::pair<std::string, std::vector<RunPair>>> groups;
   for (const RunPair& pair : runs.pairs) {

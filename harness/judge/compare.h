@@ -22,17 +22,17 @@ struct RunPair {
 /// Runs of two folders, paired by scenario and seed, in their order.
 struct PairedRuns {
   std::vector<RunPair> pairs;
-  std::vector<std::string> unpaired;  ///< runs that are in one of the folders only, for people
+  std::vector<std::string> unpaired;  ///< runs that are in only one of the folders, human-readable
 };
 
-/// Each folder is a run's or has runs' folders in it, however deep. Throws Error where there is no
-/// run, one twice, a metrics.json that cannot be read, and where nothing pairs.
+/// Each folder is a run's folder or contains runs' folders at any depth. Throws Error if there is
+/// no run, a duplicate run, an unreadable metrics.json, or no pair.
 PairedRuns pair_runs(const std::filesystem::path& before, const std::filesystem::path& after);
 
 enum class Change { kBetter, kSame, kWorse, kMixed, kUnknown };
 const char* name_of(Change change);
 
-/// A figure over the pairs that have it on both sides, in its shown unit.
+/// A metric over the pairs that have it on both sides, in its displayed unit.
 struct MetricChange {
   Metric figure{};
   std::size_t pairs = 0;
@@ -45,24 +45,24 @@ struct MetricChange {
   double difference() const { return after - before; }
 };
 
-/// Better or worse where the interval of the mean difference (Student's t, n - 1 degrees of
-/// freedom) leaves out zero, same where it does not. One pair has no interval: unknown, unless both
-/// are equal. Figures that no pair has are left out.
+/// Better or worse if the interval of the mean difference (Student's t, n - 1 degrees of freedom)
+/// excludes zero, same otherwise. One pair has no interval: unknown, unless both are equal. Metrics
+/// that no pair has are left out.
 std::vector<MetricChange> compare_metrics(const std::vector<RunPair>& pairs);
 
-/// Of the figures that say how good the estimate is: better or worse when some are and none is the
-/// other way; unknown when that is all there is.
+/// Over the metrics of the estimate: better or worse if some are and none is the opposite; unknown
+/// if all are unknown.
 Change overall(const std::vector<MetricChange>& changes);
 
-/// For people: each scenario by itself, and all together where there are several.
+/// Human-readable: each scenario separately, and all together if there are several.
 std::string format_comparison(const PairedRuns& runs);
 
 /// The same as data, with the differences of every pair.
 Json comparison_json(const PairedRuns& runs);
 
-/// The factor by which Student's t has 95 % of its probability within ± so many standard errors.
-/// Exact to 1e-3 up to 30 degrees of freedom (tabulated), to 1e-4 beyond (Abramowitz and Stegun
-/// 26.7.5). Needs one degree at least.
+/// The two-sided 95 % quantile of Student's t distribution. Exact to 1e-3 up to 30 degrees of
+/// freedom (tabulated), to 1e-4 beyond (Abramowitz and Stegun 26.7.5). Requires at least one
+/// degree.
 double student_t_95(std::size_t degrees_of_freedom);
 
 }  // namespace vinebench::harness

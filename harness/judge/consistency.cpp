@@ -8,7 +8,7 @@
 namespace vinebench::harness {
 namespace {
 
-/// 95 % of the chi-square distribution with six degrees of freedom.
+/// 95 % quantile of the chi-square distribution with six degrees of freedom.
 constexpr double kChiSquared6 = 12.592;
 
 bool begins_in_the_world(const RunRecord& record) {

@@ -10,12 +10,12 @@ namespace vinebench::harness {
 namespace {
 
 constexpr double kWeak = 1.0 / 3;                  // of the run's median of inliers
-constexpr Stamp kWindow = kNanosecondsPerSecond;   // ns, that growth is looked at over
-constexpr Stamp kGap = kNanosecondsPerSecond / 2;  // ns, that a segment goes on over
+constexpr Stamp kWindow = kNanosecondsPerSecond;   // ns, over which growth is measured
+constexpr Stamp kGap = kNanosecondsPerSecond / 2;  // ns, bridged within a segment
 constexpr double kFastGrowth = 0.010;              // m a window, at least
-constexpr double kTimesUsual = 5;                  // and so many times the run's median
-constexpr double kDrift = 0.015;                   // of the way, or this much without a break,
-constexpr double kLeastDrift = 0.005;              // m a window, and more than poses' noise
+constexpr double kTimesUsual = 5;                  // and this multiple of the run's median
+constexpr double kDrift = 0.015;       // of the distance travelled, for a continuous time,
+constexpr double kLeastDrift = 0.005;  // and m a window, above the noise of poses
 
 bool is_known(const Tick& tick) {
   return tick.truth.known && is_tracked(tick.estimate);
@@ -35,7 +35,7 @@ double usual_inliers(const RunRecord& record) {
   return counts.empty() ? 0 : percentile(counts, 0.5);
 }
 
-/// A right correction moves the pose by the error that it takes away.
+/// A correct correction moves the pose by the error that it removes.
 bool is_corrected(const RunResults& results, std::size_t from, std::size_t to) {
   return std::ranges::any_of(results.loops.closures, [&](const JudgedClosure& closure) {
     return closure.correct && closure.tick > from && closure.tick <= to;
@@ -56,7 +56,7 @@ struct Growth {
   std::size_t from = 0;  ///< tick
   std::size_t to = 0;    ///< tick
   double metres = 0;
-  double way = 0;  ///< m, from the true place to the other
+  double distance = 0;  ///< m, between the true positions
 };
 
 std::vector<Growth> growths_of(const RunRecord& record, const RunResults& results) {
@@ -67,28 +67,29 @@ std::vector<Growth> growths_of(const RunRecord& record, const RunResults& result
     if (record.ticks[to].stamp < record.ticks.front().stamp + kWindow) continue;
     const auto growth = error_growth(record, from, to);
     if (!growth || is_corrected(results, from, to)) continue;
-    const double way = (record.ticks[to].truth.T_world_body.translation -
-                        record.ticks[from].truth.T_world_body.translation)
-                           .norm();
-    growths.push_back({from, to, growth->norm(), way});
+    const double distance = (record.ticks[to].truth.T_world_body.translation -
+                             record.ticks[from].truth.T_world_body.translation)
+                                .norm();
+    growths.push_back({from, to, growth->norm(), distance});
   }
   return growths;
 }
 
-/// Ticks of seconds in which the error grew fast, or by too large a share of the way.
+/// Ticks of windows in which the error grew fast, or by too large a share of the distance
+/// travelled.
 void mark_growth(const std::vector<Growth>& growths, std::vector<bool>& bad) {
   if (growths.empty()) return;
   std::vector<double> metres;
   for (const Growth& growth : growths) metres.push_back(growth.metres);
   const double fast = std::max(kFastGrowth, kTimesUsual * percentile(metres, 0.5));
   for (const Growth& growth : growths) {
-    const double drift = std::max(kLeastDrift, kDrift * growth.way);
+    const double drift = std::max(kLeastDrift, kDrift * growth.distance);
     if (growth.metres < fast && growth.metres < drift) continue;
     for (std::size_t i = growth.from + 1; i <= growth.to; ++i) bad[i] = true;
   }
 }
 
-/// From the last known pose before a segment to the first one after it, or its own ends.
+/// From the last known pose before a segment to the first one after it, or between its own ends.
 double growth_over(const RunRecord& record, std::size_t first, std::size_t last) {
   std::size_t from = first == 0 ? 0 : first - 1;
   std::size_t to = last;

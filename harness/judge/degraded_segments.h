@@ -9,22 +9,21 @@
 
 namespace vinebench::harness {
 
-/// How fast the body truly moves at a tick.
+/// True velocity of the body at a tick.
 struct TrueMotion {
   double speed = 0;  ///< m/s
   double turn = 0;   ///< rad/s
 };
 
-/// From the tick before to the one after; zeros where the truth is not known.
+/// Between the previous and the next tick; zeros if the truth is unknown.
 TrueMotion true_motion(const RunRecord& record, std::size_t tick);
 
-/// How far the pose as it was known moves off the truth from one tick to a later one, m, in the
-/// world: both poses of `from` are laid onto each other. Nothing where either end has no pose that
-/// cameras bear out, or no truth.
+/// Drift of the live pose from one tick to a later one, m, in the world, with true and estimated
+/// pose aligned at `from`. Empty if either end has no pose supported by cameras, or no truth.
 std::optional<Eigen::Vector3d> error_growth(const RunRecord& record, std::size_t from,
                                             std::size_t to);
 
-/// Where the estimate suffered, as diagnose() defines it; without causes.
+/// The degraded segments of an estimate, as diagnose() defines them, without causes.
 std::vector<DegradedSegment> degraded_segments(const RunRecord& record, const RunResults& results);
 
 }  // namespace vinebench::harness

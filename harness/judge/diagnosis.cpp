@@ -18,13 +18,13 @@ constexpr double kShown = 1.0 / 3;         // of a segment's ticks, for a cause 
 constexpr double kOccluded = 0.5;          // of an image's pixels
 constexpr double kClearView = 0.2;         // likewise, at most
 constexpr double kBlurPixels = 2;          // px
-constexpr double kNearThings = 1;          // m, seldom is anything seen nearer
+constexpr double kNearThings = 1;          // m, closest usual distance
 constexpr double kFewOfUsual = 0.4;        // of a camera's median of features
-constexpr double kFewFeatures = 100;       // however few are usual
+constexpr double kFewFeatures = 100;       // absolute minimum
 constexpr double kHealthyInliers = 0.5;    // of the run's median
 constexpr double kSpacingTolerance = 0.2;  // of the plants' spacing
 
-/// What shows in the ticks of a segment.
+/// Which causes are present in the ticks of a segment.
 class CauseFinder {
  public:
   CauseFinder(const RunRecord& record, const RunResults& results, const Trial& trial)
@@ -75,10 +75,10 @@ class CauseFinder {
   }
 
   static DegradedSegment with(const DegradedSegment& segment, Cause cause, double share) {
-    DegradedSegment explanation = segment;
-    explanation.cause = cause;
-    explanation.share = share;
-    return explanation;
+    DegradedSegment diagnosed = segment;
+    diagnosed.cause = cause;
+    diagnosed.share = share;
+    return diagnosed;
   }
 
   static void add_share(std::vector<DegradedSegment>& found, const DegradedSegment& segment,
@@ -86,17 +86,17 @@ class CauseFinder {
     if (share >= kShown) found.push_back(with(segment, cause, share));
   }
 
-  /// The cameras that it shows in for long enough, and the share of the worst of them.
+  /// The cameras in which it is present long enough, and the largest share among them.
   DegradedSegment seen_by_cameras(const DegradedSegment& segment, Cause cause,
                                   const auto& shows) const {
-    DegradedSegment explanation = with(segment, cause, 0);
+    DegradedSegment diagnosed = with(segment, cause, 0);
     for (const std::size_t camera : cameras_) {
       const double share = share_of(segment, [&](std::size_t i) { return bool(shows(i, camera)); });
       if (share < kShown) continue;
-      explanation.cameras.push_back(camera);
-      explanation.share = std::max(explanation.share, share);
+      diagnosed.cameras.push_back(camera);
+      diagnosed.share = std::max(diagnosed.share, share);
     }
-    return explanation;
+    return diagnosed;
   }
 
   static double share_of(const DegradedSegment& segment, const auto& shows) {
@@ -133,7 +133,7 @@ class CauseFinder {
     return features < std::max(kFewOfUsual * usual, kFewFeatures);
   }
 
-  /// A loop that was closed wrongly weighs more than tags that were not believed.
+  /// A wrong loop closure takes precedence over rejected tags.
   double wrong_tags(const DegradedSegment& segment) const {
     const bool closed = std::ranges::any_of(results_.loops.closures, [&](const JudgedClosure& c) {
       return c.judged && !c.correct && c.tick >= segment.first && c.tick <= segment.last;
@@ -158,7 +158,7 @@ class CauseFinder {
     });
   }
 
-  /// Along a row, by once or several times the plants' spacing, while tracking looked well.
+  /// Along a row, by a multiple of the plant spacing, while tracking was good.
   bool jumped_by_plants(const DegradedSegment& segment) const {
     const Site& site = trial_.site;
     const auto error = error_growth(record_, segment.first, segment.last);
@@ -183,30 +183,30 @@ class CauseFinder {
   const RunResults& results_;
   const Trial& trial_;
   std::vector<std::size_t>
-      cameras_;  ///< left cameras: a right camera's features are found from theirs
+      cameras_;  ///< left cameras: a right camera's features are matches of theirs
   std::vector<double> usual_features_;
   bool reads_tags_ = false;
 };
 
-std::string cameras_text(const RunRecord& record, const DegradedSegment& explanation) {
+std::string cameras_text(const RunRecord& record, const DegradedSegment& diagnosed) {
   std::vector<std::string> names;
-  for (const std::size_t camera : explanation.cameras) {
+  for (const std::size_t camera : diagnosed.cameras) {
     names.push_back(record.rig.cameras[camera].name);
   }
   return names.empty() ? "" : fmt::format(" in {}", fmt::join(names, ", "));
 }
 
-std::string line_of(const RunRecord& record, const DegradedSegment& explanation) {
+std::string line_of(const RunRecord& record, const DegradedSegment& diagnosed) {
   std::string text = fmt::format(
       "  {:.2f} to {:.2f} s: {}{} ({:.0f} % of the time); error grew by {:.1f} mm",
-      to_seconds(record.ticks[explanation.first].stamp),
-      to_seconds(record.ticks[explanation.last].stamp), name_of(explanation.cause),
-      cameras_text(record, explanation), 100 * explanation.share, 1e3 * explanation.error_growth);
-  if (explanation.usual_inliers > 0) {
-    text += fmt::format(", {:.0f} inliers of usually {:.0f}", explanation.inliers,
-                        explanation.usual_inliers);
+      to_seconds(record.ticks[diagnosed.first].stamp),
+      to_seconds(record.ticks[diagnosed.last].stamp), name_of(diagnosed.cause),
+      cameras_text(record, diagnosed), 100 * diagnosed.share, 1e3 * diagnosed.error_growth);
+  if (diagnosed.usual_inliers > 0) {
+    text += fmt::format(", {:.0f} inliers of usually {:.0f}", diagnosed.inliers,
+                        diagnosed.usual_inliers);
   }
-  if (explanation.untracked > 0) text += fmt::format(", {} frames lost", explanation.untracked);
+  if (diagnosed.untracked > 0) text += fmt::format(", {} frames lost", diagnosed.untracked);
   return text + "\n";
 }
 
@@ -250,10 +250,10 @@ std::vector<DegradedSegment> diagnose(const RunRecord& record, const RunResults&
 std::string format_diagnosis(const RunRecord& record,
                              const std::vector<DegradedSegment>& segments) {
   if (segments.empty()) {
-    return "the estimate suffered nowhere: no weak tracking, no fast growth of the error\n";
+    return "no degraded segment: no weak tracking, no fast growth of the error\n";
   }
-  std::string text = "where the estimate suffered, and from what:\n";
-  for (const DegradedSegment& explanation : segments) text += line_of(record, explanation);
+  std::string text = "degraded segments and their causes:\n";
+  for (const DegradedSegment& diagnosed : segments) text += line_of(record, diagnosed);
   return text;
 }
 

@@ -11,7 +11,8 @@
 namespace vinebench::harness {
 namespace {
 
-/// The segment's end: of the poses after `from` the first whose way is nearest to `target`.
+/// The segment's end: of the poses after `from`, the first whose path length is nearest to
+/// `target`.
 std::size_t nearest_in_length(const std::vector<double>& lengths, std::size_t from, double target) {
   const auto begin = lengths.begin() + static_cast<std::ptrdiff_t>(from) + 1;
   auto after = std::lower_bound(begin, lengths.end(), target);

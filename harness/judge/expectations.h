@@ -10,17 +10,17 @@
 
 namespace vinebench::harness {
 
-/// Fewer seeds than this have no median worth the name.
+/// Minimum number of seeds for a median.
 inline constexpr std::size_t kSeedsForMedian = 3;
 
-/// What a scenario asks of its run. An absent one is not asked.
+/// The expectations of a scenario. Absent ones are not checked.
 struct Expectations {
-  /// Some cameras see almost nothing but carton while the rover moves, and the estimate goes on.
+  /// Cartons cover some cameras almost completely while the rover moves, and tracking continues.
   struct Blind {
     std::vector<std::string> cameras;    ///< names of the rig
     double box_share = 0.8;              ///< of each one's pixels
-    double seconds = 3;                  ///< s at least, without a break, in motion
-    std::optional<double> inliers_drop;  ///< share by which their inliers fall at least, 0 to 1
+    double seconds = 3;                  ///< s at least, continuously, in motion
+    std::optional<double> inliers_drop;  ///< minimum share by which their inliers drop, 0 to 1
     template <class Archive>
     void serialize(Archive& archive) {
       archive("cameras", cameras);
@@ -30,7 +30,7 @@ struct Expectations {
       archive.require(!cameras.empty(), "cameras", "expected at least one camera of the rig");
     }
   };
-  /// Of the median over the runs of a set, where it has kSeedsForMedian seeds.
+  /// Of the median over the runs of a set with at least kSeedsForMedian seeds.
   struct Median {
     std::optional<double> ate_rmse_max;         ///< m, SE(3)-aligned
     std::optional<double> ate_origin_rmse_max;  ///< m, aligned by the first pose
@@ -41,10 +41,10 @@ struct Expectations {
     }
   };
   std::optional<double> coverage_min;         ///< share of frames with a pose, 0 to 1
-  std::optional<int> losses_max;              ///< times that tracking was lost
+  std::optional<int> losses_max;              ///< number of tracking losses
   std::optional<double> ate_rmse_max;         ///< m, SE(3)-aligned
   std::optional<double> ate_origin_rmse_max;  ///< m, aligned by the first pose
-  std::optional<double> end_error_max;        ///< m, from the route's end to the true place
+  std::optional<double> end_error_max;        ///< m, from the route's end to the true position
   std::optional<int> loop_closures_correct_min;
   std::optional<int> loop_closures_wrong_max;
   std::optional<int> loop_closures_missed_max;

@@ -19,7 +19,7 @@ JudgedClosure judge(const RunRecord& record, std::size_t tick) {
   JudgedClosure judged{.tick = tick, .closure = *record.ticks[tick].estimate.loop_closure};
   const Tick* earlier = find_tick(record, judged.closure.earlier);
   const Tick* later = find_tick(record, judged.closure.later);
-  if (earlier == nullptr || later == nullptr) {  // ties frames that never were
+  if (earlier == nullptr || later == nullptr) {  // constrains frames that do not exist
     judged.error_m = judged.error_rad = std::numeric_limits<double>::infinity();
     return judged;
   }
@@ -34,8 +34,8 @@ JudgedClosure judge(const RunRecord& record, std::size_t tick) {
   return judged;
 }
 
-/// Whether tags (indices into RunRecord::tags) stand for each other: any registered one tells where
-/// in the world the rover is, each other tells of itself alone.
+/// Whether tags (indices into RunRecord::tags) are equivalent: any registered tag gives the rover's
+/// pose in the world, an unregistered one only the pose relative to itself.
 bool alike(const RunRecord& record, int a, int b) {
   const auto registered = [&](int tag) {
     return record.tags[static_cast<std::size_t>(tag)].registered;
@@ -43,7 +43,7 @@ bool alike(const RunRecord& record, int a, int b) {
   return a == b || (registered(a) && registered(b));
 }
 
-/// Of that tag and those like it.
+/// Of that tag and equivalent ones.
 std::vector<TagVisit> visits_of(const RunRecord& record, int tag,
                                 const std::vector<double>& lengths) {
   std::vector<TagVisit> visits;
@@ -65,8 +65,8 @@ std::vector<TagVisit> visits_of(const RunRecord& record, int tag,
   return visits;
 }
 
-/// Whether a closure with one of the tags was reported since the visit before: a detector may read
-/// a tag from afar, before the truth calls it readable, and then closes the loop early.
+/// Whether a closure with one of the tags was reported since the previous visit: a detector may
+/// find a distant tag before the truth counts it as visible, and then closes the loop early.
 bool was_closed(const RunRecord& record, const LoopVerdict& verdict, const TagVisit& before,
                 const TagVisit& visit) {
   const auto is_of_visit = [&](const LoopClosure& closure) {

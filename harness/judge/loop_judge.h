@@ -8,29 +8,29 @@
 
 namespace vinebench::harness {
 
-/// A closure agrees with the truth within these, or it is wrong.
+/// Tolerances of a correct closure.
 inline constexpr double kLoopClosureMetres = 0.10;
 inline constexpr double kLoopClosureDegrees = 2.0;
 
-/// A tag is seen *again* after this much time and way without it, and, where it is registered,
-/// without any registered one, each of which tells the pose …
+/// A tag is *revisited* after this time and distance without it, and, if it is registered, without
+/// any other registered one, because each of them gives the pose.
 inline constexpr Stamp kVisitGap = 3 * kNanosecondsPerSecond;
 inline constexpr double kVisitGapMetres = 1.0;
-/// … and a visit is one that a system must notice once the tag stayed in view for so long.
+/// A visit must lead to a closure if the tag is in view for at least this time.
 inline constexpr Stamp kVisitSeconds = kNanosecondsPerSecond;
 
 /// One reported closure against the truth.
 struct JudgedClosure {
-  std::size_t tick = 0;  ///< that reported it
+  std::size_t tick = 0;  ///< at which it was reported
   LoopClosure closure;
   double error_m = 0;  ///< of T_earlier_later
   double error_rad = 0;
   bool correct = false;
-  bool judged = true;  ///< false where the truth of either end is unknown
+  bool judged = true;  ///< false if the truth of either end is unknown
 };
 
-/// A time during which the truth has a tag, or one of the registered tags, in view, short gaps
-/// included.
+/// A time during which, according to the truth, a tag, or one of the registered tags, is in view,
+/// short gaps included.
 struct TagVisit {
   int tag = 0;            ///< the first in view, an index into RunRecord::tags
   std::size_t first = 0;  ///< tick
@@ -45,7 +45,8 @@ struct LoopVerdict {
   int wrong() const;
 };
 
-/// Visits by the truth: one after the other of all registered tags, and of each other tag.
+/// Visits according to the truth: of all registered tags together, and of each other tag, in order
+/// of time.
 std::vector<TagVisit> tag_visits(const RunRecord& record);
 
 LoopVerdict judge_loop_closures(const RunRecord& record);

@@ -9,7 +9,7 @@
 namespace vinebench::harness {
 namespace {
 
-/// The dash counts as one place, whatever its bytes.
+/// Width in characters: the dash has several bytes.
 constexpr const char* kNothing = "–";
 
 std::size_t places(const std::string& cell) {

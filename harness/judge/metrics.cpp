@@ -16,7 +16,7 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json();
 }
 
-/// Mean per frame of one count, camera by camera.
+/// Mean per frame of one count, by camera.
 Json camera_means(const RunRecord& record, int CameraCounts::*count) {
   Json means = Json::object();
   for (std::size_t camera = 0; camera < record.rig.cameras.size(); ++camera) {
@@ -39,7 +39,7 @@ void add_errors(Json& metrics, const RunResults& results) {
   metrics["rpe_trans_percent"] = corrected ? or_null(corrected->rpe_trans_percent) : Json();
 }
 
-/// How often each kind of fault in the data occurred; no key where there was none.
+/// Number of data faults by kind; no key if there was none.
 void count_events(const Tick& tick, Json& metrics) {
   for (const SourceEvent& event : tick.events) {
     Json& count = metrics["input_faults"][event.event];
@@ -107,7 +107,7 @@ Json timing_metrics(const StageTimes& times) {
 double peak_rss_mib() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts in KiB
+  return static_cast<double>(usage.ru_maxrss) / 1024;  // KiB on Linux
 }
 
 double cpu_seconds() {

@@ -12,24 +12,23 @@ namespace vinebench::harness {
 
 using Json = nlohmann::ordered_json;
 
-/// The part of metrics.json that is a function of scenario, seed and build. What could not be
-/// measured is null.
+/// The part of metrics.json that is a function of scenario, seed and build. Metrics that could not
+/// be measured are null.
 Json result_metrics(const Trial& trial, const RunRecord& record, const RunResults& results);
 
-/// Mean, median and 95th percentile of each stage, ms a call.
+/// Mean, median and 95th percentile of each stage, ms per call.
 Json timing_metrics(const StageTimes& times);
 
-/// Value below which `share` (0 to 1) of the samples lie, linear between neighbours. Needs a
-/// sample.
+/// Quantile for `share` (0 to 1), linearly interpolated. Requires at least one sample.
 double percentile(std::vector<double> samples, double share);
 
-/// The most memory this process ever held, MiB.
+/// Peak memory of this process, MiB.
 double peak_rss_mib();
 
-/// CPU time of this process' threads and of the children that it waited for, s.
+/// CPU time of this process' threads and of child processes that have been waited for, s.
 double cpu_seconds();
 
-/// Expectations and what became of them as they stand in metrics.json, and back.
+/// Conversion of checked expectations to metrics.json and back.
 Json checks_json(const std::vector<Check>& checks);
 std::vector<Check> checks_of(const Json& list);
 

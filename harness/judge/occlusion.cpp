@@ -25,7 +25,7 @@ int inliers_of(const Tick& tick, const std::vector<int>& cameras) {
   return inliers;
 }
 
-/// Mean of their inliers over the ticks that `selected` picks; 0 when there is none.
+/// Mean of their inliers over the `selected` ticks; 0 if there is none.
 double mean_inliers(const RunRecord& record, const std::vector<int>& cameras, auto&& selected) {
   double sum = 0;
   int count = 0;

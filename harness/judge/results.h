@@ -13,20 +13,20 @@
 
 namespace vinebench::harness {
 
-/// What the judge found. A function of the record alone: no wall-clock figure.
+/// The result of the evaluation. A function of the record only: no wall-clock times.
 struct RunResults {
-  double coverage = 0;                  ///< share of frames with a pose at their own time, 0 to 1
-  int lost_frames = 0;                  ///< without a pose after the first that had one
+  double coverage = 0;                  ///< share of frames with a live pose, 0 to 1
+  int lost_frames = 0;                  ///< without a pose after the first frame with one
   int losses = 0;                       ///< how often tracking went from a pose to none
   std::optional<Evaluation> corrected;  ///< of every frame's pose after all corrections
-  std::optional<Evaluation> live;       ///< of the poses as they were known at their own frame
+  std::optional<Evaluation> live;       ///< of the live poses
   std::optional<Consistency> consistency;
-  std::optional<double> end_error;  ///< m, from the route's end to where the body truly ended
+  std::optional<double> end_error;  ///< m, from the route's end to the true final position
   LoopVerdict loops;
-  std::optional<OcclusionSegment> blind;  ///< where the scenario asks for one
+  std::optional<OcclusionSegment> blind;  ///< if the scenario expects one
 };
 
-/// Throws Error when an expectation names a camera that the rig has not.
+/// Throws Error if an expectation names a camera that the rig does not have.
 RunResults measure(const RunRecord& record, const Trial& trial);
 
 }  // namespace vinebench::harness

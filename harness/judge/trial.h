@@ -12,14 +12,14 @@
 
 namespace vinebench::harness {
 
-/// What the judge and the report know of a run besides its record. A recording has no site and
-/// expects nothing.
+/// Context of a run for evaluation and report, besides its record. A recording has no site and no
+/// expectations.
 struct Trial {
   std::string name;
   std::int64_t seed = 0;
   Expectations expectations;
   Site site;
-  std::optional<Eigen::Vector2d> route_end;  ///< m, world; where the route leads, if there is one
+  std::optional<Eigen::Vector2d> route_end;  ///< m, world; end of the route, if there is one
   bool miscalibrated = false;                ///< the true rig differs from the nominal one
 };
 

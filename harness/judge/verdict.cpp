@@ -17,7 +17,7 @@ std::string text_of(int value, const char* unit) {
   return fmt::format("{}{}", value, unit);
 }
 
-/// Builds the list; what was not measured fails its expectation.
+/// Builds the list; an expectation whose metric was not measured fails.
 class Checks {
  public:
   template <class T>

@@ -9,7 +9,7 @@
 
 namespace vinebench::harness {
 
-/// One expectation against what was measured.
+/// One expectation with the measured value.
 struct Check {
   std::string what;
   std::string measured;
@@ -21,10 +21,10 @@ std::vector<Check> check_expectations(const Expectations& expectations, const Ru
 
 bool all_hold(const std::vector<Check>& checks);
 
-/// Those that do not hold.
+/// Those that are not met.
 std::vector<Check> failed_of(const std::vector<Check>& checks);
 
-/// A table for people, a line a check; empty when there is none.
+/// A human-readable table, one line per check; empty if there is none.
 std::string format_checks(const std::vector<Check>& checks);
 
 }  // namespace vinebench::harness

@@ -30,7 +30,7 @@ const char* name_of(TagRejection reason) {
   return "";
 }
 
-/// Walks the ticks and remembers what has begun and not ended yet.
+/// Converts ticks to events and keeps the state of intervals that have not ended.
 class EventLog {
  public:
   EventLog(const RunRecord& record, const RunResults& results,
@@ -98,7 +98,7 @@ class EventLog {
     }
   }
 
-  /// One event when a tag comes into a camera and one when it has left it.
+  /// One event when a tag comes into a camera's view and one when it has left it.
   void add_sightings() {
     for (const TagSighting& tag : tick_->estimate.tags) {
       const auto [open, is_new] = sightings_.try_emplace({tag.camera, tag.family, tag.id});
@@ -118,7 +118,7 @@ class EventLog {
     }
   }
 
-  /// One event when a tag is not believed any more, or for another reason than in the frame before.
+  /// One event when a tag is rejected and was not rejected for this reason in the previous frame.
   void add_rejections() {
     std::set<Rejection> now;
     for (const RejectedTag& tag : tick_->estimate.rejected_tags) {
@@ -210,9 +210,9 @@ class EventLog {
   bool had_pose_ = false;
   bool ever_had_pose_ = false;
   bool reckoned_ = false;
-  std::map<std::size_t, std::size_t> occlusions_;  ///< camera to the tick it began at
+  std::map<std::size_t, std::size_t> occlusions_;  ///< camera to the first tick
   std::map<TagKey, Sighting> sightings_;
-  std::set<Rejection> rejected_;  ///< in the frame before
+  std::set<Rejection> rejected_;  ///< in the previous frame
   std::string text_;
 };
 

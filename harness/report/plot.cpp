@@ -21,11 +21,11 @@ constexpr double kMaxHeight = 700;                                   // px
 constexpr double kLeft = 60, kTop = 60, kRight = 230, kBottom = 60;  // px around the map
 constexpr double kLegendHeight = 330;                                // px
 
-/// Dark blue to yellow: seen by the colour-blind, and in print (after the viridis scale).
+/// Dark blue to yellow: readable for the colour-blind and in print (after the viridis scale).
 constexpr std::array<const char*, 6> kScale{"#440154", "#414487", "#2a788e",
                                             "#22a884", "#7ad151", "#fde725"};
 
-/// Draws in metres; the y axis is turned here and nowhere else.
+/// Draws in metres; the y axis is flipped here only.
 class Drawing {
  public:
   explicit Drawing(const Eigen::AlignedBox2d& bounds) : bounds_(bounds) {
@@ -47,7 +47,7 @@ class Drawing {
                     xml_escaped(words)));
   }
   void title(const std::string& words) {
-    constexpr double kLetter = 10;  // px, of the bold face at most in the mean
+    constexpr double kLetter = 10;  // px, mean width of a bold letter, upper bound
     text(kLeft, 30, words, "font-size=\"16\" font-weight=\"bold\"");
     title_end_ = 2 * kLeft + kLetter * static_cast<double>(words.size());
   }
@@ -59,7 +59,7 @@ class Drawing {
     add(fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" {}/>", x(centre.x()),
                     y(centre.y()), radius_px, style));
   }
-  void way(const std::vector<Eigen::Vector2d>& points, const std::string& style) {
+  void path(const std::vector<Eigen::Vector2d>& points, const std::string& style) {
     std::string list;
     for (const Eigen::Vector2d& p : points)
       list += fmt::format("{:.2f},{:.2f} ", x(p.x()), y(p.y()));
@@ -84,8 +84,8 @@ class Drawing {
   std::string body_;
 };
 
-/// Everything that is true; an estimate that ran away must not shrink it to a dot. Where nothing is
-/// known to be true, the estimate.
+/// Bounds of site and true path, so that a diverged estimate does not change the scale; those of
+/// the estimate if there is no truth.
 Eigen::AlignedBox2d bounds_of(const Site& site, const RunRecord& record) {
   Eigen::AlignedBox2d bounds;
   for (const auto& row : site.rows) bounds.extend(row.start).extend(row.end);
@@ -143,7 +143,7 @@ void draw_object(Drawing& drawing, const Site::Object& object) {
 }
 
 void draw_tag(Drawing& drawing, const WorldTag& tag) {
-  // The printed face looks against the tag's z axis.
+  // The printed face is normal to the tag's negative z axis.
   const Eigen::Vector2d face =
       -(tag.T_world_tag.rotation * Eigen::Vector3d::UnitZ()).head<2>().normalized();
   const Eigen::Vector2d along(-face.y(), face.x());
@@ -176,7 +176,7 @@ const char* colour_of(double error, double top) {
   return kScale.at(std::min(kScale.size() - 1, static_cast<std::size_t>(place)));
 }
 
-/// Truth as a broad grey way, dark where cameras were blind.
+/// The true path as a broad grey line, darker where cameras were blind.
 void draw_truth(Drawing& drawing, const RunRecord& record, const RunResults& results) {
   std::vector<Eigen::Vector2d> all;
   std::vector<Eigen::Vector2d> blind;
@@ -188,8 +188,8 @@ void draw_truth(Drawing& drawing, const RunRecord& record, const RunResults& res
     }
   }
   const std::string round = "stroke-linejoin=\"round\" stroke-linecap=\"round\"";
-  drawing.way(all, "stroke=\"#bbbbbb\" stroke-width=\"8\" " + round);
-  drawing.way(blind, "stroke=\"#555555\" stroke-width=\"8\" " + round);
+  drawing.path(all, "stroke=\"#bbbbbb\" stroke-width=\"8\" " + round);
+  drawing.path(blind, "stroke=\"#555555\" stroke-width=\"8\" " + round);
 }
 
 void draw_estimate(Drawing& drawing, const RunRecord& record, const RunResults& results,
@@ -208,13 +208,13 @@ void draw_estimate(Drawing& drawing, const RunRecord& record, const RunResults& 
   }
 }
 
-/// Without a truth to align it with and to colour it by.
+/// Without a truth for alignment and colours.
 void draw_estimate_alone(Drawing& drawing, const RunRecord& record) {
-  std::vector<Eigen::Vector2d> way;
+  std::vector<Eigen::Vector2d> path;
   for (const StampedPose& at : record.summary.trajectory) {
-    way.push_back(at.pose.translation.head<2>());
+    path.push_back(at.pose.translation.head<2>());
   }
-  drawing.way(way, fmt::format("stroke=\"{}\" stroke-width=\"3\"", kScale.front()));
+  drawing.path(path, fmt::format("stroke=\"{}\" stroke-width=\"3\"", kScale.front()));
 }
 
 void draw_closures(Drawing& drawing, const RunRecord& record, const RunResults& results) {
@@ -229,15 +229,15 @@ void draw_closures(Drawing& drawing, const RunRecord& record, const RunResults& 
 
 void draw_ends(Drawing& drawing, const RunRecord& record) {
   const Trajectory truth = true_trajectory(record);
-  const Trajectory& way = truth.empty() ? record.summary.trajectory : truth;
-  if (way.empty()) return;
-  const Eigen::Vector2d start = way.front().pose.translation.head<2>();
-  const Eigen::Vector2d end = way.back().pose.translation.head<2>();
+  const Trajectory& path = truth.empty() ? record.summary.trajectory : truth;
+  if (path.empty()) return;
+  const Eigen::Vector2d start = path.front().pose.translation.head<2>();
+  const Eigen::Vector2d end = path.back().pose.translation.head<2>();
   drawing.circle(start, 5, "fill=\"white\" stroke=\"black\" stroke-width=\"2\"");
   drawing.circle(end, 3, "fill=\"black\"");
 }
 
-/// One line of the legend a call, from top to bottom.
+/// One line of the legend per call, from top to bottom.
 class Legend {
  public:
   explicit Legend(Drawing& drawing) : drawing_(drawing), x_(kLeft + drawing.width() + 20) {}
@@ -273,7 +273,7 @@ void describe_site(Legend& legend, const Site& site) {
     legend.mark("vine", 3, "fill=\"#4c8c2b\"");
     legend.mark("post", 3, "fill=\"#7f6a4f\"");
   }
-  if (!site.tags.empty()) legend.entry("tag and where it faces", "#d62728", 6);
+  if (!site.tags.empty()) legend.entry("tag and its facing direction", "#d62728", 6);
 }
 
 void draw_legend(Drawing& drawing, const Site& site, const RunResults& results, double top) {

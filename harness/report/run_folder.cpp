@@ -17,7 +17,7 @@ namespace {
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) fail("output folder {}: cannot be made: {}", folder.string(), error.message());
+  if (error) fail("output folder {}: cannot be created: {}", folder.string(), error.message());
 }
 
 void remove_old_images(const std::filesystem::path& folder) {

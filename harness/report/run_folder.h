@@ -13,13 +13,13 @@ namespace vinebench::harness {
 /// In the folder of a set's run: the fingerprint of its inputs (run_inputs.h).
 inline constexpr const char* kInputsFile = "inputs.txt";
 
-/// Makes the folder of a run, writes its settings into it under the given name and takes away what
-/// an earlier run would leave beside the new one (metrics.json and images of frames). Throws
-/// Error when it cannot be written to, before any work is done.
+/// Creates the folder of a run, writes its settings to a file of the given name and removes results
+/// of an earlier run that would remain (metrics.json and images of frames). Throws Error if the
+/// folder is not writable, before any work is done.
 void prepare_run_folder(const std::filesystem::path& folder, const std::string& name,
                         const std::string& settings);
 
-/// Trajectories, events, plot and summary: all but the metrics, which only a whole run has.
+/// Trajectories, events, plot and summary: all except the metrics, which only a complete run has.
 void write_run_files(const std::filesystem::path& folder, const Trial& trial,
                      const RunRecord& record, const RunResults& results,
                      const std::vector<DegradedSegment>& segments);

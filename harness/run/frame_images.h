@@ -9,11 +9,11 @@
 
 namespace vinebench::harness {
 
-/// Writes all cameras' images of a few frames, evenly spread over the run, as
+/// Writes all cameras' images of a few frames, evenly distributed over the run, as
 /// frames/000123_front_left.png.
 class FrameImages : public Sink {
  public:
-  /// `count` frames of a run of `total`; the first and the last are among them.
+  /// `count` frames of a run of `total`, including the first and the last.
   FrameImages(std::filesystem::path folder, const Rig& rig, std::int64_t total, int count);
   void on_tick(const Sample& sample, const Estimate& estimate) override;
 

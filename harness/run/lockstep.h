@@ -9,10 +9,9 @@
 
 namespace vinebench::harness {
 
-/// The loop of the test bench: each frame of the source goes to the SLAM system, and what it
-/// answers goes with the truth to the sinks. The SLAM system is given the frame alone.
-/// Asks `stopped` before every tick and ends early when it says so. Returns what the system knows
-/// in the end.
+/// The loop of the test bench: each frame of the source goes to the SLAM system; the estimate and
+/// the truth go to the sinks. The SLAM system gets the frame only. Polls `stopped` before every
+/// tick and ends early if it returns true. Returns the system's final result.
 SlamSummary run_lockstep(FrameSource& source, SlamSystem& slam, const std::vector<Sink*>& sinks,
                          const std::function<bool()>& stopped = {});
 

@@ -8,18 +8,18 @@
 
 namespace vinebench::harness {
 
-/// Makes the next sample of a source on another thread while the one before is worked on. The
-/// samples are the source's own, in its order; what it throws is thrown by the next() that would
-/// have given the sample.
+/// Prefetches the next sample of a source on another thread while the previous one is processed.
+/// Order and content are unchanged; an exception of the source is thrown by the next() that would
+/// have returned the sample.
 class Prefetch : public FrameSource {
  public:
-  /// Keeps a reference to the source, which nobody else may use meanwhile.
+  /// Keeps a reference to the source, which must not be used otherwise meanwhile.
   explicit Prefetch(FrameSource& source);
 
   std::optional<Sample> next() override;
   std::int64_t size() const override { return source_.size(); }
   const Rig& rig() const override { return source_.rig(); }
-  /// Waits for the sample under way, whose times are among them.
+  /// Waits for the pending sample and includes its times.
   const StageTimes& times() const override;
 
  private:

@@ -11,11 +11,11 @@
 
 namespace vinebench::harness {
 
-/// Tells a person how far a run is: one line that renews itself on a terminal, plain lines (one
-/// every 5 %) elsewhere.
+/// Displays the progress of a run: one updating line on a terminal, plain lines (one every 5 %)
+/// elsewhere.
 class Progress : public Sink {
  public:
-  /// Says at the end of a line what `note` answers, or how tracking is where there is none.
+  /// Appends the text of `note` to each line, or the tracking status if there is none.
   Progress(std::ostream& out, bool terminal, std::string title, std::int64_t total,
            std::function<std::string()> note = {});
   void on_tick(const Sample& sample, const Estimate& estimate) override;

@@ -11,8 +11,8 @@
 namespace vinebench::harness {
 
 /// Fingerprint of a run: XXH3, 128 bits, over every image, sensor sample, true pose, estimate and
-/// result, in order. No wall-clock figure enters it, so that two runs of the same scenario with the
-/// same build have the same one.
+/// result, in order, without wall-clock times, so that two runs of the same scenario with the same
+/// build have the same hash.
 class RunHash : public Sink {
  public:
   RunHash();
@@ -21,10 +21,10 @@ class RunHash : public Sink {
   void on_tick(const Sample& sample, const Estimate& estimate) override;
   void on_finish(const SlamSummary& summary) override;
 
-  /// Results that were computed from the rest, as text.
+  /// Results computed from the rest, as text.
   void add(std::string_view text);
 
-  /// 32 hexadecimal digits of what was added so far.
+  /// Hash of the data added so far, 32 hexadecimal digits.
   std::string digits() const;
 
  private:

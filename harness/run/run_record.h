@@ -9,17 +9,17 @@
 
 namespace vinebench::harness {
 
-/// What one tick leaves behind once its images are gone.
+/// The record of one tick, without images.
 struct Tick {
   std::int64_t index = 0;
   Stamp stamp = 0;
   Truth truth;
   Estimate estimate;
   std::vector<SourceEvent> events;
-  std::vector<bool> delivered{};  ///< whether each camera gave an image
+  std::vector<bool> delivered{};  ///< whether each camera delivered an image
 };
 
-/// A whole run, or as much of it as there was: the one input of judge, log, plot and metrics.
+/// A run, or its part up to an interruption: the only input of evaluation, log, plot and metrics.
 struct RunRecord {
   Rig rig;
   std::vector<WorldTag> tags;  ///< of the world, in its order
@@ -27,24 +27,24 @@ struct RunRecord {
   SlamSummary summary;
 };
 
-/// Whether this frame has a pose that the cameras bear out.
+/// Whether this frame has a pose supported by the cameras.
 inline bool is_tracked(const Estimate& estimate) {
   return estimate.T_map_body.has_value() && estimate.status != TrackingStatus::kLost &&
          estimate.status != TrackingStatus::kDeadReckoning;
 }
 
-/// Where the truth is known.
+/// The ticks with known truth.
 Trajectory true_trajectory(const RunRecord& record);
 
-/// Poses as they were known at their own frame.
+/// Live poses.
 Trajectory live_trajectory(const RunRecord& record);
 
-/// Length of the true way from the first tick to each, m. Unknown poses add nothing.
+/// Length of the true path from the first tick to each, m. Unknown poses add nothing.
 std::vector<double> true_path_lengths(const RunRecord& record);
 
-/// Fills a record. A system that gave no pose while it ran worked at the end alone: then the poses
-/// of its trajectory are those of the frames with their stamps, and frames after the first one
-/// without a pose are lost.
+/// Fills a record. If a system gave no pose during the run, it ran after the last frame: the poses
+/// of its trajectory are then assigned to frames by stamp, and frames without a pose after the
+/// first one with a pose are lost.
 class RunRecorder : public Sink {
  public:
   RunRecorder(Rig rig, std::vector<WorldTag> tags);

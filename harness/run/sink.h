@@ -7,7 +7,7 @@
 
 namespace vinebench::harness {
 
-/// Takes what comes out of a run, tick by tick, and changes nothing of it.
+/// Receives the ticks of a run.
 class Sink {
  public:
   virtual ~Sink() = default;

@@ -36,7 +36,7 @@ void write_all(int descriptor, const std::string& text) {
   }
 }
 
-/// Leaves without the parent's clean-up.
+/// Exits without the parent's clean-up.
 [[noreturn]] void be_the_child(int descriptor, const std::function<std::string()>& job) {
   int code = 0;
   std::string text;
@@ -51,13 +51,13 @@ void write_all(int descriptor, const std::string& text) {
   _exit(code);
 }
 
-/// A process that was forked from this one and the pipe that its text comes through.
+/// A forked process and the pipe for its text.
 class Child {
  public:
   Child(std::string what, const std::function<std::string()>& job) : what_(std::move(what)) {
     std::array<int, 2> ends{};
     if (pipe(ends.data()) != 0) fail_by_system(what_);
-    std::fflush(nullptr);  // else the child might write it a second time
+    std::fflush(nullptr);  // otherwise the child might write it again
     process_ = fork();
     if (process_ < 0) fail_by_system(what_);
     if (process_ == 0) {
@@ -68,7 +68,7 @@ class Child {
     descriptor_ = ends[0];
   }
 
-  /// Waits for a part of its text; false at the end.
+  /// Waits for more text; false at the end.
   bool read_part() {
     std::array<char, 4096> part{};
     for (;;) {
@@ -80,7 +80,7 @@ class Child {
     }
   }
 
-  /// To be called after the text's end.
+  /// Call after the end of the text.
   ChildOutcome wait() {
     close(descriptor_);
     int status = 0;
@@ -104,7 +104,7 @@ class Child {
   std::string text_;
 };
 
-/// The jobs that are under way.
+/// The running jobs.
 class RunningJobs {
  public:
   explicit RunningJobs(const ChildJobs& jobs) : jobs_(jobs) {}
@@ -127,7 +127,7 @@ class RunningJobs {
     running_.emplace(index, Child(jobs_.name(index), [this, index, parent] {
                        setpgid(0, 0);
                        prctl(PR_SET_PDEATHSIG, SIGTERM);
-                       if (getppid() != parent) _exit(1);  // it ended before it could be asked
+                       if (getppid() != parent) _exit(1);  // the parent ended before prctl
                        return jobs_.job(index);
                      }));
   }

@@ -9,8 +9,8 @@
 
 namespace vinebench::harness {
 
-/// A set's verdicts as JUnit's XML: a suite a scenario, a case a seed and one for the median where
-/// it is judged.
+/// A set's verdicts as JUnit XML: one suite for each scenario, one case for each seed and one for
+/// the median if it has bounds.
 std::string format_junit(const std::vector<SeedsSummary>& scenarios);
 
 }  // namespace vinebench::harness

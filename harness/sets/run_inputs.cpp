@@ -13,7 +13,7 @@
 namespace vinebench::harness {
 namespace {
 
-/// Every scalar that is the name of a file.
+/// Every scalar that names a file.
 void gather_files(const YAML::Node& node, std::set<std::filesystem::path>& files) {
   if (node.IsScalar()) {
     const std::filesystem::path file = node.Scalar();

@@ -8,9 +8,9 @@
 
 namespace vinebench::harness {
 
-/// Fingerprint of what a run is a function of: this program's own file, the resolved scenario with
-/// its seed, and the files that the scenario names. What those name in turn (a rover's meshes) is
-/// not looked at.
+/// Fingerprint of the inputs of a run: this program's executable, the resolved scenario with its
+/// seed, and the files that the scenario names. Files that those name in turn (a rover's meshes)
+/// are not included.
 std::string fingerprint_of_inputs(const ScenarioConfig& scenario);
 
 }  // namespace vinebench::harness

@@ -29,7 +29,7 @@ std::string name_of(const PlannedRun& run) {
   return fmt::format("{}, seed {}", run.scenario.name, run.scenario.seed);
 }
 
-/// A whole run's figures; null where there are none that can be read.
+/// Metrics of a complete run; null if they cannot be read.
 Json read_metrics(const fs::path& folder) {
   std::error_code ignored;
   if (!fs::is_regular_file(folder / "metrics.json", ignored)) return {};
@@ -43,7 +43,7 @@ bool has_inputs(const fs::path& folder, const std::string& fingerprint) {
          read_file(folder / kInputsFile) == fingerprint + "\n";
 }
 
-/// From here on what this process says goes to the file.
+/// Redirects the output of this process to the file.
 void write_messages_to(const fs::path& file) {
   const int log = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
   if (log < 0) fail("{}: cannot be written: {}", file.string(), std::strerror(errno));
@@ -52,7 +52,7 @@ void write_messages_to(const fs::path& file) {
   close(log);
 }
 
-/// In a process of its own.
+/// In a child process.
 std::string run_planned(const PlannedRun& run, const SetOptions& options, int threads) {
   prepare_scenario_folder(run.folder, run.scenario);
   write_messages_to(run.folder / "log.txt");
@@ -137,13 +137,13 @@ class RunningSet {
     } else {
       text += fmt::format(
           "{}{}", run.failed() ? "FAILED" : "passed",
-          run.kept ? " (there already)"
+          run.kept ? " (kept)"
                    : fmt::format(" in {:.0f} s", run.metrics["wall_seconds"].get<double>()));
     }
     *options_.progress << text << time_left() << std::endl;
   }
 
-  /// By the runs so far.
+  /// Estimated from the runs so far.
   std::string time_left() const {
     if (ran_ == 0 || done_ == plan_.size()) return "";
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
@@ -169,8 +169,7 @@ std::vector<PlannedRun> plan_set(const std::vector<ScenarioConfig>& scenarios,
   std::map<std::string, int> names;
   for (const ScenarioConfig& scenario : scenarios) {
     if (++names[scenario.name] > 1) {
-      fail("two of the scenarios have the name '{}'; expected a name of its own for each",
-           scenario.name);
+      fail("two of the scenarios have the name '{}'; expected unique names", scenario.name);
     }
     const std::vector<std::int64_t> own{scenario.seed};
     for (const std::int64_t seed : seeds.empty() ? own : seeds) {

@@ -26,7 +26,7 @@ std::int64_t parse_seed(const std::string& text, const std::string& whole) {
 
 std::vector<std::int64_t> parse_seeds(const std::string& text) {
   std::vector<std::int64_t> seeds;
-  std::istringstream in(text + ",");  // so that a trailing comma shows as an empty part
+  std::istringstream in(text + ",");  // so that a trailing comma gives an empty part
   for (std::string part; std::getline(in, part, ',');) {
     const std::size_t dots = part.find("..");
     const std::int64_t first = parse_seed(part.substr(0, dots), text);
@@ -35,7 +35,7 @@ std::vector<std::int64_t> parse_seeds(const std::string& text) {
     if (last < first) fail("seeds '{}': {} runs backwards", text, part);
     if (last - first >= kMost) fail("seeds '{}': expected at most {}", text, kMost);
     for (std::int64_t seed = first; seed <= last; ++seed) {
-      if (std::ranges::count(seeds, seed) > 0) fail("seeds '{}': {} stands twice", text, seed);
+      if (std::ranges::count(seeds, seed) > 0) fail("seeds '{}': {} is repeated", text, seed);
       seeds.push_back(seed);
     }
   }

@@ -22,14 +22,13 @@ struct SeedsSummary {
   bool passed() const;
 };
 
-/// The scenarios of a set in their order. A run without an error to take the median of counts as
-/// one of an infinite error.
+/// The scenarios of a set in their order. A run without an error counts as infinite in the median.
 std::vector<SeedsSummary> summarise(const std::vector<PlannedRun>& plan, const SetOutcome& outcome);
 
-/// A Markdown table: a row a run, a row for the medians of each scenario.
+/// A Markdown table: one row for each run, one for the medians of each scenario.
 std::string format_table(const std::vector<SeedsSummary>& scenarios);
 
-/// What failed, a paragraph a run; empty when all is well.
+/// Failures, one paragraph for each run; empty if there are none.
 std::string format_failures(const std::vector<SeedsSummary>& scenarios);
 
 /// The same as data.

@@ -22,7 +22,7 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
   }
 }
 
-/// Takes away what an earlier run left, and nothing else.
+/// Removes the files of an earlier run only.
 fs::path clear_recording(const fs::path& folder) {
   std::error_code ignored;
   if (fs::exists(folder / "frames.csv", ignored) && fs::exists(folder / "mav0", ignored)) {
@@ -43,7 +43,7 @@ class ExternalSlam : public SlamSystem {
     check_external_slam(config, rig_);
     std::error_code error;
     fs::create_directories(output_, error);
-    if (error) fail("{}: cannot be made: {}", output_.string(), error.message());
+    if (error) fail("{}: cannot be created: {}", output_.string(), error.message());
     fs::remove(output_ / config.trajectory, error);  // of an earlier run
     writer_.emplace(recording_, notes);
   }
@@ -63,7 +63,7 @@ class ExternalSlam : public SlamSystem {
     writer_->on_finish(summary);
     writer_.reset();
     std::error_code ignored;
-    fs::remove_all(recording_ / "mav0/state_groundtruth_estimate0", ignored);  // is empty
+    fs::remove_all(recording_ / "mav0/state_groundtruth_estimate0", ignored);  // empty
     if (!run()) return summary;
     summary.trajectory = read_trajectory();
     if (!config_.keep_recording) fs::remove_all(recording_, ignored);
@@ -73,7 +73,7 @@ class ExternalSlam : public SlamSystem {
   const StageTimes& times() const override { return times_; }
 
  private:
-  /// False when it was stopped.
+  /// False if it was stopped.
   bool run() {
     const ScopedTimer timer(times_, "external");
     Program program{.file = config_.program,
@@ -95,8 +95,8 @@ class ExternalSlam : public SlamSystem {
     const fs::path file = output_ / config_.trajectory;
     std::error_code ignored;
     if (!fs::exists(file, ignored)) {
-      fail("{}: left no trajectory; expected {}, and its messages are in {}",
-           config_.program.string(), file.string(), (output_ / "log.txt").string());
+      fail("{}: wrote no trajectory; expected {}; its messages are in {}", config_.program.string(),
+           file.string(), (output_ / "log.txt").string());
     }
     Pose T_sensor_body;
     if (config_.poses_of != kBody) {

@@ -69,7 +69,7 @@ Trajectory read_foreign_trajectory(const std::filesystem::path& file,
   }
   if (trajectory.empty()) {
     fail(
-        "{}: none of its {} poses is of a frame: they are from {} to {} s, the frames from {} to "
+        "{}: none of its {} poses matches a frame: they are from {} to {} s, the frames from {} to "
         "{} s",
         file.string(), written.size(), format_seconds(written.front().stamp),
         format_seconds(written.back().stamp), format_seconds(frames.front()),

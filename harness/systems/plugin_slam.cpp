@@ -27,7 +27,7 @@ void copy_into(double (&target)[N], const Values& values) {
   std::copy_n(values.data(), N, target);
 }
 
-/// The setup of a plugin, and what its pointers point at.
+/// The setup of a plug-in, and the data that its pointers refer to.
 class Setup {
  public:
   Setup(const PluginSlamConfig& config, const Rig& rig, const std::vector<RegisteredTag>& tags,
@@ -86,7 +86,7 @@ class Setup {
   vinebench_setup setup_{};
 };
 
-/// A frame as a plugin is given it; the images stay where they are.
+/// A frame in the plug-in's interface; the images are not copied.
 class FrameView {
  public:
   explicit FrameView(const Frame& frame) {
@@ -132,7 +132,7 @@ class PluginSlam : public SlamSystem {
   }
   PluginSlam(const PluginSlam&) = delete;
   PluginSlam& operator=(const PluginSlam&) = delete;
-  /// The shared object stays loaded: libraries that it brought may have threads and exit handlers.
+  /// The shared object stays loaded: its libraries may have threads and exit handlers.
   ~PluginSlam() override { functions_.destroy(system_); }
 
   Estimate process(const Frame& frame) override {
@@ -190,8 +190,8 @@ class PluginSlam : public SlamSystem {
     const Pose result{Eigen::Quaterniond(q[3], q[0], q[1], q[2]), {p[0], p[1], p[2]}};
     if (!result.translation.allFinite() ||
         !(std::abs(result.rotation.norm() - 1) <= kNormTolerance)) {
-      fail("{}: a pose of it is none: position {} {} {}, quaternion {} {} {} {}", file_, p[0], p[1],
-           p[2], q[0], q[1], q[2], q[3]);
+      fail("{}: invalid pose: position {} {} {}, quaternion {} {} {} {}", file_, p[0], p[1], p[2],
+           q[0], q[1], q[2], q[3]);
     }
     return result;
   }

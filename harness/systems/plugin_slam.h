@@ -13,9 +13,8 @@
 
 namespace vinebench::harness {
 
-/// Makes the SLAM system of a shared object (core/slam_plugin.h). Throws Error when it cannot
-/// be loaded, is of another version of that interface, or says that something failed; process and
-/// finish do too.
+/// Creates the SLAM system of a shared object (core/slam_plugin.h). Throws Error if it cannot be
+/// loaded, has another version of the interface, or reports a failure; process and finish do too.
 std::unique_ptr<SlamSystem> load_plugin_slam(const PluginSlamConfig& config, const Rig& rig,
                                              const std::vector<RegisteredTag>& tags,
                                              const std::optional<slam::MecanumWheels>& wheels,

@@ -29,7 +29,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& words) {
   return pointers;
 }
 
-/// This process' environment without the names that are set anew.
+/// This process' environment without the variables that are replaced.
 std::vector<std::string> environment_of(const Program& program) {
   std::vector<std::string> entries;
   for (char** entry = environ; *entry != nullptr; ++entry) entries.emplace_back(*entry);
@@ -40,7 +40,7 @@ std::vector<std::string> environment_of(const Program& program) {
   return entries;
 }
 
-/// What spawning needs, given back at the end.
+/// Resources for spawning, released at the end.
 class SpawnSettings {
  public:
   explicit SpawnSettings(const Program& program) {

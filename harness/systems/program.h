@@ -10,20 +10,21 @@
 
 namespace vinebench::harness {
 
-/// Somebody else's program.
+/// An external program.
 struct Program {
   std::filesystem::path file;
   std::vector<std::string> arguments;
   std::vector<std::pair<std::string, std::string>> environment;  ///< added to this process' own
   std::filesystem::path folder;                                  ///< where it runs
-  std::filesystem::path log;                                     ///< takes what it prints
+  std::filesystem::path log;                                     ///< for its output
   double timeout = 3600;                                         ///< s
-  std::function<bool()> stopped;  ///< asked while it runs; may be empty
+  std::function<bool()> stopped;  ///< polled while it runs; may be empty
 };
 
-/// Runs it to its end, in a process group of its own, which is killed at the timeout and when
-/// `stopped` says so; then it returns false. Throws Error when it cannot be started, ends otherwise
-/// than with exit code 0 or takes too long; the message has the last line that it printed.
+/// Runs it to its end in a separate process group, which is killed at the timeout and when
+/// `stopped` returns true; returns false if it was stopped. Throws Error if it cannot be started,
+/// ends with an exit code other than 0 or exceeds the timeout; the message has its last line of
+/// output.
 bool run_program(const Program& program);
 
 }  // namespace vinebench::harness

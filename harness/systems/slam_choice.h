@@ -11,13 +11,13 @@
 
 namespace vinebench::harness {
 
-/// A SLAM system that is a program: it is given a recording of the run and leaves a trajectory.
+/// A SLAM system that is a program: it gets a recording of the run and writes a trajectory.
 struct ExternalSlamConfig {
   std::filesystem::path program;
   /// "{recording}" and "{output}" in them stand for the folders.
   std::vector<std::string> arguments{"{recording}", "{output}"};
-  std::string trajectory = "trajectory.txt";  ///< file that it leaves, in its output folder
-  std::string poses_of = "body";              ///< "body", or the camera whose poses it writes
+  std::string trajectory = "trajectory.txt";  ///< file that it writes, in its output folder
+  std::string poses_of = "body";              ///< frame of its poses: "body", or a camera
   double timeout = 3600;                      ///< s, of wall time
   bool keep_recording = false;
   template <class Archive>
@@ -28,15 +28,15 @@ struct ExternalSlamConfig {
     archive("poses_of", poses_of);
     archive("timeout", timeout, Range::positive());
     archive("keep_recording", keep_recording);
-    archive.require(!program.empty(), "program", "expected a file that can be run");
-    archive.require(!trajectory.empty(), "trajectory", "expected a file's name");
+    archive.require(!program.empty(), "program", "expected an executable file");
+    archive.require(!trajectory.empty(), "trajectory", "expected a file name");
   }
 };
 
 /// A SLAM system in a shared object, as of core/slam_plugin.h.
 struct PluginSlamConfig {
   std::filesystem::path library;
-  std::optional<std::filesystem::path> settings;  ///< handed on to it
+  std::optional<std::filesystem::path> settings;  ///< passed on to it
   template <class Archive>
   void serialize(Archive& archive) {
     archive("library", library);
@@ -45,7 +45,7 @@ struct PluginSlamConfig {
   }
 };
 
-/// A scenario's `slam`: settings of the core, or another system in its place.
+/// A scenario's `slam`: settings of the core, or another system instead.
 struct SlamChoice : slam::SlamConfig {
   std::optional<ExternalSlamConfig> external;
   std::optional<PluginSlamConfig> plugin;

@@ -8,7 +8,7 @@
 
 namespace vinebench::sim {
 
-/// A model with the textures and materials that it brings along; its indices count from its own.
+/// A model with its own textures and materials; its indices refer to them.
 struct Asset {
   std::vector<Texture> textures;
   std::vector<Material> materials;
@@ -16,12 +16,12 @@ struct Asset {
 
   int add(Texture texture);
   int add(Material material);
-  /// Sets the model's bounds from its finest level that has vertices.
+  /// Sets the model's bounds from the finest level with vertices.
   void update_bounds();
 };
 
-/// Adds the asset to the scene and returns the model's index there. Textures and materials that
-/// the scene already has, equal to the last bit, are shared.
+/// Adds the asset to the scene and returns the model's index there. Bitwise equal textures and
+/// materials of the scene are shared.
 int add_asset(Scene& scene, Asset asset);
 
 Material make_material(std::string name, Label label, int texture);

@@ -16,7 +16,7 @@
 namespace vinebench::sim {
 namespace {
 
-constexpr float kFarthest = 1e5f;  // m; what lies further from its origin is no plant
+constexpr float kFarthest = 1e5f;  // m; plausible distance of a vertex from the origin
 
 std::string problem_of(const Vertex& v) {
   if (!v.position.allFinite() || !v.uv.allFinite() || !v.normal.allFinite() ||
@@ -63,7 +63,7 @@ void check(const Asset& asset, const std::string& file) {
   if (asset.model.levels.empty()) fail("{}: expected a mesh, found no triangles", file);
 }
 
-/// Foreign normals are seldom exactly of length one; ours stay as they are.
+/// Normals of imported meshes are rarely normalised exactly; ours are unchanged.
 void normalise(Asset& asset) {
   for (LevelOfDetail& level : asset.model.levels) {
     for (Primitive& primitive : level.primitives) {
@@ -85,7 +85,7 @@ namespace {
 
 constexpr const char* kImages = "expected an image (PNG, JPEG, TIFF)";
 
-/// A few bytes can ask for gigabytes of pixels.
+/// A small file can require gigabytes of pixels.
 void check_size(std::string_view bytes, const std::string& where) {
   constexpr double kLargest = 16384, kMost = 1 << 24;  // px, on a side and in all
   const std::optional<cv::Size2d> size = image_size(bytes);
@@ -118,7 +118,7 @@ std::string read_mesh_file(const std::filesystem::path& file) {
   constexpr std::uintmax_t kMost = std::uintmax_t{1} << 30;
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
-  // A pipe or a device may never end.
+  // Reading a pipe or a device may never end.
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
       !std::filesystem::is_directory(status)) {
     fail("{}: expected a file, found a pipe or a device", file.string());

@@ -16,7 +16,7 @@ constexpr std::size_t kDeepest = 64;  // nodes in each other
 constexpr std::size_t kDeepestElement = 200;
 constexpr double kMostNodes = 100'000;
 
-/// What a node brings along: its own node's names, in the order of the text.
+/// The nodes instanced by each node, in the order of the text.
 using Graph = std::map<std::string, std::vector<std::string>, std::less<>>;
 
 struct Extent {
@@ -36,7 +36,7 @@ class ColladaCheck {
   }
 
  private:
-  /// Reads the tag that begins at `at`; returns where it ends.
+  /// Reads the tag at `at`; returns its end.
   std::size_t skip_tag(std::size_t at) {
     if (text_.substr(at).starts_with("<!--")) return end_of("-->", at);
     if (text_.substr(at).starts_with("<![CDATA[")) return end_of("]]>", at);
@@ -86,7 +86,7 @@ class ColladaCheck {
     return {};
   }
 
-  /// A node that contains itself is deeper than any limit.
+  /// A node that contains itself exceeds any depth limit.
   Extent unfold(const std::string& name, std::size_t level) {
     if (level > kDeepest) {
       fail("{}: nodes lie more than {} deep in each other, or in themselves", file_, kDeepest);
@@ -115,7 +115,7 @@ class ColladaCheck {
 
   std::string_view text_;
   const std::string& file_;
-  std::vector<std::string> open_;  ///< the node round each open element
+  std::vector<std::string> open_;  ///< the node of each open element
   std::string node_;
   int unnamed_ = 0;
   std::map<std::string, std::string, std::less<>> ids_;

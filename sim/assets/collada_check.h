@@ -7,9 +7,9 @@
 
 namespace vinebench::sim {
 
-/// Throws Error that names `file` for the text of a .dae that assimp would not come back from:
-/// elements nested so deep that they exhaust the stack, nodes that contain themselves or unfold to
-/// more than 100 000, lists said to be longer than the text.
+/// Throws Error that names `file` for the text of a .dae that would make assimp crash or hang:
+/// elements nested deeply enough to exhaust the stack, nodes that contain themselves or expand to
+/// more than 100 000, lists with a stated length beyond that of the text.
 void check_collada(std::string_view text, const std::string& file);
 
 }  // namespace vinebench::sim

@@ -11,10 +11,10 @@
 
 namespace vinebench::sim {
 
-// Levels of detail: a viewer draws the node of the scene, the others are named by this extension.
+// Levels of detail: a viewer shows the node of the scene; this extension names the others.
 inline constexpr const char* kLevelsExtension = "MSFT_lod";
-// What glTF has no words for. Extras of the finest level's node: until what distance each level is
-// drawn, m.
+// Data without a glTF representation. Extras of the finest level's node: the distance up to which
+// each level is drawn, m.
 inline constexpr const char* kUntil = "until";
 // Extras of a material.
 inline constexpr const char* kLabel = "label";

@@ -110,7 +110,7 @@ float GltfNumbers::real(std::size_t element, int component) const {
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
       return scaled(load<std::uint16_t>(from), 65535);
     default:
-      return 0;  // expect_real() has refused it
+      return 0;  // rejected by expect_real()
   }
 }
 

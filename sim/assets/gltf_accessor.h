@@ -10,10 +10,10 @@
 
 namespace vinebench::sim {
 
-/// The bytes of a buffer view. Throws Error that names `file` when they lie outside their buffer.
+/// The bytes of a buffer view. Throws Error that names `file` if they are outside their buffer.
 std::string_view gltf_view(const tinygltf::Model& model, int view, const std::string& file);
 
-/// Numbers of a glTF file, checked against its buffers before the first is read.
+/// Numbers of a glTF file, with bounds checked at construction.
 class GltfNumbers {
  public:
   /// `type` is one of TINYGLTF_TYPE_*. Throws Error that names `file`.
@@ -23,7 +23,7 @@ class GltfNumbers {
   /// Throw Error unless `whole`, or `real`, can read these numbers.
   void expect_whole(const std::string& file) const;
   void expect_real(const std::string& file) const;
-  /// Integers of a normalised accessor are brought to [0, 1] or [-1, 1].
+  /// Integers of a normalised accessor are scaled to [0, 1] or [-1, 1].
   float real(std::size_t element, int component) const;
   std::uint32_t whole(std::size_t element) const;
 

@@ -11,7 +11,7 @@
 namespace vinebench::sim {
 namespace {
 
-/// Keeps an image file's bytes as they are; those inside a buffer are found there later.
+/// Keeps an image file's bytes undecoded; those inside a buffer are read later.
 bool keep_bytes(tinygltf::Image* image, int, std::string*, std::string*, int, int,
                 const unsigned char* bytes, int size, void*) {
   if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
@@ -45,8 +45,8 @@ std::uint32_t number_at(std::string_view bytes, std::size_t at) {
   return number;
 }
 
-/// The JSON text of a .glb, after a look at the lengths that it states: tinygltf reads a few bytes
-/// past the end of a second chunk that is cut short.
+/// The JSON text of a .glb, after checking its stated lengths: tinygltf reads a few bytes past the
+/// end of a truncated second chunk.
 std::string_view glb_json(std::string_view bytes, const std::string& file) {
   constexpr std::size_t kHeader = 12, kChunkHeader = 8;
   if (bytes.size() < kHeader + kChunkHeader) {
@@ -57,7 +57,8 @@ std::string_view glb_json(std::string_view bytes, const std::string& file) {
   }
   const std::size_t size = number_at(bytes, 8);
   if (size > bytes.size()) {
-    fail("{}: says that it has {} bytes, found {}: is it cut short?", file, size, bytes.size());
+    fail("{}: expected {} bytes by its header, found {}: is it truncated?", file, size,
+         bytes.size());
   }
   bytes = bytes.substr(0, std::max(size, kHeader + kChunkHeader));
   for (std::size_t at = kHeader; at < bytes.size();) {
@@ -70,8 +71,7 @@ std::string_view glb_json(std::string_view bytes, const std::string& file) {
   return bytes.substr(kHeader + kChunkHeader, number_at(bytes, kHeader));
 }
 
-/// tinygltf calls itself for each value within a value: a file that nests enough of them would
-/// exhaust the stack.
+/// tinygltf parses nested values recursively: a deeply nested file would exhaust the stack.
 void check_depth(std::string_view json, const std::string& file) {
   constexpr int kDeepest = 200;
   int depth = 0;
@@ -107,7 +107,7 @@ bool load(const std::string& bytes, const std::filesystem::path& file, tinygltf:
   }
 }
 
-/// In one line, and without most of the file: a parser may quote the whole string that it fails on.
+/// A single, shortened line: a parser may quote the whole string that it fails on.
 std::string brief(std::string text) {
   constexpr std::size_t kHead = 160, kTail = 80;
   std::ranges::replace_if(
@@ -124,7 +124,7 @@ tinygltf::Model parse_gltf(const std::filesystem::path& file) {
   tinygltf::Model model;
   std::string problem;
   const bool whole = load(bytes, file, model, problem);
-  // It also goes on without what it could not read.
+  // tinygltf also continues after unreadable parts.
   if (!whole || !problem.empty()) fail("{}: expected glTF 2.0: {}", file.string(), brief(problem));
   if (!model.asset.version.starts_with("2.")) {
     fail("{}: expected glTF 2.0, found version '{}'", file.string(), model.asset.version);

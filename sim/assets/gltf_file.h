@@ -9,7 +9,7 @@
 namespace vinebench::sim {
 
 /// The parts of a .glb or .gltf file with its buffers; images stay as the bytes of their files.
-/// What the parts say of each other is not checked. Throws Error that names the file.
+/// References between the parts are not checked. Throws Error that names the file.
 tinygltf::Model parse_gltf(const std::filesystem::path& file);
 
 }  // namespace vinebench::sim

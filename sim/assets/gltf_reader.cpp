@@ -90,7 +90,7 @@ class GltfReader {
     if (until.ArrayLen() > 0) asset_.model.levels[0].until = distance(until.Get(0));
     if (extension == node.extensions.end() || !extension->second.Has("ids")) return;
     const Value& ids = extension->second.Get("ids");
-    // Without our distances, only the finest level can be used.
+    // Without our distances only the finest level is usable.
     if (until.ArrayLen() != ids.ArrayLen() + 1) return;
     for (int i = 0; i < static_cast<int>(ids.ArrayLen()); ++i) {
       LevelOfDetail level{distance(until.Get(i + 1)), {}};
@@ -144,7 +144,7 @@ class GltfReader {
     for (const int child : node.children) add_node(child, T_model_node, depth + 1, level);
   }
 
-  /// tinygltf keeps what it could read of a list that is broken.
+  /// tinygltf keeps the readable part of an invalid list.
   void expect_size(const std::vector<double>& numbers, std::size_t size, const char* what) const {
     if (numbers.empty() || numbers.size() == size) return;
     fail("{}: {} of {} numbers, expected {}", file_, what, numbers.size(), size);
@@ -186,7 +186,7 @@ class GltfReader {
     return primitive;
   }
 
-  /// Whether they have normals.
+  /// Returns whether they have normals.
   bool read_vertices(const tinygltf::Primitive& from, Primitive& primitive) {
     const auto attribute = [&](const char* name) {
       const auto it = from.attributes.find(name);
@@ -223,7 +223,7 @@ class GltfReader {
     });
   }
 
-  /// Nodes may show one mesh many times: what is small in the file could fill the memory.
+  /// Nodes may instance one mesh many times: a small file could fill the memory.
   void take(std::size_t bytes) {
     constexpr std::size_t kMost = 512;  // MiB
     taken_ += bytes;
@@ -245,7 +245,7 @@ class GltfReader {
     }
   }
 
-  /// Exact where the node does not turn or scale: our own files come back to the last bit.
+  /// Exact if the node does not rotate or scale: our own files are restored bit by bit.
   void transform(Primitive& primitive, const Eigen::Matrix4f& m) const {
     const Eigen::Matrix3f turn = m.topLeftCorner<3, 3>();
     const float volume = turn.determinant();
@@ -281,7 +281,7 @@ class GltfReader {
   Asset asset_;
   int default_material_ = -1;
   int visited_ = 0;
-  std::size_t taken_ = 0;  ///< bytes of memory, by the meshes so far
+  std::size_t taken_ = 0;  ///< bytes of memory used by the meshes so far
 };
 
 }  // namespace

@@ -19,7 +19,7 @@ Eigen::Vector3f y_up(const Eigen::Vector3f& v) {
   return {v.x(), v.z(), -v.y()};
 }
 
-/// A vertex as it lies in the file, where no byte is left to chance.
+/// A vertex as stored in the file, without padding bytes.
 struct PackedVertex {
   explicit PackedVertex(const Vertex& vertex)
       : position(y_up(vertex.position)),
@@ -33,7 +33,7 @@ struct PackedVertex {
   std::uint8_t part;
   std::array<std::uint8_t, 3> unused{};
 };
-static_assert(sizeof(PackedVertex) == 40, "vertices are written as they lie in memory");
+static_assert(sizeof(PackedVertex) == 40, "vertices are written as stored in memory");
 
 class GltfWriter {
  public:
@@ -51,7 +51,7 @@ class GltfWriter {
     tinygltf::TinyGLTF writer;
     try {
       if (writer.WriteGltfSceneToStream(&model_, out, false, true)) return out.str();
-    } catch (const std::exception& problem) {  // such as a name that is no UTF-8
+    } catch (const std::exception& problem) {  // such as a name that is not UTF-8
       fail("a .glb cannot be written: {}", problem.what());
     }
     fail("a .glb cannot be written");
@@ -61,7 +61,7 @@ class GltfWriter {
   /// Appends to the one buffer; returns the new view's index.
   int add_view(const void* data, std::size_t size, int target, std::size_t stride = 0) {
     std::vector<unsigned char>& buffer = model_.buffers[0].data;
-    buffer.resize((buffer.size() + 3) / 4 * 4);  // every number lies on its own size
+    buffer.resize((buffer.size() + 3) / 4 * 4);  // numbers are aligned to their size
     tinygltf::BufferView view;
     view.buffer = 0;
     view.byteOffset = buffer.size();

@@ -9,7 +9,7 @@ namespace {
 
 using std::string_view_literals::operator""sv;
 
-/// Whole numbers of a file, zero beyond its end.
+/// Integers of a file, zero beyond its end.
 class Numbers {
  public:
   Numbers(std::string_view bytes, bool little_endian)
@@ -35,7 +35,7 @@ std::optional<cv::Size2d> png_size(std::string_view bytes) {
   return cv::Size2d(numbers.at(16, 4), numbers.at(20, 4));
 }
 
-/// Goes from segment to segment until the one that begins a frame.
+/// Skips segments up to the start of a frame.
 std::optional<cv::Size2d> jpeg_size(std::string_view bytes) {
   const Numbers numbers(bytes, false);
   for (std::size_t at = 2; at + 9 <= bytes.size();) {

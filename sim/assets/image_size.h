@@ -8,9 +8,9 @@
 
 namespace vinebench::sim {
 
-/// Columns and rows of an image, from the header of its file, before any memory is taken for its
-/// pixels. Knows PNG (ISO/IEC 15948), JPEG (ITU-T T.81) and TIFF (6.0); nothing for what is none of
-/// them or ends before it says its size.
+/// Columns and rows of an image, from the header of its file, before memory is allocated for its
+/// pixels. Supports PNG (ISO/IEC 15948), JPEG (ITU-T T.81) and TIFF (6.0); empty for other formats
+/// and truncated headers.
 std::optional<cv::Size2d> image_size(std::string_view bytes);
 
 }  // namespace vinebench::sim

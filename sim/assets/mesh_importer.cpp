@@ -63,7 +63,7 @@ class MeshImporter {
     return scene;
   }
 
-  /// Before assimp joins vertices: it would drop one that is no number as like its neighbour.
+  /// Before assimp joins vertices: it would drop a NaN vertex as equal to its neighbour.
   void check_vertices(const aiScene& scene) const {
     for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
       const aiMesh& mesh = *scene.mMeshes[i];
@@ -75,8 +75,8 @@ class MeshImporter {
     }
   }
 
-  /// These formats do not say what has one side only: leaves of other tools are often sheets.
-  /// Of all meshes that the nodes show; nodes may show one mesh many times.
+  /// These formats do not define single-sided surfaces, and leaves of other tools are often single
+  /// sheets. For all meshes of the nodes; nodes may instance one mesh many times.
   static double vertices_below(const aiScene& scene, const aiNode& node) {
     double count = 0;
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
@@ -121,13 +121,14 @@ class MeshImporter {
     Primitive primitive;
     primitive.material = static_cast<int>(mesh.mMaterialIndex);
     const auto z_up = [&](const aiVector3D& v) {
-      // Assimp turns a .dae to y up, whatever it says of itself, and leaves the others as they are.
+      // Assimp converts a .dae to y up, whatever its up axis, and leaves the other formats
+      // unchanged.
       return is_collada_ ? Eigen::Vector3f(v.x, -v.z, v.y) : Eigen::Vector3f(v.x, v.y, v.z);
     };
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
       Vertex vertex;
       vertex.position = z_up(mesh.mVertices[i]);
-      // Of a triangle without area.
+      // A degenerate triangle.
       const bool has_normal = mesh.HasNormals() && std::isfinite(mesh.mNormals[i].SquareLength());
       vertex.normal = has_normal ? z_up(mesh.mNormals[i]) : Eigen::Vector3f::UnitZ();
       if (mesh.HasTextureCoords(0)) {

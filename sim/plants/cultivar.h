@@ -10,13 +10,13 @@
 
 namespace vinebench::sim {
 
-/// What tells one grape variety from another by camera. Colours are sRGB, 0 to 1. The defaults are
-/// a red wine grape of middle size; sources stand in docs/plants.md.
+/// The visible traits of a grape variety. Colours are sRGB, 0 to 1. The defaults are a red wine
+/// grape of medium size; docs/plants.md has the sources.
 struct Cultivar {
   struct Leaf {
     double area = 0.0105;     ///< m^2, mean of one side of a grown blade
     double variation = 0.18;  ///< standard deviation of the area, as a share of it
-    double lobes = 0.5;       ///< depth of the sinuses: 0 a whole leaf, 1 cut to the veins
+    double lobes = 0.5;       ///< depth of the sinuses: 0 an entire leaf, 1 cut to the veins
     double teeth = 0.5;       ///< height of the teeth: 0 smooth, 1 long and sharp
     Eigen::Vector3d dark{0.16, 0.25, 0.10};
     Eigen::Vector3d light{0.37, 0.49, 0.21};
@@ -77,7 +77,7 @@ struct Cultivar {
   }
 };
 
-/// Reads a cultivar's file; the built-in cultivar where `file` is empty. Throws Error.
+/// Reads a cultivar's file; the built-in cultivar if `file` is empty. Throws Error.
 Cultivar load_cultivar(const std::filesystem::path& file);
 
 }  // namespace vinebench::sim

@@ -19,10 +19,10 @@ constexpr float kShootStep = 0.09f;       // m between points of a shoot's path
 constexpr float kFruitZone = 0.26f;       // m above the wire
 constexpr float kBunchClearance = 0.06f;  // m between neighbouring bunches' tops
 constexpr int kFirstFruitNode = 1, kLastFruitNode = 4;
-constexpr std::size_t kMostBunches = 255;  // what a vertex's part can name
+constexpr std::size_t kMostBunches = 255;  // range of a vertex's part
 constexpr float kLeafBelowFruit = 0.02f;   // m that leaves may hang below the lowest bunch
 
-/// A node of a shoot where a leaf may stand.
+/// A node of a shoot that may have a leaf.
 struct Node {
   Vector3f at;
   float side = 1;   ///< of the row, +1 or -1
@@ -66,7 +66,7 @@ class Grower {
   float uniform(float low, float high) { return static_cast<float>(random_.uniform(low, high)); }
   float normal(float sigma) { return static_cast<float>(random_.normal(0, sigma)); }
 
-  /// Upwards from its bud, held near the row's plane by the wires.
+  /// Grows upwards from its bud, held near the row's plane by the wires.
   void grow_shoot(const Bud& bud) {
     const float full = std::max(0.3f, top_ - uniform(0.0f, 0.16f) - bud.at.z());
     const float length = stage_.shoot * full * (brief_.young ? uniform(0.3f, 0.55f) : 1.0f);
@@ -101,7 +101,7 @@ class Grower {
     return shoot.path.back();
   }
 
-  /// Nodes stand in two ranks, left and right in turn; the lowest lie closer together.
+  /// Nodes are in two ranks, alternately left and right; the lowest are closer together.
   void add_nodes(const Tube& shoot) {
     float length = 0;
     for (std::size_t i = 1; i < shoot.path.size(); ++i) {

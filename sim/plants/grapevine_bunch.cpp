@@ -22,7 +22,7 @@ struct Body {
   Vector3f top;
   float length, radius, shoulder;
 
-  /// Half-width at `down` (0 top, 1 bottom), m: from a cylinder to a cone, round at both ends.
+  /// Half-width at `down` (0 top, 1 bottom), m: from a cylinder to a cone, rounded at both ends.
   float width(float down) const {
     const float cone = 1 + shoulder * (0.06f - 0.72f * down);
     const float head = std::min(1.0f, down / 0.2f), tail = std::min(1.0f, (1 - down) / 0.28f);
@@ -56,7 +56,7 @@ int berries_of(const Body& body, float berry_radius) {
       4, static_cast<int>(0.95f * areas(body).back() / (kPi * berry_radius * berry_radius)));
 }
 
-/// Where the share `t` of the surface is above: 0 top, 1 bottom.
+/// Position with the share `t` of the surface above it: 0 top, 1 bottom.
 float down_at(const std::vector<float>& area, float t) {
   const float wanted = t * area.back();
   std::size_t i = 1;
@@ -65,7 +65,7 @@ float down_at(const std::vector<float>& area, float t) {
   return (static_cast<float>(i - 1) + std::clamp(within, 0.0f, 1.0f)) / kSlices;
 }
 
-/// Berries round the body by the golden angle, evenly over its surface, the last at its bottom.
+/// Berries around the body by the golden angle, evenly over its surface, the last at its bottom.
 void add_berries(MeshBuilder& builder, const Body& body, const Bunch& bunch, int count,
                  const BunchDetail& detail, std::uint64_t stream) {
   RandomSequence random(RandomStream(bunch.berry_seed, "berries", stream));
@@ -83,7 +83,7 @@ void add_berries(MeshBuilder& builder, const Body& body, const Bunch& bunch, int
         last ? Vector3f(-Vector3f::UnitZ()) : Vector3f(spoke + (0.45f - down) * Vector3f::UnitZ());
     const bool inside = outward.y() * bunch.top.y() < 0 && std::abs(outward.y()) > 0.35f;
     const bool fine = detail.fine && (last || !inside);
-    // Caps sit on the core, whole berries may stand out.
+    // Caps touch the core, whole berries may protrude.
     const float sunk = (fine ? 0.62f + 0.5f * loose : 1.0f + 0.2f * loose) * radius;
     const float out = last ? 0.0f : std::max(0.0f, body.width(down) - sunk);
     const float depth = last ? body.length - radius
@@ -93,7 +93,7 @@ void add_berries(MeshBuilder& builder, const Body& body, const Bunch& bunch, int
   }
 }
 
-/// The whole body, or the core that its berries sit on.
+/// The whole body, or the core below its berries.
 void add_solid(MeshBuilder& builder, const Body& body, const BunchDetail& detail, bool core,
                float berry_radius) {
   const std::vector<float> downs =

@@ -12,12 +12,12 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-constexpr int kCellWidth = 512, kCellHeight = 256;  // px of the image that a plant has
+constexpr int kCellWidth = 512, kCellHeight = 256;  // px of a plant's cell in the image
 constexpr int kSideWidth = 192, kSlabWidth = 64;    // px
 constexpr int kRim = 2;                             // px between neighbours
 constexpr int kReliefColumns = 4, kReliefRows = 6;
 
-/// The leaves, shoots and bunches that a half of the canopy holds: by its side or by its end.
+/// The leaves, shoots and bunches of a half of the canopy, split across or along the row.
 Grapevine half_of(const Grapevine& plant, bool slab, float sign) {
   const auto mine = [&](const Vector3f& p) {
     return (slab ? p.x() : p.y()) * sign > 0 || (sign > 0 && (slab ? p.x() : p.y()) == 0);
@@ -41,7 +41,8 @@ Eigen::AlignedBox3f box_of(const std::vector<Primitive>& parts) {
   return box;
 }
 
-/// Mean of the known depths round each grid point, outwards along `sign`; the middle where none is.
+/// Mean of the known depths around each grid point, outwards along `sign`; the middle if there is
+/// none.
 std::vector<float> relief_of(const cv::Mat& depth, float sign) {
   std::vector<float> relief;
   for (int row = 0; row <= kReliefRows; ++row) {
@@ -130,7 +131,7 @@ FarPlants::Card FarPlants::paint_card(const Grapevine& part, const CanopyLight& 
   return card;
 }
 
-/// A sheet of columns by rows squares that follows the canopy's relief.
+/// A sheet of columns x rows squares with the canopy's relief.
 void FarPlants::add_side(Primitive& to, const Card& card, float sign, int columns, int rows) {
   if (card.empty) return;
   MeshBuilder builder(to);
@@ -142,7 +143,7 @@ void FarPlants::add_side(Primitive& to, const Card& card, float sign, int column
           row * kReliefRows / rows * (kReliefColumns + 1) + column * kReliefColumns / columns;
       const float u = static_cast<float>(column) / static_cast<float>(columns);
       const float v = static_cast<float>(row) / static_cast<float>(rows);
-      // Leaves face all ways: no sheet is as bright in the sun as one that faces it.
+      // Leaves face all directions: a sheet must not be as bright as a surface that faces the sun.
       const Vector3f normal(column % 2 == 0 ? -0.6f : 0.6f, sign, 0.4f);
       builder.vertex({card.from.x() + u * span.x(), card.relief.at(static_cast<std::size_t>(at)),
                       card.to.y() - v * span.y()},
@@ -163,7 +164,7 @@ void FarPlants::add_slab(Primitive& to, const Card& card) {
   MeshBuilder builder(to);
   const float outward = card.place < 0 ? -0.7f : 0.7f;
   const auto corner = [&](float u, float v) {
-    // Seen from the aisle, its edge is lit as the canopy's side is.
+    // Seen from the aisle, its edge has the light of the canopy's side.
     const Vector3f normal = Vector3f(outward, u > 0.5f ? 0.7f : -0.7f, 0.4f).normalized();
     return builder.vertex({card.place, card.from.x() + u * (card.to - card.from).x(),
                            card.to.y() - v * (card.to - card.from).y()},
@@ -191,7 +192,7 @@ std::vector<LevelOfDetail> FarPlants::levels(std::size_t plant) const {
     foliage.material = kFoliageMaterial;
     for (std::size_t i = 0; i < 2; ++i) {
       add_side(foliage, cards_[plant].sides.at(i), i == 0 ? -1.0f : 1.0f, spec.columns, spec.rows);
-      if (plants_[plant].shelter && spec.wood_sides == 0) continue;  // the tube has its share
+      if (plants_[plant].shelter && spec.wood_sides == 0) continue;  // replaced by the tube
       add_slab(foliage, cards_[plant].slabs.at(i));
     }
     if (!foliage.indices.empty()) level.primitives.push_back(std::move(foliage));

@@ -9,13 +9,12 @@
 
 namespace vinebench::sim {
 
-/// How much of the sky's light reaches a point between the leaves (Beer-Lambert through a grid of
-/// leaf density).
+/// Ambient light between the leaves (Beer-Lambert through a grid of leaf density).
 class CanopyLight {
  public:
   explicit CanopyLight(const std::vector<BladePlacement>& leaves);
 
-  /// Share of the light of an open sky, 0 to 1.
+  /// Share of the light of an unobstructed sky, 0 to 1.
   float at(const Eigen::Vector3f& point) const;
 
  private:

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr float kSmallLeaf = 0.082f;  // m; shorter ones are drawn more coarsely up close
+constexpr float kSmallLeaf = 0.082f;                   // m; shorter ones are coarser in near levels
 constexpr float kShootFrom = 0.02f, kShootTo = 0.48f;  // u of the image of canes
 constexpr float kCaneFrom = 0.52f, kCaneTo = 0.98f;
 constexpr float kShelterGrain = 0.1f;  // v a metre
@@ -145,7 +145,7 @@ void add_far_wood(LevelOfDetail& level, const Grapevine& plant, int stride, int 
   MeshBuilder trunk(parts.at(kTrunkMaterial));
   if (sides == 0 && plant.shelter) {
     // Its tube hides the stem.
-  } else if (sides == 0) {  // a mere spike as wide as the trunk in its middle
+  } else if (sides == 0) {  // a spike as wide as the middle of the trunk
     const Tube& tube = plant.wood.front();
     const Vector3f up = tube.path.back() - tube.path.front();
     trunk.spike(tube.path.front(), tube.path.front() + 1.6f * up,
@@ -169,7 +169,7 @@ void add_far_bunches(LevelOfDetail& level, const Grapevine& plant, int triangles
   for (std::size_t i = 0; i < plant.bunches.size() && parts.triangles() + kEach <= triangles; ++i) {
     Bunch bunch = plant.bunches[i];
     bunch.wing.setZero();
-    bunch.radius *= 1.2f;  // three sides of a round thing
+    bunch.radius *= 1.2f;  // compensates for three sides instead of a circle
     add_bunch(parts.at(kBunchMaterial), bunch, static_cast<int>(i) + 1, kSolid);
   }
   for (Primitive& part : parts.finish(plant, CanopyLight(plant.leaves))) {

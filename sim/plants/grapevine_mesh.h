@@ -9,7 +9,7 @@
 
 namespace vinebench::sim {
 
-// How grapevines become triangles; mesh_grapevines puts it together.
+// Triangle meshes of grapevines; mesh_grapevines combines them.
 
 enum PlantTexture { kBarkTexture, kCaneTexture, kLeafTexture, kBunchTexture, kFoliageTexture };
 enum PlantMaterial {
@@ -22,10 +22,10 @@ enum PlantMaterial {
   kPlantMaterials
 };
 
-/// How finely a near plant is drawn.
+/// Level of detail of a near plant.
 struct MeshDetail {
   double until;   ///< m
-  int triangles;  ///< for a metre of row; berries get what the rest leaves
+  int triangles;  ///< for a metre of row; berries get the remaining budget
   int wood_sides;
   int cane_sides;
   int stride;   ///< points of a path from one ring to the next
@@ -37,14 +37,14 @@ struct MeshDetail {
 /// A level of meshes, its occlusion baked.
 LevelOfDetail mesh_near(const Grapevine& plant, const MeshDetail& detail, const CanopyLight& light);
 
-/// The level that far ones are painted from: all but the trunk and the grow tube.
+/// The level from which far ones are painted: all except the trunk and the grow tube.
 std::vector<Primitive> mesh_to_paint(const Grapevine& plant, const CanopyLight& light);
 
 /// Trunk, arms and shelter, in a few triangles; `bunches` of them as solids.
 void add_far_wood(LevelOfDetail& level, const Grapevine& plant, int stride, int sides);
 void add_far_bunches(LevelOfDetail& level, const Grapevine& plant, int triangles);
 
-/// The plants as they look from both sides and from the row's end, all in one image.
+/// Views of the plants from both sides and from the row's end, all in one image.
 class FarPlants {
  public:
   FarPlants(const std::vector<Grapevine>& plants, const std::vector<Texture>& textures,
@@ -52,7 +52,7 @@ class FarPlants {
 
   const Texture& texture() const { return texture_; }
 
-  /// Levels for plants from 4.5 m to the horizon: curved cards at first, crossed ones later.
+  /// Levels for plants from 4.5 m to the horizon: first curved cards, then crossed ones.
   std::vector<LevelOfDetail> levels(std::size_t plant) const;
 
  private:

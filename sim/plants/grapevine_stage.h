@@ -4,21 +4,21 @@
 
 namespace vinebench::sim {
 
-/// A vine at one point of its year, after the extended BBCH scale for grapes (Lorenz et al. 1995).
-/// Shares are of what the vine reaches in full leaf at harvest.
+/// A growth stage of the extended BBCH scale for grapes (Lorenz et al. 1995). Shares are relative
+/// to the vine in full leaf at harvest.
 struct GrowthStage {
   int bbch = 89;
   const char* name = "harvest";
   float shoot = 1;         ///< length of the shoots
   float leaf = 1;          ///< length of the leaves
   float foliage = 1;       ///< leaf area
-  float autumn = 0;        ///< leaves that have turned
+  float autumn = 0;        ///< share of leaves with autumn colour
   float bunch = 1;         ///< length of the bunches; 0 without any
   float berry = 1;         ///< diameter of the berries
-  float ripe = 1;          ///< berries that have their colour
+  float ripe = 1;          ///< share of berries with ripe colour
   float lignified = 0.6f;  ///< shoots from green to brown
 
-  /// Width of the bunches, as a share: before the berries swell, they stand closer.
+  /// Width of the bunches, as a share: bunches are narrower before the berries swell.
   float bunch_width() const { return 0.2f + 0.8f * berry; }
 };
 

@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr float kShare = 0.485f;      // of the spacing that an arm to either side covers
-constexpr float kHeadDrop = 0.11f;    // m that the head of a cane-pruned vine stands below the wire
+constexpr float kShare = 0.485f;      // of the spacing, covered by an arm on either side
+constexpr float kHeadDrop = 0.11f;    // m from the wire down to the head of a cane-pruned vine
 constexpr float kSpurLength = 0.06f;  // m, of two nodes
 
 class Woodwork {
@@ -51,7 +51,7 @@ class Woodwork {
   float uniform(float low, float high) { return static_cast<float>(random_.uniform(low, high)); }
   float normal(float sigma) { return static_cast<float>(random_.normal(0, sigma)); }
 
-  /// Crooked, thicker at foot and head, with the swellings of old wood. Returns the head.
+  /// A bent trunk, thicker at foot and head, with the swellings of old wood. Returns the head.
   Vector3f grow_trunk(float x, float height, bool slim_head) {
     constexpr int kPoints = 13;
     const float phase = uniform(0, 6.28f), sway = uniform(0.012f, 0.034f);
@@ -61,7 +61,7 @@ class Woodwork {
     trunk.knots = 0.16f;
     for (int i = 0; i < kPoints; ++i) {
       const float t = static_cast<float>(i) / (kPoints - 1);
-      const float free = std::sin(t * std::numbers::pi_v<float>);  // foot and head stay in place
+      const float free = std::sin(t * std::numbers::pi_v<float>);  // foot and head are fixed
       trunk.path.emplace_back(
           x + lean * (1 - t) + sway * free * std::sin(phase + 5 * t) + free * normal(0.004f),
           0.7f * sway * free * std::cos(phase + 4 * t) + free * normal(0.004f),

@@ -9,14 +9,14 @@
 
 namespace vinebench::sim {
 
-/// Where a shoot begins.
+/// A bud: the begin of a shoot.
 struct Bud {
   Eigen::Vector3f at;       ///< m
-  Eigen::Vector3f towards;  ///< about unit
+  Eigen::Vector3f towards;  ///< approximately of unit length
 };
 
-/// Adds trunk, head, arms, spurs and canes as the training has them, up to the fruiting wire.
-/// Returns the buds along the wire, about `shoots` of them a metre.
+/// Adds trunk, head, arms, spurs and canes of the training, up to the fruiting wire. Returns the
+/// buds along the wire, about `shoots` of them per metre.
 std::vector<Bud> grow_old_wood(Grapevine& plant, const PlantBrief& brief, RandomSequence& random);
 
 /// The thin stem of a second-year vine beside its stake, and its grow tube. Returns its buds.

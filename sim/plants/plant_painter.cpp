@@ -10,11 +10,11 @@
 namespace vinebench::sim {
 namespace {
 
-constexpr int kSamples = 3;        // a side of a pixel
-constexpr int kTextureShrink = 4;  // images are seen from afar
+constexpr int kSamples = 3;        // per side of a pixel
+constexpr int kTextureShrink = 4;  // for distant views
 constexpr float kGamma = 2.2f;     // the shaders'
 
-/// Light on a surface, up to a factor, under a sky that is brightest above and before it.
+/// Light on a surface, up to a factor, under a sky that is brightest above and in front of it.
 float light_on(const Eigen::Vector3f& normal, const Eigen::Vector3f& towards, float occlusion) {
   const Eigen::Vector3f n = normal.dot(towards) < 0 ? Eigen::Vector3f(-normal) : normal;
   return occlusion * (0.55f + 0.45f * n.z()) * (0.40f + 0.60f * n.dot(towards));
@@ -110,7 +110,7 @@ class Canvas {
     s.colour = texture.at<cv::Vec3b>(texel(uv.y(), texture.rows), texel(uv.x(), texture.cols));
   }
 
-  /// Of light and occlusion over all that is seen.
+  /// Means of light and occlusion over all visible pixels.
   std::pair<float, float> means() const {
     double light = 0, occlusion = 0, count = 0;
     for (const Sample& s : samples_) {

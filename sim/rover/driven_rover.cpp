@@ -42,7 +42,7 @@ void DrivenRover::steer_by(Stamp stamp, const Pose& T_world_body) {
   believed_ = {stamp, T_world_body};
 }
 
-/// The pose at a control instant, as the position loop has it.
+/// The position loop's pose at a control instant.
 Pose DrivenRover::steered_by(Stamp stamp) {
   if (!believed_) return rover_.T_world_body();
   Vector6d velocity = Vector6d::Zero();

@@ -14,7 +14,7 @@
 
 namespace vinebench::sim {
 
-/// The rover under its position loop, with a short memory of where it was.
+/// The rover with its position loop and a short history of its poses.
 class DrivenRover {
  public:
   DrivenRover(const RoverConfig& rover, const WorldConfig& world, const RouteConfig& route,
@@ -22,21 +22,21 @@ class DrivenRover {
 
   const Route& route() const { return route_; }
 
-  /// Drives to `stamp`; nothing happens where it is past it.
+  /// Drives to `stamp`; no effect if it is in the past.
   void advance_to(Stamp stamp);
-  /// Drives to `stamp` and remembers the poses on the way, every 2.5 ms (a step of the physics).
+  /// Drives to `stamp` and records the poses every 2.5 ms (a step of the physics).
   void advance_and_remember(Stamp stamp);
-  /// Forgets the poses that only instants before `stamp` need.
+  /// Removes poses that are needed for instants before `stamp` only.
   void forget_before(Stamp stamp);
 
-  /// From now on the position loop goes by this pose, of the instant `stamp`, and by what was
-  /// commanded since, in place of the true one.
+  /// From now on the position loop uses this pose, of the instant `stamp`, and the commands since
+  /// then, instead of the true pose.
   void steer_by(Stamp stamp, const Pose& T_world_body);
 
-  /// The truth at a remembered instant, linear between two poses; the start's before t = 0.
+  /// The true pose at a recorded instant, linearly interpolated; the start pose before t = 0.
   Pose T_world_body(Stamp stamp) const;
 
-  /// Moves the true readings up to `stamp` that were not handed out before to the end of the lists.
+  /// Appends the true readings up to `stamp` that have not been taken yet.
   void hand_out(Stamp stamp, std::vector<ImuSample>& imu, std::vector<WheelSample>& wheels);
 
  private:
@@ -46,8 +46,8 @@ class DrivenRover {
   Route route_;
   Rover rover_;
   Stamp next_control_ = 0;
-  Eigen::Vector3d twist_ = Eigen::Vector3d::Zero();  ///< commanded: m/s ahead, left; rad/s
-  std::optional<StampedPose> believed_;              ///< what is steered by; the truth where absent
+  Eigen::Vector3d twist_ = Eigen::Vector3d::Zero();  ///< commanded: m/s forward, left; rad/s
+  std::optional<StampedPose> believed_;              ///< pose for steering; the truth if absent
   std::deque<StampedPose> poses_;
   std::vector<ImuSample> imu_;
   std::vector<WheelSample> wheels_;

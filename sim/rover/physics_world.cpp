@@ -21,11 +21,11 @@
 namespace vinebench::sim {
 namespace {
 
-constexpr double kGroundBase = 1.0;    // m of ground below its lowest place
+constexpr double kGroundBase = 1.0;    // m of ground below its lowest point
 constexpr double kTrunkRadius = 0.03;  // m
-constexpr double kTrunkHeight = 0.5;   // m; nothing of the rover's hull is higher
+constexpr double kTrunkHeight = 0.5;   // m; higher than the rover
 
-/// A text file under a name of its own, gone at the end of its scope.
+/// A temporary text file, removed at the end of its scope.
 class TemporaryFile {
  public:
   TemporaryFile(const std::string& name_template, int suffix_length)
@@ -53,7 +53,7 @@ std::filesystem::path temporary_folder() {
   return std::filesystem::canonical(folder);
 }
 
-/// MuJoCo prints warnings and writes MUJOCO_LOG.TXT unless told otherwise; `check` reports them.
+/// By default MuJoCo prints warnings and writes MUJOCO_LOG.TXT; `check` reports them instead.
 void silence_warnings() {
   static std::once_flag once;
   std::call_once(once, [] { mju_user_warning = [](const char*) {}; });
@@ -136,7 +136,7 @@ std::pair<double, double> extent(const Terrain& terrain) {
   return {low, high};
 }
 
-/// What stands under <mujoco> for the ground, and what under <worldbody>.
+/// The ground's elements under <mujoco> and under <worldbody>.
 using GroundText = std::pair<std::string, std::string>;
 
 GroundText plane_mjcf(const WorldConfig& world) {
@@ -203,19 +203,19 @@ PhysicsWorld::PhysicsWorld(const std::filesystem::path& rover, const WorldConfig
   }
   const std::filesystem::path folder = temporary_folder();
   const TemporaryFile file((folder / "vinebench-XXXXXX.xml").string(), 4);
-  // MuJoCo joins an included name to the folder of the including file, even an absolute one.
+  // MuJoCo prepends the including file's folder to an included name, even an absolute one.
   const std::filesystem::path include = std::filesystem::relative(rover, folder, problem);
   if (problem) fail("{}: {}", rover.string(), problem.message());
   write_file_atomically(file.name(), world_mjcf(world, include, seed));
   std::array<char, 1000> reason{};
   model_.reset(mj_loadXML(file.name().c_str(), nullptr, reason.data(), reason.size()));
-  if (!model_) fail("{}: no valid MJCF model: {}", rover.string(), reason.data());
+  if (!model_) fail("{}: is not a valid MJCF model: {}", rover.string(), reason.data());
   if (!world.terrain.flat()) raise_ground(Terrain(world));
   state_.reset(mj_makeData(model_.get()));
   if (!state_) fail("{}: no memory for the physics' state", rover.string());
 }
 
-/// MuJoCo keeps elevations as shares of the height field's greatest.
+/// MuJoCo stores elevations relative to the height field's maximum.
 void PhysicsWorld::raise_ground(const Terrain& terrain) {
   const int field = model_->geom_dataid[find(mjOBJ_GEOM, "ground")];
   const double low = model_->geom_pos[3 * find(mjOBJ_GEOM, "ground") + 2];

@@ -15,17 +15,17 @@ namespace vinebench::sim {
 class Terrain;
 
 /// The MJCF text of a world: ground, posts, trunks and carton boxes as static geoms, and the rover
-/// by include. `rover_include` is the rover's MJCF file as the text's own folder reaches it. `seed`
-/// decides, as in build_scene, where vines are missing.
+/// by include. `rover_include` is the rover's MJCF file relative to the text's folder. `seed`
+/// selects, as in build_scene, the missing vines.
 std::string world_mjcf(const WorldConfig& world, const std::filesystem::path& rover_include,
                        std::uint64_t seed = 1);
 
-/// A MuJoCo model and its state. Positions and velocities always belong to the same instant:
-/// `step` integrates and then evaluates what depends on them, so poses, encoders and gyro are those
-/// of the step's end, and the accelerometer's is the acceleration that held during the step.
+/// A MuJoCo model and its state. Positions and velocities always belong to the same instant: `step`
+/// integrates and then evaluates what depends on them, so poses, encoders and gyro refer to the
+/// step's end, and the accelerometer to the acceleration during the step.
 class PhysicsWorld {
  public:
-  /// Throws Error that names `rover` when it is missing or no valid MJCF.
+  /// Throws Error that names `rover` if it is missing or not valid MJCF.
   PhysicsWorld(const std::filesystem::path& rover, const WorldConfig& world,
                std::uint64_t seed = 1);
 
@@ -34,7 +34,7 @@ class PhysicsWorld {
   mjData& state() { return *state_; }
   const mjData& state() const { return *state_; }
 
-  /// Evaluates what depends on positions and velocities, after these were set from outside.
+  /// Updates derived quantities after positions or velocities were set from outside.
   void refresh() { mj_step1(model_.get(), state_.get()); }
 
   /// One step of model().opt.timestep under the controls in the state.
@@ -43,13 +43,13 @@ class PhysicsWorld {
     mj_step1(model_.get(), state_.get());
   }
 
-  /// Throws Error where MuJoCo met a numerical problem (it would go on from a reset state) or ran
+  /// Throws Error if MuJoCo had a numerical problem (it would continue from a reset state) or ran
   /// out of contacts.
   void check() const;
 
-  /// Index of a named object. Throws Error that names the rover's file where there is none.
+  /// Index of a named object. Throws Error that names the rover's file if there is none.
   int find(mjtObj type, const std::string& name) const;
-  /// Address of a named sensor's first number in mjData::sensordata.
+  /// Address of a named sensor's data in mjData::sensordata.
   int sensor_address(const std::string& name) const;
 
  private:

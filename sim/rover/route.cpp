@@ -11,8 +11,9 @@
 namespace vinebench::sim {
 namespace {
 
-constexpr double kStandstill = 1e-9;      // m or rad: a way shorter than this is none
-constexpr double kKinkSeconds = 0.1;      // of acceleration, at once, where a waypoint is passed
+constexpr double kStandstill = 1e-9;  // m or rad: shorter legs are empty
+constexpr double kKinkSeconds =
+    0.1;  // of acceleration, as an instantaneous change at a passed waypoint
 constexpr double kCorrection = 2;         // 1/s
 constexpr double kMaxCorrection = 0.3;    // m/s
 constexpr double kMaxTurnCorrection = 1;  // rad/s
@@ -25,9 +26,9 @@ Eigen::Vector3d pose_of(const RouteConfig::Waypoint& waypoint) {
   return {waypoint.position.x(), waypoint.position.y(), radians(waypoint.heading_deg)};
 }
 
-/// Greatest speed from which `end_speed` is reached within the way.
-double braking_speed(double end_speed, double acceleration, double way) {
-  return std::sqrt(end_speed * end_speed + 2 * acceleration * way);
+/// Maximum speed from which `end_speed` is reached within the distance.
+double braking_speed(double end_speed, double acceleration, double distance) {
+  return std::sqrt(end_speed * end_speed + 2 * acceleration * distance);
 }
 
 Eigen::Vector2d limited(const Eigen::Vector2d& vector, double limit) {
@@ -39,16 +40,16 @@ Eigen::Vector2d limited(const Eigen::Vector2d& vector, double limit) {
 
 double Route::Leg::peak() const {
   const double reachable =
-      std::sqrt(acceleration * way + 0.5 * (speed_in * speed_in + speed_out * speed_out));
+      std::sqrt(acceleration * length + 0.5 * (speed_in * speed_in + speed_out * speed_out));
   return std::min(speed, reachable);
 }
 
 double Route::Leg::seconds() const {
   const double top = peak();
   const double ramps = (2 * top - speed_in - speed_out) / acceleration;
-  const double way_of_ramps =
+  const double length_of_ramps =
       (2 * top * top - speed_in * speed_in - speed_out * speed_out) / (2 * acceleration);
-  return ramps + std::max(0.0, way - way_of_ramps) / top;
+  return ramps + std::max(0.0, length - length_of_ramps) / top;
 }
 
 Route::Reference Route::Leg::at(double t) const {
@@ -59,14 +60,14 @@ Route::Reference Route::Leg::at(double t) const {
   double v = top;
   if (remaining < braking) {
     v = speed_out + acceleration * remaining;
-    s = way - 0.5 * (v + speed_out) * remaining;
+    s = length - 0.5 * (v + speed_out) * remaining;
   } else if (t < (top - speed_in) / acceleration) {
     v = speed_in + acceleration * t;
     s = 0.5 * (v + speed_in) * t;
   } else {
-    s = way - 0.5 * (top + speed_out) * braking - top * (remaining - braking);
+    s = length - 0.5 * (top + speed_out) * braking - top * (remaining - braking);
   }
-  return {from + std::clamp(s, 0.0, way) * direction, v * direction};
+  return {from + std::clamp(s, 0.0, length) * direction, v * direction};
 }
 
 Route::Leg Route::make_leg(const RouteConfig& config, std::size_t index) {
@@ -78,9 +79,9 @@ Route::Leg Route::make_leg(const RouteConfig& config, std::size_t index) {
   const double distance = change.head<2>().norm();
   const double turn = std::abs(change.z());
   leg.turns_only = distance < kStandstill;
-  leg.way = leg.turns_only ? turn : distance;
-  if (leg.way < kStandstill) return leg;
-  leg.direction = change / leg.way;
+  leg.length = leg.turns_only ? turn : distance;
+  if (leg.length < kStandstill) return leg;
+  leg.direction = change / leg.length;
   const double turn_rate = radians(config.turn_rate_deg);
   const double turn_acceleration = radians(config.turn_acceleration_deg);
   if (leg.turns_only) {
@@ -98,7 +99,7 @@ Route::Leg Route::make_leg(const RouteConfig& config, std::size_t index) {
 }
 
 double Route::passing_speed(const RouteConfig& config, const Leg& in, const Leg& out) {
-  if (in.turns_only != out.turns_only || out.way < kStandstill) return 0;
+  if (in.turns_only != out.turns_only || out.length < kStandstill) return 0;
   const Eigen::Vector3d kink = out.direction - in.direction;
   double speed = std::min(in.speed, out.speed);
   const double along = kink.head<2>().norm();
@@ -117,11 +118,11 @@ void Route::set_passing_speeds(const RouteConfig& config) {
     Leg& out = legs_[i];
     if (!between.pass || between.wait > 0) continue;
     in.speed_out = std::min(passing_speed(config, in, out),
-                            braking_speed(out.speed_out, out.acceleration, out.way));
+                            braking_speed(out.speed_out, out.acceleration, out.length));
   }
   for (std::size_t i = 1; i < legs_.size(); ++i) {
     Leg& in = legs_[i - 1];
-    in.speed_out = std::min(in.speed_out, braking_speed(in.speed_in, in.acceleration, in.way));
+    in.speed_out = std::min(in.speed_out, braking_speed(in.speed_in, in.acceleration, in.length));
     legs_[i].speed_in = in.speed_out;
   }
 }
@@ -130,7 +131,7 @@ void Route::schedule(double first_wait) {
   Stamp time = from_seconds(first_wait);
   for (Leg& leg : legs_) {
     leg.begin = time;
-    leg.end = time + (leg.way < kStandstill ? 0 : from_seconds(leg.seconds()));
+    leg.end = time + (leg.length < kStandstill ? 0 : from_seconds(leg.seconds()));
     time = leg.end + from_seconds(leg.wait);
   }
   duration_ = time;
@@ -156,7 +157,7 @@ Route::Reference Route::at(Stamp stamp) const {
 
 double Route::length() const {
   double sum = 0;
-  for (const Leg& leg : legs_) sum += leg.turns_only ? 0 : leg.way;
+  for (const Leg& leg : legs_) sum += leg.turns_only ? 0 : leg.length;
   return sum;
 }
 

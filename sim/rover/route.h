@@ -13,9 +13,9 @@
 
 namespace vinebench::sim {
 
-/// Where the position loop has the rover's pose from.
+/// The source of the position loop's pose.
 enum class Steering {
-  kTruth,     ///< from the simulation: the way driven is the same whatever is estimated
+  kTruth,     ///< from the simulation: the path does not depend on the estimate
   kEstimate,  ///< from the SLAM system under test, as a robot would
 };
 
@@ -23,13 +23,13 @@ inline std::vector<std::string> yaml_names(Steering) {
   return {"truth", "estimate"};
 }
 
-/// Where the rover goes. It is omnidirectional: position and heading are independent.
+/// The route of an omnidirectional rover: position and heading are independent.
 struct RouteConfig {
   struct Waypoint {
     Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m, world
-    double heading_deg = 0;       ///< accumulated: 360 more is one more turn to the left
-    std::optional<double> speed;  ///< m/s on the way here; the route's where absent
-    double wait = 0;              ///< s to stand here
+    double heading_deg = 0;       ///< not wrapped: 360 more is one more turn to the left
+    std::optional<double> speed;  ///< m/s on the leg to this waypoint; the route's if absent
+    double wait = 0;              ///< s to wait here
     bool pass = false;            ///< drive through without stopping
     template <class Archive>
     void serialize(Archive& archive) {
@@ -45,7 +45,7 @@ struct RouteConfig {
   double acceleration = 0.5;           ///< m/s^2
   double turn_acceleration_deg = 120;  ///< deg/s^2
   Steering steering = Steering::kTruth;
-  std::vector<Waypoint> waypoints;  ///< the first is where the rover starts
+  std::vector<Waypoint> waypoints;  ///< the first is the start pose
   template <class Archive>
   void serialize(Archive& archive) {
     archive("speed", speed, Range::positive());
@@ -58,12 +58,12 @@ struct RouteConfig {
   }
 };
 
-/// The route as a function of time: where the body should be.
+/// The route as a function of time: the desired body pose.
 ///
-/// A leg joins two waypoints on a straight line, position and heading in proportion, so that both
-/// arrive together: the slower of the two sets the pace. Its speed is a trapezoid. A waypoint to
-/// `pass` is taken at the greatest speed at which velocity, there turning at once into the next
-/// leg's, changes by no more than the accelerations give in 0.1 s.
+/// A leg joins two waypoints on a straight line, with position and heading in proportion, so that
+/// both arrive together: the slower one limits the speed. The speed profile is a trapezoid. A
+/// waypoint to `pass` is passed at the maximum speed at which the instantaneous change of velocity
+/// to the next leg is at most what the accelerations give in 0.1 s.
 class Route {
  public:
   explicit Route(const RouteConfig& config);
@@ -72,21 +72,21 @@ class Route {
     Eigen::Vector3d pose;      ///< x, y (m), accumulated heading (rad), world
     Eigen::Vector3d velocity;  ///< of these, per s
   };
-  /// The start's before t = 0, the end's after the last leg.
+  /// The start pose before t = 0, the end pose after the last leg.
   Reference at(Stamp stamp) const;
   Stamp duration() const { return duration_; }
   Eigen::Vector3d start() const { return start_; }
-  double length() const;  ///< m, of the way of the body's centre
+  double length() const;  ///< m, of the path of the body's centre
 
  private:
-  /// Way and speeds are those of the body's centre in m, or of its heading in rad for a leg that
-  /// only turns.
+  /// Distance and speeds are those of the body's centre in m, or of its heading in rad for a leg
+  /// that only turns.
   struct Leg {
     Stamp begin = 0;
     Stamp end = 0;
     Eigen::Vector3d from = Eigen::Vector3d::Zero();
-    Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of the pose, per unit of the way
-    double way = 0;
+    Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of the pose, per unit of distance
+    double length = 0;
     double speed = 0;  ///< limit
     double acceleration = 0;
     double speed_in = 0;
@@ -94,7 +94,7 @@ class Route {
     double wait = 0;  ///< s, at its end
     bool turns_only = false;
 
-    Eigen::Vector3d to() const { return from + way * direction; }
+    Eigen::Vector3d to() const { return from + length * direction; }
     double peak() const;
     double seconds() const;
     Reference at(double t) const;
@@ -109,9 +109,9 @@ class Route {
   Stamp duration_ = 0;
 };
 
-/// Position loop: the body twist (forward, left in m/s, turn in rad/s) that brings the body from
-/// where it is believed to be onto the route: the route's own velocity and a correction in
-/// proportion to the error (2 per s, at most 0.3 m/s and 1 rad/s), meant for 15 Hz or more.
+/// Position loop: the body twist (forward, left in m/s, turn in rad/s) that steers the body from
+/// the given pose to the route: the route's velocity plus a correction proportional to the error (2
+/// per s, at most 0.3 m/s and 1 rad/s), for rates of 15 Hz or more.
 Eigen::Vector3d follow(const Route::Reference& reference, const Pose& T_world_body);
 
 }  // namespace vinebench::sim

@@ -16,9 +16,9 @@ namespace {
 
 constexpr std::array<const char*, 4> kWheelNames{"front_left", "front_right", "rear_left",
                                                  "rear_right"};
-constexpr Stamp kSettling = 3 * kNanosecondsPerSecond;  // springs and speed loops come to rest
+constexpr Stamp kSettling = 3 * kNanosecondsPerSecond;  // springs and speed loops settle
 constexpr double kGeometryTolerance = 0.002;            // m, between model and configuration
-constexpr double kSpread = 0.01;                        // of motors and friction, from seed to seed
+constexpr double kSpread = 0.01;                        // variation of motors and friction by seed
 
 Eigen::Vector3d vector_of(const mjtNum* numbers) {
   return {numbers[0], numbers[1], numbers[2]};
@@ -26,9 +26,9 @@ Eigen::Vector3d vector_of(const mjtNum* numbers) {
 
 }  // namespace
 
-/// The physics runs in steps of exact length, up to one step past `now`. Between two steps the
-/// truth is linear, which is what a semi-implicit Euler step means: the velocity of its end holds
-/// through all of it.
+/// The physics runs in steps of fixed length, up to one step past `now`. Between two steps the
+/// truth is linear, consistent with semi-implicit Euler: the velocity of a step's end applies to
+/// the whole step.
 struct Rover::Physics {
   Physics(const RoverConfig& rover, const WorldConfig& world_config, std::uint64_t seed);
 
@@ -72,7 +72,7 @@ struct Rover::Physics {
   Stamp now = 0;
   Pose previous_pose;  ///< one step before `time`
   WheelArray previous_angles{};
-  std::int64_t imu_count = 0;  ///< samples given so far
+  std::int64_t imu_count = 0;  ///< samples taken so far
   std::int64_t wheel_count = 0;
 };
 
@@ -102,7 +102,7 @@ void Rover::Physics::find_parts() {
   }
 }
 
-/// A configuration that disagrees with the model would drive at wrong speeds without a word.
+/// A configuration that disagrees with the model would silently give wrong speeds.
 void Rover::Physics::check_geometry() const {
   for (std::size_t i = 0; i < kWheelNames.size(); ++i) {
     const Eigen::Vector3d expected(i < 2 ? config.half_wheelbase : -config.half_wheelbase,
@@ -120,7 +120,7 @@ void Rover::Physics::check_geometry() const {
   }
 }
 
-/// No two rovers are alike: motors and bearings differ by up to 1 %, one draw a seed.
+/// Motors and bearings vary by up to 1 %, one draw per seed.
 void Rover::Physics::vary(std::uint64_t seed) {
   const RandomStream gain(seed, "rover.motor_gain");
   const RandomStream friction(seed, "rover.wheel_friction");
@@ -134,7 +134,7 @@ void Rover::Physics::vary(std::uint64_t seed) {
   }
 }
 
-/// Lets the rover sink into its springs; it starts from there, as it stands.
+/// Lets the rover settle on its springs; the run starts from this state.
 void Rover::Physics::settle(const Eigen::Vector3d& start) {
   drop_on_ground(start);
   place(start);
@@ -149,7 +149,7 @@ void Rover::Physics::settle(const Eigen::Vector3d& start) {
   time = 0;
 }
 
-/// Sets it just above uneven ground, leaned as its wheels will find it.
+/// Places it just above uneven ground, tilted as the ground below its wheels.
 void Rover::Physics::drop_on_ground(const Eigen::Vector3d& start) {
   if (terrain.flat()) return;
   const Pose lying = terrain.lie(start.head<2>(), start.z(), config.half_track);
@@ -167,7 +167,7 @@ void Rover::Physics::drop_on_ground(const Eigen::Vector3d& start) {
   std::copy(turned.begin(), turned.end(), position + 3);
 }
 
-/// Moves the rover over the ground; height, roll and pitch stay.
+/// Moves the rover horizontally; height, roll and pitch do not change.
 void Rover::Physics::place(const Eigen::Vector3d& start) {
   const Pose here = pose();
   const Eigen::Quaterniond turn = from_roll_pitch_yaw({0, 0, start.z() - yaw_of(here.rotation)});
@@ -189,8 +189,9 @@ void Rover::Physics::check_clear(const Eigen::Vector3d& start) const {
     if (contact.geom1 == ground || contact.geom2 == ground) continue;
     const mjModel& model = world.model();
     const bool first = model.geom_bodyid[contact.geom1] == model.jnt_bodyid[chassis];
-    fail("the rover cannot start at ({:.3f}, {:.3f}) m: it stands in {} of the world", start.x(),
-         start.y(), mj_id2name(&model, mjOBJ_GEOM, first ? contact.geom2 : contact.geom1));
+    fail("the rover cannot start at ({:.3f}, {:.3f}) m: it collides with {} of the world",
+         start.x(), start.y(),
+         mj_id2name(&model, mjOBJ_GEOM, first ? contact.geom2 : contact.geom1));
   }
 }
 
@@ -243,8 +244,8 @@ WheelArray Rover::Physics::angles() const {
   return result;
 }
 
-/// Velocity and acceleration hold through a step, so the reading does not depend on where in the
-/// step it is taken.
+/// Velocity and acceleration are constant during a step, so the reading does not depend on its
+/// instant within the step.
 ImuSample Rover::Physics::imu_at(Stamp stamp) const {
   const mjtNum* data = world.state().sensordata;
   return {stamp, vector_of(data + gyro), vector_of(data + accelerometer)};

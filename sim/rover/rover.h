@@ -42,26 +42,26 @@ struct RoverConfig {
 /// The rover in its world: MuJoCo physics with torque-limited speed loops on the four wheels.
 class Rover {
  public:
-  /// Stands still on the ground at `start` (x, y in m, heading in rad), wheels settled. `seed`
-  /// varies each motor's gain and each wheel's friction by up to 1 % and says where vines are
-  /// missing. Throws Error for a model that
-  /// is missing, invalid or at odds with `config`, and for a start inside an obstacle.
+  /// Stands at rest on the ground at `start` (x, y in m, heading in rad), settled. `seed` varies
+  /// each motor's gain and each wheel's friction by up to 1 % and selects the missing vines. Throws
+  /// Error for a model that is missing, invalid or inconsistent with `config`, and for a start
+  /// inside an obstacle.
   Rover(const RoverConfig& config, const WorldConfig& world, const Eigen::Vector3d& start,
         std::uint64_t seed);
   Rover(Rover&&) noexcept;
   Rover& operator=(Rover&&) noexcept;
   ~Rover();
 
-  /// Speed asked of the body: forward and left in m/s, turn to the left in rad/s. Holds until the
-  /// next command. Takes effect within one physics step (2.5 ms).
+  /// Commanded body twist: forward and left in m/s, turn to the left in rad/s. Valid until the next
+  /// command. Takes effect within one physics step (2.5 ms).
   void command(const Eigen::Vector3d& twist);
 
-  /// Steps the physics to `stamp` and appends the sensors' samples in (now, stamp]. Samples have
-  /// no noise. Throws Error when the physics diverges.
+  /// Steps the physics to `stamp` and appends the sensors' samples in (now, stamp]. Samples have no
+  /// noise. Throws Error if the physics diverges.
   void advance_to(Stamp stamp, std::vector<ImuSample>& imu, std::vector<WheelSample>& wheels);
 
   Stamp now() const;
-  Pose T_world_body() const;  ///< the truth at `now` exactly
+  Pose T_world_body() const;  ///< the true pose at `now`
 
  private:
   struct Physics;

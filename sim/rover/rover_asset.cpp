@@ -21,19 +21,19 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr int kHiddenGroup = 3;  // as in MuJoCo's own viewer, this and what follows is not shown
+constexpr int kHiddenGroup = 3;  // as in MuJoCo's viewer, this and higher groups are not shown
 
 struct FreeMujoco {
   void operator()(mjModel* model) const { mj_deleteModel(model); }
   void operator()(mjData* state) const { mj_deleteData(state); }
 };
 
-/// A point of a profile that is turned about z, with its normal: r and z.
+/// A point of a profile of revolution about z, with its normal: r and z.
 struct ProfilePoint {
   float r, z, normal_r, normal_z;
 };
 
-/// How finely round things are drawn: of an ellipsoid rings and sides, and sides of the rest.
+/// Level of detail of round shapes: rings and sides of an ellipsoid, sides of the others.
 struct RoverDetail {
   double until;  ///< m
   int rings, roller_sides, sides;
@@ -50,7 +50,7 @@ struct Geom {
   Vector3f p_body;
 };
 
-/// Light of the sky that comes past the chassis and the ground.
+/// Share of the ambient light, which the chassis and the ground reduce at low points.
 float occlusion_at(const Vector3f& p_body) {
   return std::clamp(0.5f + 1.5f * p_body.z(), 0.5f, 1.0f);
 }
@@ -103,7 +103,7 @@ class GeomBuilder {
     }
   }
 
-  /// Turns the profile, from low to high, about z; then scales it.
+  /// Revolves the profile, from low to high, about z, then scales it.
   void revolve(const std::vector<ProfilePoint>& profile, int sides, const Vector3f& scale) {
     std::vector<std::uint32_t> last, ring;
     float last_r = 0;
@@ -126,8 +126,7 @@ class GeomBuilder {
     }
   }
 
-  /// An ellipsoid of those half axes; a capsule where its halves lie `half_length` m off the
-  /// middle.
+  /// An ellipsoid with these half axes; a capsule if its halves are `half_length` m off the middle.
   void round(const Vector3f& half_axes, float half_length, int rings, int sides) {
     std::vector<ProfilePoint> profile;
     const float apart = half_length / half_axes.z();
@@ -147,7 +146,7 @@ class GeomBuilder {
     revolve({{1, 1, 0, 1}, {0, 1, 0, 1}}, sides, scale);
   }
 
-  /// Each triangle by itself, with its own normal.
+  /// Separate triangles with face normals.
   void mesh() {
     const int first = model_.mesh_faceadr[geom_.mesh];
     const float* vertices = model_.mesh_vert + 3 * model_.mesh_vertadr[geom_.mesh];
@@ -169,13 +168,13 @@ class GeomBuilder {
   const Geom& geom_;
 };
 
-/// The rover's model, with its geoms' places at the joints' zero.
+/// The rover's model, with its geoms' poses at the joints' zero.
 class RoverModel {
  public:
   explicit RoverModel(const std::filesystem::path& mjcf) {
     std::array<char, 1000> reason{};
     model_.reset(mj_loadXML(mjcf.string().c_str(), nullptr, reason.data(), reason.size()));
-    if (!model_) fail("{}: no valid MJCF model: {}", mjcf.string(), reason.data());
+    if (!model_) fail("{}: is not a valid MJCF model: {}", mjcf.string(), reason.data());
     state_.reset(mj_makeData(model_.get()));
     const int joint = mj_name2id(model_.get(), mjOBJ_JOINT, "chassis");
     if (joint < 0) fail("{}: expected a joint named 'chassis', found none", mjcf.string());
@@ -221,7 +220,7 @@ class RoverModel {
   int body_ = 0;
 };
 
-/// The asset's material of that colour (sRGB), made where it has none.
+/// The asset's material of that colour (sRGB), created if missing.
 int material_of(Asset& asset, const float* rgba) {
   const Vector3f colour = linear_colour({rgba[0], rgba[1], rgba[2]});
   for (std::size_t i = 0; i < asset.materials.size(); ++i) {

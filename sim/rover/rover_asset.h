@@ -8,11 +8,11 @@
 
 namespace vinebench::sim {
 
-/// A rover as it looks: the visible geoms (groups 0 to 2, not wholly transparent) of the body that
-/// carries the joint `chassis` in its MJCF file, and of all that hangs on it, in the body's frame
+/// The visual model of a rover: the visible geoms (groups 0 to 2, not completely transparent) of
+/// the body with the joint `chassis` in its MJCF file, and of its child bodies, in the body's frame
 /// and at the joints' zero. Boxes, spheres, ellipsoids, cylinders, capsules and meshes, in the
-/// colours that the file gives them. Throws Error that names the file when it is missing, invalid
-/// or shows nothing.
+/// file's colours. Throws Error that names the file if it is missing, invalid or has no visible
+/// geom.
 Asset rover_asset(const std::filesystem::path& mjcf);
 
 /// Makes it the rover that Renderer::Request places.

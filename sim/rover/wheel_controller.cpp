@@ -25,7 +25,7 @@ Eigen::Vector3d MecanumDrive::body_motion(const WheelArray& wheels) const {
 }
 
 double SpeedLoop::torque(double wanted, double measured, double dt) {
-  // rad/s: below this the friction's sign fades, or the torque would chatter around standstill.
+  // rad/s: below this the friction's sign is faded out, to avoid chattering around standstill.
   constexpr double kStandstill = 0.05;
   const double error = wanted - measured;
   const double torque =

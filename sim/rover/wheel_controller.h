@@ -19,12 +19,12 @@ struct MecanumDrive {
   /// Speeds of the wheels (rad/s) for a body twist: forward, left (m/s), turn to the left (rad/s).
   WheelArray wheel_speeds(const Eigen::Vector3d& twist) const;
 
-  /// The body's motion (forward, left, turn to the left) that turns the wheels by these angles;
-  /// the least-squares solution. Speeds give a twist likewise.
+  /// The body's motion (forward, left, turn to the left) for these wheel angles; the least-squares
+  /// solution. Wheel speeds give a twist likewise.
   Eigen::Vector3d body_motion(const WheelArray& wheels) const;
 };
 
-/// What a wheel's speed loop works with, at the wheel's side of the gearbox.
+/// Parameters of a wheel's speed loop, on the wheel's side of the gearbox.
 struct SpeedLoopConfig {
   double proportional = 3;  ///< Nm per rad/s
   double integral = 20;     ///< Nm per rad
@@ -32,8 +32,8 @@ struct SpeedLoopConfig {
   double max_torque = 5;    ///< Nm
 };
 
-/// PI loop on a wheel's speed with friction fed forward. The integral stands still while the torque
-/// is at its limit and the error would push it further (anti-windup).
+/// PI loop on a wheel's speed with friction feed-forward. The integral is held while the torque is
+/// at its limit and the error would increase it (anti-windup).
 class SpeedLoop {
  public:
   explicit SpeedLoop(const SpeedLoopConfig& config) : config_(config) {}

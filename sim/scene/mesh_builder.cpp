@@ -69,7 +69,7 @@ float leaf_outline_area(float lobes) {
 }
 
 const std::vector<Eigen::Vector2f>& leaf_outline(int detail, float lobes) {
-  constexpr int kSteps = 20;  // depths are told apart this finely
+  constexpr int kSteps = 20;  // resolution of depths
   using Outlines = std::array<std::array<std::vector<Eigen::Vector2f>, 3>, kSteps + 1>;
   static const Outlines kOutlines = [] {
     Outlines outlines;
@@ -113,7 +113,7 @@ void MeshBuilder::tube(const Tube& tube, int sides, float v_per_metre, bool cap,
     const Eigen::Vector3f direction =
         tube.path[std::min(i + 1, n - 1)] - tube.path[i > 0 ? i - 1 : 0];
     const Axes axes = axes_along(direction, hint);
-    hint = axes.x;  // carried along, so that the tube does not twist
+    hint = axes.x;  // propagated, so that the tube does not twist
     if (i > 0) along += (tube.path[i] - tube.path[i - 1]).norm();
     const auto ring = static_cast<std::uint32_t>(primitive_.vertices.size());
     for (int s = 0; s <= sides; ++s) {
@@ -152,7 +152,7 @@ void MeshBuilder::fan(const std::vector<std::uint32_t>& rim, std::uint32_t foot)
   for (std::size_t i = 1; i < rim.size(); ++i) triangle(foot, rim[i - 1], rim[i]);
 }
 
-/// The rim in three parts, each round one of the inner points.
+/// The rim in three parts, each around one of the inner points.
 void MeshBuilder::curved(const std::vector<std::uint32_t>& rim, std::uint32_t foot,
                          const std::array<std::uint32_t, 3>& inner) {
   const std::size_t n = rim.size(), left = (n - 1) * 3 / 8, right = n - 1 - left;
@@ -170,7 +170,7 @@ void MeshBuilder::curved(const std::vector<std::uint32_t>& rim, std::uint32_t fo
 
 void MeshBuilder::blade(const BladePlacement& blade, int detail) {
   const auto add = [&](const Eigen::Vector2f& p) {
-    // The rim hangs; the halves fold up along the midrib.
+    // The rim hangs down; the halves fold up along the midrib.
     const float sag = -blade.curl * p.squaredNorm() + 0.25f * std::abs(p.x());
     const Eigen::Vector3f at =
         blade.foot +
@@ -238,7 +238,7 @@ void MeshBuilder::berry(const Eigen::Vector3f& centre, float radius, const Eigen
                         bool fine, const TextureCell& cell) {
   constexpr std::size_t kSpokes = 6;
   constexpr float kAround = 1.05f;  // of the ball's radius, so that the outline has its area
-  constexpr float kHigh = 0.4472136f, kOut = 0.8944272f;  // where the two rings lie
+  constexpr float kHigh = 0.4472136f, kOut = 0.8944272f;  // positions of the two rings
   const Axes axes = axes_along(outward, Eigen::Vector3f::UnitZ());
   const std::uint32_t pole = vertex(centre + radius * axes.z, axes.z, cell.at(0.5f, 0.5f));
   std::array<std::uint32_t, 2 * kSpokes> ring{};

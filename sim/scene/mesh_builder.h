@@ -10,11 +10,11 @@
 
 namespace vinebench::sim {
 
-/// A bent round thing: trunk, cane, post, blade of grass.
+/// A bent tube: trunk, cane, post, blade of grass.
 struct Tube {
   std::vector<Eigen::Vector3f> path;  ///< m
   std::vector<float> radii;           ///< m, one for each point of the path
-  float knots = 0;                    ///< how far old wood bulges, as a share of its radius
+  float knots = 0;  ///< height of the bulges of old wood, as a share of its radius
 };
 
 /// Right-handed axes; columns of a rotation.
@@ -34,15 +34,15 @@ struct TextureCell {
   }
 };
 
-/// A blade as it sits on its stalk.
+/// A leaf blade and its pose.
 struct BladePlacement {
   Eigen::Vector3f foot;            ///< m, where the stalk enters
   Axes axes;                       ///< x across, y along the midrib to the tip, z out of the face
   float size = 0.1f;               ///< m, foot to tip
-  float curl = 0.2f;               ///< how far the rim hangs below the foot, in sizes
+  float curl = 0.2f;               ///< height of the foot above the rim, in sizes
   Eigen::Vector3f shading_normal;  ///< blended with the blade's own
   TextureCell cell;
-  float lobes = 0.5f;  ///< depth of the sinuses: 0 a whole leaf, 1 cut to the veins
+  float lobes = 0.5f;  ///< depth of the sinuses: 0 an entire leaf, 1 cut to the veins
 };
 
 /// Outline of a vine leaf about the foot, in sizes: x across, y along the midrib, counter-clockwise
@@ -53,8 +53,8 @@ const std::vector<Eigen::Vector2f>& leaf_outline(int detail, float lobes = 0.5f)
 /// Area of the outline of detail 2, in sizes squared.
 float leaf_outline_area(float lobes);
 
-/// Square of texture that a blade uses, in sizes: the texture's cell spans [-kLeafHalf, kLeafHalf]
-/// across and [kLeafBottom, kLeafBottom + 2 kLeafHalf] along the midrib.
+/// Square of texture of a blade, in sizes: the texture's cell spans [-kLeafHalf, kLeafHalf] across
+/// and [kLeafBottom, kLeafBottom + 2 kLeafHalf] along the midrib.
 inline constexpr float kLeafHalf = 0.75f;
 inline constexpr float kLeafBottom = -0.48f;
 
@@ -69,23 +69,21 @@ class MeshBuilder {
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
   void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d);
 
-  /// Texture: u once round from `u_from` to `u_to`, v `v_per_metre` along. Closed at its end by a
-  /// cap where `cap`.
+  /// Texture: u once around from `u_from` to `u_to`, v `v_per_metre` along. `cap` closes its end.
   void tube(const Tube& tube, int sides, float v_per_metre, bool cap, float u_from = 0,
             float u_to = 1);
   /// Three triangles from a foot to a point, for stalks.
   void spike(const Eigen::Vector3f& from, const Eigen::Vector3f& to, float radius,
              const Eigen::Vector2f& uv);
-  /// Triangles round the foot, rim hanging down, folded along the midrib. Detail 2 has points
+  /// Triangles around the foot, rim hanging down, folded along the midrib. Detail 2 has points
   /// between foot and rim, so that the blade is curved.
   void blade(const BladePlacement& blade, int detail);
-  /// Two triangles that carry the whole texture cell, for cut-out leaves.
+  /// Two triangles with the whole texture cell, for cut-out leaves.
   void card(const BladePlacement& blade);
-  /// The half of a ball that looks along `outward`.
+  /// The hemisphere that faces along `outward`.
   void dome(const Eigen::Vector3f& centre, float radius, const Eigen::Vector3f& outward, int sides,
             int rings);
-  /// The half of a ball that looks along `outward`, of 18 triangles (`fine`), or a cap of 6: round
-  /// from all sides for so few.
+  /// The hemisphere that faces along `outward`, of 18 triangles (`fine`), or a cap of 6.
   void berry(const Eigen::Vector3f& centre, float radius, const Eigen::Vector3f& outward, bool fine,
              const TextureCell& cell);
   /// A solid of revolution about the vertical: radii at the shares `downs` of its length from the

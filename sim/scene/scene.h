@@ -18,7 +18,7 @@ namespace vinebench::sim {
 struct Texture {
   std::string name;
   cv::Mat rgba;
-  bool repeat = true;  ///< else clamped to its edge
+  bool repeat = true;  ///< otherwise clamped to its edge
 };
 
 struct Material {
@@ -26,18 +26,18 @@ struct Material {
   Label label = Label::kGround;
   Eigen::Vector3f colour = Eigen::Vector3f::Ones();  ///< linear RGB, multiplies the texture
   int texture = -1;                                  ///< index into Scene::textures, -1 for none
-  bool cutout = false;  ///< pixels of alpha below one half are not there
+  bool cutout = false;  ///< pixels with alpha below one half are transparent
   bool double_sided = false;
-  float translucency = 0;  ///< share of the sunlight that a leaf lets through, 0 to 1
-  bool terrain = false;    ///< the ground itself: it takes its shadows from a map from above
+  float translucency = 0;  ///< share of the sunlight transmitted by a leaf, 0 to 1
+  bool terrain = false;    ///< the ground: its shadows come from a top-down light map
 };
 
 struct Vertex {
   Eigen::Vector3f position;  ///< m, model frame (z up)
   Eigen::Vector3f normal;
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
-  float occlusion = 1;    ///< share of the sky's light that arrives here, baked, 0 to 1
-  std::uint8_t part = 0;  ///< of its thing: 0 the whole, from 1 on a bunch of a plant
+  float occlusion = 1;    ///< baked share of the ambient light, 0 to 1
+  std::uint8_t part = 0;  ///< within its object: 0 the whole, from 1 on a bunch of a plant
 };
 
 /// Triangles (counter-clockwise from the front) of one material.
@@ -56,7 +56,7 @@ struct LevelOfDetail {
   std::vector<Primitive> primitives;
 };
 
-/// A thing that stands in the world once or many times. Finest level first.
+/// A model with any number of instances in the world. Finest level first.
 struct Model {
   std::string name;
   std::vector<LevelOfDetail> levels;
@@ -67,7 +67,7 @@ struct Instance {
   int model = 0;  ///< index into Scene::models
   Pose T_world_model;
   float scale = 1;
-  int id = 0;  ///< stable number of this thing: a plant's place in its world
+  int id = 0;  ///< stable number of this object: a plant's index in its world
 };
 
 /// A straight wire, drawn as a strip that faces the camera.
@@ -84,29 +84,29 @@ struct Light {
   Eigen::Vector3f sun = Eigen::Vector3f::Constant(1.0f);
   Eigen::Vector3f sky = Eigen::Vector3f(0.45f, 0.5f, 0.6f);       ///< ambient from above
   Eigen::Vector3f bounce = Eigen::Vector3f(0.18f, 0.16f, 0.13f);  ///< ambient from below
-  float overcast = 0;  ///< share of the sky that cloud covers, 0 to 1
-  float haze = 0;      ///< extinction of the air, 1/m
-  float glare = 1;     ///< how much of a sun in the image the lens scatters
+  float overcast = 0;                                             ///< cloud cover, 0 to 1
+  float haze = 0;                                                 ///< extinction of the air, 1/m
+  float glare = 1;  ///< strength of the lens's scatter of a sun in the image
 };
 
-/// What moves leaves, canes and bunches.
+/// The wind that moves leaves, canes and bunches.
 struct Wind {
   float speed = 0;                                     ///< m/s at the canopy; 0 is still air
   Eigen::Vector2f towards = Eigen::Vector2f::UnitX();  ///< unit, world frame
   std::uint64_t seed = 0;                              ///< of its gusts
 };
 
-/// Everything that can be drawn, in the world frame. Immutable once built.
+/// The scene for rendering, in the world frame. Immutable once built.
 struct Scene {
   std::vector<Texture> textures;
   std::vector<Material> materials;
   std::vector<Model> models;
   std::vector<Instance> instances;
-  int rover_model = -1;  ///< index into models of what Renderer::Request places; -1 for none
+  int rover_model = -1;  ///< index into models of the rover posed by Renderer::Request; -1 for none
   std::vector<Wire> wires;
   Light light;
   Wind wind;
-  std::uint64_t seed = 0;  ///< for what the renderer draws by itself, such as clouds
+  std::uint64_t seed = 0;  ///< for procedural content of the renderer, such as clouds
 };
 
 }  // namespace vinebench::sim

@@ -11,7 +11,7 @@
 namespace vinebench::sim {
 namespace {
 
-constexpr int kLargestSide = 16384;  // px; what Mesa and every GPU of today can hold
+constexpr int kLargestSide = 16384;  // px; supported by Mesa and current GPUs
 constexpr float kFarthest = 1e6f;    // m
 
 void check_index(std::int64_t index, std::size_t size, const char* what, const std::string& where) {

@@ -6,8 +6,8 @@
 
 namespace vinebench::sim {
 
-/// Throws Error that names the part of the scene that cannot be drawn: an image that is empty, of
-/// another kind or too large, something that names what the scene has not, a number that is none.
+/// Throws Error that names the invalid part of the scene: an image that is empty, of the wrong type
+/// or too large, an index out of range, a number that is not finite.
 void check_scene(const Scene& scene);
 
 }  // namespace vinebench::sim

@@ -30,7 +30,7 @@ Thing thing_of(const Material& material) {
   }
 }
 
-/// All of a model is of one kind, so that its first material tells it.
+/// All parts of a model are of one kind, so its first material determines it.
 Thing thing_of(const Scene& scene, const Model& model) {
   for (const LevelOfDetail& level : model.levels) {
     for (const Primitive& primitive : level.primitives) {
@@ -42,7 +42,7 @@ Thing thing_of(const Scene& scene, const Model& model) {
 
 using Points = std::vector<Eigen::Vector3f>;
 
-/// Every n-th, so that at most kMostPoints are left.
+/// Every N-th, so that at most kMostPoints remain.
 Points thinned(const Points& all) {
   const std::size_t step = all.size() / SceneIndex::kMostPoints + 1;
   Points kept;

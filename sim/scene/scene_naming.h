@@ -9,11 +9,11 @@
 
 namespace vinebench::sim {
 
-/// What a number of RenderedImage::instances stands for. Throws Error for a number that the scene
+/// The meaning of a number of RenderedImage::instances. Throws Error for a number that the scene
 /// does not have.
 InstanceName instance_name(const Scene& scene, std::int32_t number);
 
-/// The names, places and outlines of all that stands in a scene, without its meshes.
+/// The names, poses and surface points of all instances of a scene, without meshes.
 SceneIndex index_of(const Scene& scene);
 
 }  // namespace vinebench::sim

@@ -13,17 +13,16 @@
 
 namespace vinebench::sim {
 
-/// How the true rig, which takes the images, differs from the one that its users are told of.
-/// None by default.
+/// Difference of the true rig, which takes the images, from the nominal one. None by default.
 struct CalibrationErrorConfig {
-  /// One camera's own difference, added to the drawn one.
+  /// A fixed error of one camera, added to the drawn one.
   struct Camera {
     std::string name;
     Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< m, along the camera's x, y, z
     Eigen::Vector3d rotation_deg = Eigen::Vector3d::Zero();  ///< rotation vector in its own axes
     Eigen::Vector2d focal_px = Eigen::Vector2d::Zero();
     Eigen::Vector2d principal_point_px = Eigen::Vector2d::Zero();
-    std::array<double, 4> distortion{};  ///< k1, k2, p1, p2 beside the known ones
+    std::array<double, 4> distortion{};  ///< k1, k2, p1, p2 added to the nominal ones
     template <class Archive>
     void serialize(Archive& archive) {
       archive("name", name);
@@ -34,7 +33,7 @@ struct CalibrationErrorConfig {
       archive("distortion", distortion, Range::between(-10, 10));
     }
   };
-  // Standard deviations of what the seed draws for every camera.
+  // Standard deviations of the errors drawn for every camera.
   double position = 0;            ///< m, along each axis
   double rotation_deg = 0;        ///< about each axis
   double focal_px = 0;            ///< the same draw for x and y
@@ -54,8 +53,8 @@ struct CalibrationErrorConfig {
   }
 };
 
-/// The rig that takes the images where `told` is what its users believe. Throws Error for a name
-/// that is not in the rig and a focal length that is not above 0.
+/// The true rig for the nominal one. Throws Error for an unknown camera name and a focal length
+/// that is not above 0.
 Rig true_rig(const Rig& told, const CalibrationErrorConfig& config, std::uint64_t seed);
 
 }  // namespace vinebench::sim

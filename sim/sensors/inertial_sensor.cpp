@@ -20,7 +20,7 @@ Eigen::Vector3d InertialAxes::draw(const RandomStream& stream, std::uint64_t ind
   return {stream.normal(3 * index), stream.normal(3 * index + 1), stream.normal(3 * index + 2)};
 }
 
-/// A reading is the mean over its period, so the white noise's variance is N^2 / period.
+/// A reading is the mean over its period, so the variance of the white noise is N^2 / period.
 Eigen::Vector3d InertialAxes::measure(const Eigen::Vector3d& truth) {
   const Eigen::Vector3d white = config_.noise_density / std::sqrt(period_) * draw(noise_, index_);
   Eigen::Vector3d reading = truth + bias_ + wandering_bias_ + white;

@@ -16,10 +16,10 @@ namespace vinebench::sim {
 struct InertialAxesConfig {
   double noise_density = 0;       ///< u/sqrt(Hz), white noise (Allan's N)
   double bias_random_walk = 0;    ///< u/s/sqrt(Hz), white noise of the bias's rate (Allan's K)
-  double bias_instability = 0;    ///< u, standard deviation of a bias that wanders and comes back
-  double correlation_time = 100;  ///< s, in which that one does
+  double bias_instability = 0;    ///< u, standard deviation of a Gauss-Markov bias
+  double correlation_time = 100;  ///< s, of that bias
   double initial_bias = 0;        ///< u, standard deviation of an axis's bias at the start
-  double range = 0;               ///< u, beyond which it saturates; 0: it never does
+  double range = 0;               ///< u, saturation; 0: none
   template <class Archive>
   void serialize(Archive& archive) {
     archive("noise_density", noise_density, Range::between(0, 100));
@@ -31,9 +31,9 @@ struct InertialAxesConfig {
   }
 };
 
-/// An inertial unit. The defaults are of the class of Bosch's BMI088 (0.014 deg/s/sqrt(Hz), 175
-/// ug/sqrt(Hz), set to 500 deg/s and 6 g); bias walk and initial bias are assumed, as a calibration
-/// at rest leaves them.
+/// An inertial unit. The defaults are typical of Bosch's BMI088 (0.014 deg/s/sqrt(Hz), 175
+/// ug/sqrt(Hz), set to 500 deg/s and 6 g); bias walk and initial bias are assumptions for a unit
+/// calibrated at rest.
 struct InertialSensorConfig {
   InertialAxesConfig gyroscope{2.44e-4, 2e-6, 0, 100, 1e-3, 8.727};
   InertialAxesConfig accelerometer{1.72e-3, 1e-4, 0, 100, 2e-2, 58.84};
@@ -44,12 +44,12 @@ struct InertialSensorConfig {
   }
 };
 
-/// Errors of three axes of one kind, reading after reading.
+/// Errors of a three-axis sensor, reading by reading.
 class InertialAxes {
  public:
   InertialAxes(const InertialAxesConfig& config, const std::string& name, double rate_hz,
                std::uint64_t seed);
-  /// What the sensor says of the next true value.
+  /// The reading for the next true value.
   Eigen::Vector3d measure(const Eigen::Vector3d& truth);
 
  private:
@@ -65,7 +65,7 @@ class InertialAxes {
   std::uint64_t index_ = 0;
 };
 
-/// Turns the physics' true readings, in order, into an inertial unit's. A draw is a function of
+/// Converts the physics' true readings, in order, to an inertial unit's. A draw is a function of
 /// seed, axis and the reading's index.
 class InertialSensor {
  public:

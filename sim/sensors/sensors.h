@@ -13,7 +13,7 @@
 namespace vinebench::sim {
 
 /// Every sensor of the rover. Each draw is a function of (seed, stream, camera or axis, frame or
-/// reading), so that switching one effect on changes no other's.
+/// reading), so that turning one effect on does not change another.
 struct SensorsConfig {
   CameraSensorConfig camera;
   FrameTimingConfig timing;
@@ -32,11 +32,11 @@ struct SensorsConfig {
   }
 };
 
-/// Perfect sensors: images as they are rendered, readings as the physics has them.
+/// Ideal sensors: images as rendered, readings as in the physics.
 SensorsConfig perfect_sensors();
 
-/// Throws one Error that lists what does not go with the rig: names of cameras that it has not, and
-/// an exposure and readout that take longer than the time between its frames.
+/// Throws one Error that lists inconsistencies with the rig: unknown camera names, and an exposure
+/// and readout longer than the frame period.
 void check_sensors(const SensorsConfig& config, const Rig& rig);
 
 }  // namespace vinebench::sim

@@ -7,18 +7,17 @@
 
 namespace vinebench::sim {
 
-/// Encoders on the wheels. They read how the wheels turn, so a wheel that slips on the ground tells
-/// of a way that the rover did not go.
+/// Wheel encoders. They read the rotation of the wheels, which includes slip.
 struct WheelSensorConfig {
-  int counts_per_turn = 4096;  ///< of the wheel; 0: reads the angle itself
+  int counts_per_turn = 4096;  ///< of the wheel; 0: exact angle
   template <class Archive>
   void serialize(Archive& archive) {
     archive("counts_per_turn", counts_per_turn, Range::between(0, 1e8));
   }
 };
 
-/// Turns the physics' true readings, in order, into encoders': angles in whole counts, and speeds
-/// as counts since the reading before.
+/// Converts the physics' true readings, in order, to encoder readings: angles in integer counts,
+/// speeds as counts since the previous reading.
 class WheelSensor {
  public:
   explicit WheelSensor(const WheelSensorConfig& config) : config_(config) {}

@@ -9,7 +9,7 @@
 namespace vinebench::sim {
 
 cv::Mat value_noise(cv::Size size, cv::Size cells, const RandomStream& random) {
-  constexpr int kRim = 3;  // cells of the next tile, so that interpolation meets its own far side
+  constexpr int kRim = 3;  // cells of the next tile, for a seamless interpolation
   cv::Mat grid(cells, CV_32F);
   for (int y = 0; y < cells.height; ++y) {
     for (int x = 0; x < cells.width; ++x) {

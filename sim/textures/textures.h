@@ -13,13 +13,12 @@
 
 namespace vinebench::sim {
 
-// Images painted in code from a seed; the same seed gives the same bytes.
+// Procedural images; the same seed gives the same bytes.
 
-/// Smooth noise in [0, 1], CV_32F, that repeats without a seam: `cells` bumps a side.
+/// Smooth noise in [0, 1], CV_32F, seamlessly tileable, with `cells` bumps per side.
 cv::Mat value_noise(cv::Size size, cv::Size cells, const RandomStream& random);
 
-/// Octaves of value_noise, each of twice the cells and `gain` times the height, stretched to [0,
-/// 1].
+/// Octaves of value_noise, each of twice the cells and `gain` times the height, scaled to [0, 1].
 cv::Mat fractal_noise(cv::Size size, cv::Size cells, int octaves, double gain, std::uint64_t seed,
                       std::string_view name);
 
@@ -32,8 +31,8 @@ cv::Mat mix(const cv::Mat& amount, const cv::Mat& a, const cv::Mat& b);
 /// CV_32FC3 of 0 to 255 (and 8-bit alpha, opaque where empty) to the CV_8UC4 of a Texture.
 cv::Mat to_rgba(const cv::Mat& rgb, const cv::Mat& alpha = {});
 
-/// Atlas of eight vine leaves, alpha outside the blade: 0 to 3 in their prime, 4 and 5 old, 6
-/// young, 7 turned; once leaves fall, 4 to 7 are yellow to brown.
+/// Atlas of eight vine leaves, transparent outside the blade: 0 to 3 mature, 4 and 5 old, 6 young,
+/// 7 with autumn colour; at leaf fall 4 to 7 are yellow to brown.
 Texture leaf_texture(std::uint64_t seed, const Cultivar& cultivar = {},
                      const GrowthStage& stage = {});
 inline constexpr int kLeafVariants = 8;
@@ -44,7 +43,7 @@ Texture bark_texture(std::uint64_t seed);
 /// Shoots of this year in the left half, canes of last year in the right one.
 Texture cane_texture(std::uint64_t seed, const GrowthStage& stage = {});
 
-/// Packed berries round a bunch in the left half, four berries seen from outside in the right one;
+/// Packed berries around a bunch in the left half, four berries seen from outside in the right one;
 /// flowers before fruit set.
 Texture bunch_texture(std::uint64_t seed, const Cultivar& cultivar = {},
                       const GrowthStage& stage = {});
@@ -53,10 +52,10 @@ TextureCell berry_cell(int variant);
 TextureCell packed_berries_cell();
 
 Texture soil_texture(std::uint64_t seed);    ///< for kSoilTile metres a side
-inline constexpr double kSoilTile = 2.3;     ///< m; no multiple of usual spacings
+inline constexpr double kSoilTile = 2.3;     ///< m; not a multiple of common spacings
 Texture meadow_texture(std::uint64_t seed);  ///< grass, for kSoilTile metres a side
 
-/// An aisle as it is mown and driven on; m.
+/// Cross-section of a mown aisle with wheel tracks; m.
 struct AisleProfile {
   double width = 2.5;         ///< from row to row
   double bare_strip = 0.8;    ///< half of it on either side
@@ -70,7 +69,7 @@ inline constexpr double kAisleLength = 2;
 Texture wood_texture(std::uint64_t seed);
 /// White-based, to be multiplied by the box's colour: plain above v = 0.5, with a tape below.
 Texture carton_texture(std::uint64_t seed);
-/// The same with a maker's mark, lines of text and symbols on it.
+/// The same with a logo, lines of text and symbols.
 Texture print_texture(std::uint64_t seed);
 Texture cloth_texture(std::uint64_t seed);  ///< almost white, for clothes and plastics
 Texture grass_texture(std::uint64_t seed);

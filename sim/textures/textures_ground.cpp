@@ -11,13 +11,13 @@
 namespace vinebench::sim {
 namespace {
 
-/// Of the nearest pixel; beyond the last one comes the first.
+/// Nearest pixel, with wrap-around.
 float value_at(const cv::Mat& share, const cv::Point2d& at) {
   const cv::Point nearest = at;
   return share.at<float>(nearest.y % share.rows, nearest.x % share.cols);
 }
 
-/// Each stone with the shadow it throws and the light on its upper side.
+/// Stones with their shadows and the light on their upper sides.
 void scatter_stones(cv::Mat& rgb, RandomSequence& random, int count, double min_px, double max_px,
                     const cv::Mat* share = nullptr) {
   for (int i = 0; i < count; ++i) {
@@ -60,7 +60,7 @@ void scatter_straws(cv::Mat& rgb, RandomSequence& random, int count, const cv::V
   }
 }
 
-/// Fallen vine leaves: the outline of one, shrivelled and brown.
+/// Fallen vine leaves: shrivelled and brown.
 void scatter_leaves(cv::Mat& rgb, RandomSequence& random, int count, double size_px) {
   for (int i = 0; i < count; ++i) {
     const cv::Point2d at = somewhere(random, rgb);
@@ -86,7 +86,7 @@ void scatter_leaves(cv::Mat& rgb, RandomSequence& random, int count, double size
   }
 }
 
-/// Fine noise of a piece of an image, laid side by side until it fills it.
+/// Fine noise, tiled to the size of the image.
 cv::Mat repeated_noise(cv::Size size, cv::Size pieces, cv::Size cells, int octaves, double gain,
                        std::uint64_t seed, std::string_view name) {
   const cv::Size piece(size.width / pieces.width, size.height / pieces.height);
@@ -94,7 +94,7 @@ cv::Mat repeated_noise(cv::Size size, cv::Size pieces, cv::Size cells, int octav
                     pieces.width);
 }
 
-/// Coarse noise, made small and enlarged; `gain` as for fractal_noise.
+/// Coarse noise, generated small and enlarged; `gain` as for fractal_noise.
 cv::Mat coarse_noise(cv::Size size, cv::Size cells, int octaves, double gain, std::uint64_t seed,
                      std::string_view name) {
   constexpr int kRim = 4;  // px of the next tile, so that the enlarged image has no seam
@@ -106,7 +106,7 @@ cv::Mat coarse_noise(cv::Size size, cv::Size cells, int octaves, double gain, st
   return large(cv::Rect(cv::Point(4 * kRim, 4 * kRim), size)).clone();
 }
 
-/// Short grass seen from above, without its single blades.
+/// Short grass from above, without individual blades.
 cv::Mat turf(cv::Size size, int cells, std::uint64_t seed, std::string_view name) {
   const cv::Size grid(cells, cells * size.height / size.width);
   return blend(fractal_noise(size, grid, 6, 0.85, seed, name), {30, 40, 14}, {132, 136, 72});
@@ -124,13 +124,13 @@ void scatter_blades(cv::Mat& rgb, RandomSequence& random, const cv::Mat& share, 
     const cv::Scalar skin = jitter(random, random.below(6) == 0 ? dry : fresh, 0.25);
     const bool grows = random.uniform() < value_at(share, at);
     if (!grows) continue;
-    const cv::Point2d way(length * std::cos(angle), length * std::sin(angle));
+    const cv::Point2d offset(length * std::cos(angle), length * std::sin(angle));
     draw_wrapped(rgb, at, 2 * length,
-                 [&](const cv::Point2d& p) { cv::line(rgb, p, p + way, skin, 1, cv::LINE_AA); });
+                 [&](const cv::Point2d& p) { cv::line(rgb, p, p + offset, skin, 1, cv::LINE_AA); });
   }
 }
 
-/// Tufts as they look from above: a dark heart and bright tips all round, `reach` m at most.
+/// Tufts from above: dark centre and bright tips, `reach` m at most.
 void scatter_tufts(cv::Mat& rgb, RandomSequence& random, const cv::Mat& share, int count,
                    double reach_px) {
   for (int i = 0; i < count; ++i) {
@@ -147,10 +147,10 @@ void scatter_tufts(cv::Mat& rgb, RandomSequence& random, const cv::Mat& share, i
     for (int b = 0; b < blades; ++b) {
       const double turn = first + 2 * std::numbers::pi * b / blades + random.uniform(-0.3, 0.3);
       const double length = reach * random.uniform(0.5, 1.0);
-      const cv::Point2d way(length * std::cos(turn), length * std::sin(turn));
+      const cv::Point2d offset(length * std::cos(turn), length * std::sin(turn));
       const cv::Scalar skin = jitter(random, tip, 0.3);
       draw_wrapped(rgb, at, 2 * reach, [&](const cv::Point2d& p) {
-        cv::line(rgb, p + 0.25 * way, p + way, skin, 1 + b % 2, cv::LINE_AA);
+        cv::line(rgb, p + 0.25 * offset, p + offset, skin, 1 + b % 2, cv::LINE_AA);
       });
     }
   }
@@ -243,7 +243,7 @@ Texture aisle_texture(std::uint64_t seed, const AisleProfile& profile) {
   const cv::Mat damp = coarse_noise(size, {2, 4}, 4, 0.55, seed, "aisle damp");
   const cv::Mat soil = mix(damp, blend(clods, {50, 36, 24}, {166, 134, 100}),
                            blend(clods, {66, 50, 34}, {194, 166, 130}));
-  // Wheels press clods flat and leave them paler.
+  // Wheel tracks are flat and paler.
   const cv::Mat pressed = blend(clods, {112, 92, 70}, {156, 132, 104});
   cv::Mat rgb = mix(grass, mix(track, soil, pressed),
                     cv::repeat(turf(size / 2, 6, seed, "aisle turf"), 2, 2));

@@ -6,11 +6,11 @@
 
 #include "core/util/random.h"
 
-// What painters of images that repeat have in common.
+// Helpers for painting tileable images.
 
 namespace vinebench::sim {
 
-/// Draws a small thing on an image that repeats: again wherever it crosses the seam.
+/// Draws a small object on a tileable image, repeated where it crosses the border.
 template <class Draw>
 void draw_wrapped(const cv::Mat& image, const cv::Point2d& at, double reach, const Draw& draw) {
   for (const int ix : {-1, 0, 1}) {

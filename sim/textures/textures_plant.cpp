@@ -25,7 +25,7 @@ cv::Point fixed(const cv::Point2f& p) {
   return {cvRound(p.x * 16), cvRound(p.y * 16)};
 }
 
-/// The outline with the small teeth that a mesh leaves out.
+/// The outline with teeth, which the mesh does not have.
 cv::Mat leaf_alpha(int side, const Cultivar::Leaf& look, RandomSequence& random) {
   const std::vector<Eigen::Vector2f>& coarse = leaf_outline(2, static_cast<float>(look.lobes));
   const auto height = static_cast<float>(0.09 * look.teeth);
@@ -81,10 +81,10 @@ cv::Vec3f bytes(const Eigen::Vector3d& colour) {
 
 struct LeafColours {
   cv::Vec3f dark, light, vein, edge;
-  float edge_share;  // how much of the rim has turned
+  float edge_share;  // share of the rim with autumn colour
 };
 
-/// How one of the atlas' leaves differs from the cultivar's colours.
+/// Colour variation of one of the atlas' leaves.
 struct LeafAge {
   float brightness;
   float yellow;    // of young growth
@@ -149,7 +149,7 @@ cv::Mat paint_leaf(std::uint64_t seed, int variant, const Cultivar::Leaf& look,
   return small;
 }
 
-/// Skin of a berry that has its colour to the share `ripe`; pink on the way.
+/// Colour of a berry at ripeness `ripe`, 0 to 1; pink in between.
 cv::Vec3f berry_colour(const Cultivar::Berry& look, float ripe) {
   const cv::Vec3f green = bytes(look.green), full = bytes(look.ripe);
   const bool red = look.ripe.y() < look.green.y() - 0.15;
@@ -158,7 +158,7 @@ cv::Vec3f berry_colour(const Cultivar::Berry& look, float ripe) {
                      : middle + (2 * ripe - 1) * (full - middle);
 }
 
-/// The colours of the atlas' four berries: at veraison some are green, some have turned.
+/// The colours of the atlas' four berries: at veraison some are green, some coloured.
 std::array<cv::Vec3f, kBerryVariants> berry_colours(const Cultivar& cultivar,
                                                     const GrowthStage& stage) {
   std::array<cv::Vec3f, kBerryVariants> colours;
@@ -172,7 +172,7 @@ std::array<cv::Vec3f, kBerryVariants> berry_colours(const Cultivar& cultivar,
   return colours;
 }
 
-/// One berry over an image: darker towards its rim, where its neighbours shade it.
+/// One berry on an image: darker towards its rim because of its neighbours.
 void paint_berry(cv::Mat& rgb, const cv::Point2d& at, const cv::Size2d& radius,
                  const cv::Vec3f& skin, double rim) {
   constexpr int kRings = 8;
@@ -185,7 +185,7 @@ void paint_berry(cv::Mat& rgb, const cv::Point2d& at, const cv::Size2d& radius,
   }
 }
 
-/// Berries shoulder to shoulder, without a seam round the bunch.
+/// Packed berries, seamless around the bunch.
 cv::Mat paint_packed(std::uint64_t seed, const Cultivar& cultivar, const GrowthStage& stage) {
   const auto colours = berry_colours(cultivar, stage);
   const int side = kBunchPixels;
@@ -210,7 +210,7 @@ cv::Mat paint_packed(std::uint64_t seed, const Cultivar& cultivar, const GrowthS
   return rgb;
 }
 
-/// Cells of an atlas of that many columns and rows, kept half a texel from the neighbours.
+/// Cells of an atlas with that many columns and rows, inset by half a texel.
 TextureCell atlas_cell(int index, int columns, int rows, float rim) {
   const Eigen::Vector2f size(1.0f / columns, 1.0f / rows);
   const Eigen::Vector2f from(size.x() * (index % columns), size.y() * (index / columns));
@@ -237,7 +237,7 @@ Texture bark_texture(std::uint64_t seed) {
   const cv::Size size(256, 512);
   const cv::Mat fibres = fractal_noise(size, {16, 4}, 5, 0.7, seed, "bark");
   const cv::Mat patches = fractal_noise(size, {4, 6}, 4, 0.6, seed, "bark patches");
-  cv::Mat ridges = cv::abs(fibres - 0.5) * 2.4;  // cracks where the noise crosses its middle
+  cv::Mat ridges = cv::abs(fibres - 0.5) * 2.4;  // cracks where the noise crosses its mean
   ridges = cv::min(ridges, 1.0f);
   const cv::Mat bark = blend(ridges, {36, 28, 22}, {132, 112, 92});
   const cv::Mat grey = blend(ridges, {52, 46, 40}, {164, 152, 136});
@@ -268,7 +268,7 @@ Texture bunch_texture(std::uint64_t seed, const Cultivar& cultivar, const Growth
     of_berry.setTo(cv::Scalar(0.5f * skin));
     const double middle = 0.5 * (cell - 1);
     paint_berry(of_berry, {middle, middle}, {0.5 * cell, 0.5 * cell}, skin, 0.5);
-    // The bloom, a whitish wax, is rubbed off in places.
+    // The bloom (a whitish wax) is partly rubbed off.
     const cv::Mat bloom =
         0.28 * fractal_noise({cell, cell}, {3, 3}, 5, 0.6, seed, "berry" + std::to_string(i));
     const cv::Mat wax(of_berry.size(), CV_32FC3, cv::Scalar(0.55f * skin + cv::Vec3f(72, 74, 80)));

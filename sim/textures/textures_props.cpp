@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kPanel = 512;  // px, height of one half of a carton's image
 
-/// A maker's mark: a ring, a triangle or a block, with a stroke through it.
+/// A logo: a ring, a triangle or a block, with a line through it.
 void print_mark(cv::Mat& panel, RandomSequence& random, const cv::Scalar& ink) {
   const cv::Point at(panel.cols / 4 + random.below(40), panel.rows / 3 + random.below(40));
   const int size = panel.rows / 6 + random.below(panel.rows / 12);
@@ -30,7 +30,7 @@ void print_mark(cv::Mat& panel, RandomSequence& random, const cv::Scalar& ink) {
            cv::Scalar(246, 246, 246), size / 5, cv::LINE_AA);
 }
 
-/// Words as bars of changing length, as print looks from afar.
+/// Words as bars of varying length, like print at a distance.
 void print_lines(cv::Mat& panel, RandomSequence& random, const cv::Rect& area, int lines,
                  const cv::Scalar& ink) {
   const int pitch = area.height / lines;
@@ -102,7 +102,7 @@ Texture carton_texture(std::uint64_t seed) {
       blend(fractal_noise(size, {4, 8}, 3, 0.5, seed, "carton"), {241, 241, 241}, {251, 251, 251});
   for (int y = 0; y < size.height; ++y) {
     const float wave = 1 + 0.006f * std::sin(static_cast<float>(y) * std::numbers::pi_v<float> / 4);
-    rgb.row(y) *= wave;  // the flutes of the board, hardly seen
+    rgb.row(y) *= wave;  // the flutes of the board, hardly visible
   }
   rgb(cv::Rect(112, 256, 32, 256)) *= 0.9;  // the tape over the seam
   return {"carton", to_rgba(rgb), false};

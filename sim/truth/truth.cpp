@@ -24,7 +24,7 @@ bool is_tag_visible(const WorldConfig::Tag& tag, const PinholeCamera& camera,
   const Eigen::Vector3d normal = T_cam_tag.rotation * Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d sight = T_cam_tag.translation.normalized();
   if (sight.dot(normal) < std::cos(75.0 * 3.14159265358979 / 180.0)) return false;
-  // The centre and points a twentieth inside the corners, where the label is sure to be the tag's.
+  // The centre and points a twentieth inside the corners, whose label is certainly the tag's.
   const double h = tag.size / 2;
   const std::array<Eigen::Vector2d, 5> places{
       Eigen::Vector2d(-h, h), {h, h}, {h, -h}, {-h, -h}, {0, 0}};

@@ -13,7 +13,7 @@ namespace vinebench::sim {
 /// Share of pixels (0 to 1) that show `wanted` in an image of labels (CV_8UC1 of Label).
 double label_share(const cv::Mat& labels, Label wanted);
 
-/// Whether a tag's black square is wholly in the image, at least `min_side` px large along its
+/// Whether a tag's black square is completely in the image, at least `min_side` px large along its
 /// shortest side, with its centre and corners unoccluded by the labels. A tag seen from behind or
 /// from more than 75 degrees off its normal does not count.
 bool is_tag_visible(const WorldConfig::Tag& tag, const PinholeCamera& camera,

@@ -15,18 +15,18 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr double kHillsWithin = 165;  // m; whatever the rover's place, nearer than the far plane
+constexpr double kHillsWithin = 165;  // m; nearer than the far plane from any rover position
 
-/// A point of a wall round the origin.
+/// A point of a wall around the origin.
 Vector3f on_circle(double radius, int i, int n, double z) {
   const double turn = 2 * std::numbers::pi * (i % n) / n;
   return Eigen::Vector3d(radius * std::cos(turn), radius * std::sin(turn), z).cast<float>();
 }
 
-/// The image of a wall repeats along it; from its very edges the other side would shine through.
+/// The texture of a wall repeats; insets avoid interpolation with its other side.
 constexpr float kInset = 0.06f;
 
-/// A wall that faces the middle; `foot(i)` and `height(i)` of its top above that.
+/// A wall that faces the centre, with `foot(i)` and the `height(i)` of its top above it.
 template <class Foot, class Height>
 Primitive ring_wall(double radius, int n, float u_repeat, const Foot& foot, const Height& height) {
   Primitive primitive;
@@ -76,7 +76,7 @@ void add_backdrop(Scene& scene, const WorldConfig& world, const Terrain& terrain
   hills.materials[0].colour = {0.16f, 0.22f, 0.20f};
   hills.model.name = "hills";
   const double far = std::min(4 * edge, kHillsWithin);
-  if (far < 1.1 * edge) return;  // the hedge hides them
+  if (far < 1.1 * edge) return;  // hidden by the hedge
   const auto height = [&](int i) {
     const double a = 2 * std::numbers::pi * i / 96;
     const double wave = std::sin(3 * a + random.uniform(0, 0, 6)) +

@@ -19,14 +19,14 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kRowShade = 0.25;  // m either side of a row that its canopy darkens
-constexpr double kSkirt = 0.06;     // m that a tile's rim hangs down, against cracks between levels
+constexpr double kRowShade = 0.25;  // m on either side of a row, darkened by its canopy
+constexpr double kSkirt = 0.06;     // m, height of a tile's skirt, against cracks between levels
 constexpr int kLevels = 4;
 constexpr std::array<double, kLevels> kUntil{6, 14, 40, 1e9};  // m
 
 enum GroundMaterial { kPlain, kAisle };
 
-/// Grid of the vertices that are drawn of a strip: from, to and step in nodes.
+/// Vertex grid of a strip: from, to and step in nodes.
 struct Strip {
   int x0, x1, step_x, y0, y1, step_y;
 };
@@ -73,7 +73,7 @@ class GroundMesher {
   LevelOfDetail level(double until, const Eigen::Array2i& step) {
     std::array<Primitive, 2> parts;
     parts[kAisle].material = kAisle;
-    // Images of aisles end at the rows and, outside these, in the middle of aisles.
+    // Textures of aisles end at the rows and, outside of these, in the middle of aisles.
     const int width = grass_ ? terrain_.cells_aisle() / 2 : terrain_.cells_y();
     for (int y = corner_y_; y < corner_y_ + terrain_.cells_y(); y += width) {
       const Strip strip{corner_x_, corner_x_ + terrain_.cells_x(), step.x(), y, y + width,
@@ -132,7 +132,7 @@ class GroundMesher {
     if (strip.y1 == corner_y_ + terrain_.cells_y()) add_skirt(part, high_y);
   }
 
-  /// Hangs a rim below vertices whose outer side is to their right hand, seen from above.
+  /// Adds a skirt below vertices whose outer side is on the right, seen from above.
   static void add_skirt(Primitive& part, const std::vector<std::uint32_t>& rim) {
     MeshBuilder builder(part);
     const auto below = static_cast<std::uint32_t>(part.vertices.size());
@@ -146,7 +146,7 @@ class GroundMesher {
     }
   }
 
-  /// `strip_row` tells to which aisle a vertex on the border of two belongs.
+  /// `strip_row` determines the aisle of a vertex on the border of two.
   Vertex vertex(int column, int row, int strip_row, bool aisle) const {
     const Vector2d p = terrain_.node(column, row);
     const Vector2d local = p - terrain_.node(corner_x_, corner_y_);
@@ -171,8 +171,8 @@ class GroundMesher {
 
   static Vector2d plain_uv(const Vector2d& p) { return {p.x() / kSoilTile, -p.y() / kSoilTile}; }
 
-  /// The image spans one aisle from row to row; every aisle has its own piece of it, and every
-  /// second one is turned round.
+  /// The texture spans one aisle from row to row; every aisle has its own section, and every second
+  /// one is reversed.
   Vector2d aisle_uv(const Vector2d& p, int strip_row) const {
     const double width = terrain_.frame().spacing;
     const double half = terrain_.node(0, strip_row).y() + 0.25 * width;
@@ -205,7 +205,7 @@ std::vector<double> apron_lines(double low, double high, double half) {
   return lines;
 }
 
-/// Far grass is drawn larger and askew, so that its repetition does not show.
+/// Distant grass is enlarged and rotated to hide its repetition.
 Vector2d apron_uv(const WorldConfig& world, const Vector2d& p) {
   const Vector2d uv(p.x() / kSoilTile, -p.y() / kSoilTile);
   if (world.ground.aisles == WorldConfig::Ground::Aisles::kSoil) return uv;
@@ -267,7 +267,7 @@ void add_ground(Scene& scene, const WorldConfig& world, const Terrain& terrain,
                 std::uint64_t seed) {
   Asset asset = ground_asset(world, terrain, seed);
   GroundMesher mesher(world, terrain, seed);
-  // Textures are large: they are put into the scene once, and the tiles made to name them.
+  // Textures are large: they are added to the scene once and shared by the tiles.
   asset.model.name = "apron";
   asset.model.levels.push_back({1e9, {apron_mesh(world, terrain)}});
   asset.update_bounds();

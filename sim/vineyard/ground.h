@@ -9,11 +9,11 @@
 namespace vinebench::sim {
 
 /// The soil and its mown strips: tiles of the terrain's own grid, coarser with the distance, and an
-/// apron round them to the ground's edge.
+/// apron around them up to the ground's edge.
 void add_ground(Scene& scene, const WorldConfig& world, const Terrain& terrain, std::uint64_t seed);
 
-/// What lies and grows on it: weeds under the rows, mown grass or fallen leaves and pebbles in the
-/// aisles, grass round the vineyard.
+/// Ground cover: weeds under the rows, mown grass or fallen leaves and pebbles in the aisles, grass
+/// around the vineyard.
 void add_ground_cover(Scene& scene, const WorldConfig& world, const Terrain& terrain,
                       std::uint64_t seed);
 

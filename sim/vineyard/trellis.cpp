@@ -56,7 +56,7 @@ int add_stake(Scene& scene, const char* name, double length, double radius, std:
   return add_asset(scene, std::move(stake));
 }
 
-/// A stake that points from `foot` along `up`, turned about itself.
+/// A stake from `foot` along `up`, with a rotation about its axis.
 Pose stake_pose(const Vector3d& foot, const Vector3d& up, double turn) {
   const Eigen::Quaterniond lean = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up);
   return {(lean * from_roll_pitch_yaw({0, 0, turn})).normalized(), foot};
@@ -90,7 +90,7 @@ int add_line_material(Scene& scene, const char* name, const Vector3f& colour) {
   return static_cast<int>(scene.materials.size()) - 1;
 }
 
-/// A tube that hangs a little between its clips.
+/// A tube that sags between its clips.
 void add_drip_span(Scene& scene, const Vector3d& from, const Vector3d& to, double sag,
                    int material) {
   const Vector3d way = to - from;
@@ -146,7 +146,7 @@ std::vector<Brace> trellis_braces(const WorldConfig& world, const Terrain& terra
     const Eigen::Vector2d along = (row.end - row.start).normalized();
     const Eigen::Vector2d inward = post.index == 0 ? along : Eigen::Vector2d(-along);
     const double reach = kBraceReach * trellis.post_height;
-    // An anchor lies outside where the leaning post's head is already outward.
+    // An anchor is outside of the leaning post's head.
     const double head = (strut ? kStrutHead : kAnchorHead) * trellis.post_height;
     const Eigen::Vector2d foot = strut ? Eigen::Vector2d(post.foot + reach * inward)
                                        : Eigen::Vector2d(post.at(head) - reach / 2 * inward);

@@ -8,14 +8,14 @@
 
 namespace vinebench::sim {
 
-/// What holds an end post: a strut within the row or a wire to an anchor outside it.
+/// The brace of an end post: a strut inside the row or a wire to an anchor outside it.
 struct Brace {
   Eigen::Vector3d foot;  ///< m, world
   Eigen::Vector3d head;  ///< m, world; on the post
   double radius = 0;     ///< m
 };
 
-/// The braces of all end posts, in the posts' order; none where the world has none.
+/// The braces of all end posts, in the posts' order; empty if the world has none.
 std::vector<Brace> trellis_braces(const WorldConfig& world, const Terrain& terrain);
 
 /// Posts, braces, wires and drip lines of every row.

@@ -39,23 +39,23 @@ bool read_time(const std::string& text, double& hours) {
   return read == size && hour < 24 && minute < 60 && second < 60;
 }
 
-/// Air that the sun's light crosses, 1 from the zenith (Kasten and Young, Applied Optics 28, 1989).
+/// Relative air mass, 1 at the zenith (Kasten and Young, Applied Optics 28, 1989).
 double air_mass(double elevation) {
   const double degrees = std::max(0.0, elevation / kRadians);
   return 1 / (std::sin(degrees * kRadians) + 0.50572 * std::pow(degrees + 6.07995, -1.6364));
 }
 
-/// Share of the sun's red, green and blue that reaches the ground through clear rural air.
+/// Transmission of the sun's red, green and blue through clear rural air.
 Eigen::Vector3d transmission(double elevation) {
   const Eigen::Array3d optical_depth(0.12, 0.17, 0.26);
   return (-optical_depth * air_mass(elevation)).exp();
 }
 
-/// Light of the sky against that of the nominal sun's, with a long twilight below the horizon.
+/// Light of the sky relative to that with the nominal sun, with twilight below the horizon.
 double sky_brightness(double elevation) {
   const auto day = [](double e) { return 0.22 + 0.78 * std::sin(e); };
   const double above = day(std::max(0.0, elevation)) / day(kNominalElevation);
-  // Civil twilight loses a factor of about 100 over six degrees.
+  // Civil twilight decreases by a factor of about 100 over six degrees.
   return above * std::pow(10.0, std::min(0.0, elevation / (3 * kRadians)));
 }
 
@@ -107,7 +107,7 @@ Light daylight(const SunConfig& sun, const SkyConfig& sky) {
       Eigen::Vector3d(std::sin(p.azimuth) * std::cos(p.elevation),
                       std::cos(p.azimuth) * std::cos(p.elevation), std::sin(p.elevation))
           .cast<float>();
-  // The disc sinks below the horizon within half a degree.
+  // The disc sets within half a degree.
   const double risen = std::clamp(p.elevation / (0.5 * kRadians) + 0.5, 0.0, 1.0);
   const Eigen::Array3d through =
       transmission(p.elevation).array() / transmission(kNominalElevation).array();
@@ -115,15 +115,15 @@ Light daylight(const SunConfig& sun, const SkyConfig& sky) {
   light.sun = (risen * clear * clear * through).matrix().cast<float>();
   const double brightness = sky_brightness(p.elevation);
   const Eigen::Vector3d blue = brightness * light.sky.cast<double>();
-  // Cloud scatters part of the sun's light and takes the blue out of the sky's.
+  // Clouds scatter part of the sunlight and reduce the blue of the sky.
   const double cloud = brightness * (0.45 + 0.45 * std::sin(std::max(0.0, p.elevation)));
   light.sky =
       (blue + sky.overcast * (Eigen::Vector3d(0.95, 1.0, 1.05) * cloud - blue)).cast<float>();
   const Eigen::Vector3f lit = light.sun * std::max(0.0f, light.towards_sun.z()) + light.sky;
-  const Eigen::Vector3f nominal(1.216f, 1.266f, 1.366f);  // the same of the nominal light
+  const Eigen::Vector3f nominal(1.216f, 1.266f, 1.366f);  // of the nominal light
   light.bounce = light.bounce.cwiseProduct(lit.cwiseQuotient(nominal));
   light.overcast = static_cast<float>(sky.overcast);
-  // Koschmieder: a contrast fades to 2 % where extinction times distance is 3.912.
+  // Koschmieder: contrast is 2 % at extinction times distance = 3.912.
   light.haze = sky.visibility ? static_cast<float>(3.912 / *sky.visibility) : 0.0f;
   light.glare = static_cast<float>(sky.glare);
   return light;

@@ -11,7 +11,7 @@
 
 namespace vinebench::sim {
 
-/// Where the sun stands: said outright, or by place and time.
+/// The sun's position: explicit, or by place and time.
 struct SunConfig {
   struct At {
     double latitude_deg = 45;   ///< north
@@ -28,9 +28,9 @@ struct SunConfig {
       archive.require(is_time(time), "time", "expected HH:MM or HH:MM:SS");
     }
   };
-  double azimuth_deg = 140;   ///< heading from north over east, where the sun stands
+  double azimuth_deg = 140;   ///< clockwise from north
   double elevation_deg = 50;  ///< above the horizon; below it, twilight
-  std::optional<At> at;       ///< in place of azimuth and elevation
+  std::optional<At> at;       ///< instead of azimuth and elevation
   template <class Archive>
   void serialize(Archive& archive) {
     archive("azimuth_deg", azimuth_deg, Range::between(-360, 360));
@@ -43,9 +43,9 @@ struct SunConfig {
 };
 
 struct SkyConfig {
-  double overcast = 0;               ///< share of the sky under cloud, 0 to 1
-  std::optional<double> visibility;  ///< m at which 2 % of a contrast is left; clear where absent
-  double glare = 1;  ///< light that a sun in the image scatters in the lens, 0: none
+  double overcast = 0;               ///< cloud cover, 0 to 1
+  std::optional<double> visibility;  ///< m at which contrast is 2 %; clear air if absent
+  double glare = 1;  ///< strength of light scattered in the lens by a sun in the image, 0: none
   template <class Archive>
   void serialize(Archive& archive) {
     archive("overcast", overcast, Range::between(0, 1));
@@ -56,7 +56,7 @@ struct SkyConfig {
 
 struct WindConfig {
   double speed = 0;        ///< m/s at the canopy; 0 is still air
-  double heading_deg = 0;  ///< where it blows to, from east over north
+  double heading_deg = 0;  ///< direction it blows to, counter-clockwise from east
   template <class Archive>
   void serialize(Archive& archive) {
     archive("speed", speed, Range::between(0, 25));
@@ -64,20 +64,19 @@ struct WindConfig {
   }
 };
 
-/// Azimuth (from north over east) and elevation of the sun, rad.
+/// Azimuth (clockwise from north) and elevation of the sun, rad.
 struct SunPosition {
   double azimuth = 0;
   double elevation = 0;
 };
 
-/// The sun over a place at a time, by the Astronomical Almanac's low-precision formulas (Michalsky,
-/// Solar Energy 40, 1988), good to 0.01 degrees from 1950 to 2050; without refraction. Throws Error
-/// for a date or time that is none.
+/// The sun's position for a place and time, by the Astronomical Almanac's low-precision formulas
+/// (Michalsky, Solar Energy 40, 1988), accurate to 0.01 degrees from 1950 to 2050; without
+/// refraction. Throws Error for an invalid date or time.
 SunPosition sun_position(const SunConfig::At& at);
 
-/// The light of a sun and a sky. A clear sky with the sun 50 degrees high is the light that a
-/// camera at exposure 1 is set for; a lower sun is dimmer and redder, by the air that its light
-/// crosses.
+/// The light of a sun and a sky. A camera at exposure 1 is set for a clear sky with the sun at 50
+/// degrees; a lower sun is dimmer and redder, according to its air mass.
 Light daylight(const SunConfig& sun, const SkyConfig& sky);
 
 Wind make_wind(const WindConfig& config, std::uint64_t seed);

@@ -8,14 +8,14 @@
 
 namespace vinebench::sim {
 
-/// Finds the row next to a place without asking all of them.
+/// Spatial index for the distance to the nearest row.
 class RowIndex {
  public:
-  static constexpr double kReach = 3.0;  ///< m; rows further away are not looked for
+  static constexpr double kReach = 3.0;  ///< m; rows further away are ignored
 
   explicit RowIndex(const WorldConfig& world);
 
-  /// m, to the nearest row's line; kReach where none is nearer.
+  /// m, to the nearest row's line, at most kReach.
   double distance(const Eigen::Vector2d& p) const;
 
  private:
@@ -26,7 +26,7 @@ class RowIndex {
   std::vector<Segment> rows_;
   Eigen::Vector2d low_;
   int columns_ = 0, lines_ = 0;
-  std::vector<std::vector<int>> bins_;  ///< rows within reach of each square, line by line
+  std::vector<std::vector<int>> bins_;  ///< rows within reach of each square, row-major
 };
 
 }  // namespace vinebench::sim

@@ -10,19 +10,19 @@
 
 namespace vinebench::sim {
 
-/// How the vine's old wood is led along the wire.
+/// The training of the vine's old wood along the wire.
 enum class Training { kBilateralCordon, kUnilateralCordon, kSingleGuyot, kDoubleGuyot };
 
 inline std::vector<std::string> yaml_names(Training) {
   return {"bilateral_cordon", "unilateral_cordon", "single_guyot", "double_guyot"};
 }
 
-/// Why `bbch` names no growth stage that can be grown; empty when it does.
+/// Why `bbch` is not a supported growth stage; empty if it is.
 std::string bbch_problem(int bbch);
 
-/// The vines of a vineyard. What is usual, and who says so, stands in docs/plants.md.
+/// The vines of a vineyard. docs/plants.md has common values and sources.
 struct VinesConfig {
-  std::filesystem::path cultivar;  ///< YAML file; empty for a red wine grape built in
+  std::filesystem::path cultivar;  ///< YAML file; empty: the built-in red cultivar
   Training training = Training::kBilateralCordon;
   int bbch = 89;               ///< growth stage: 0, 9, 65, 75, 83, 89 or 95
   double spacing = 1.0;        ///< m between plants
@@ -32,11 +32,11 @@ struct VinesConfig {
   double shoots = 13;          ///< of this year, a metre of row
   double bunches = 1.0;        ///< a shoot, on average
   double leaf_area = 2.0;      ///< m^2, one side of every blade of a metre of row in full leaf
-  double leaf_removal = 0.5;   ///< share of the leaves round the fruit that are taken off
-  double missing = 0;          ///< share of the places where no vine stands
-  double young = 0;            ///< share of the places with a vine of its second year
-  int templates = 6;           ///< different plants that are grown
-  /// Meshes to use in place of grown plants (.glb .gltf .stl .obj .dae), z up (glTF: y up), m.
+  double leaf_removal = 0.5;   ///< share of the leaves removed in the fruit zone
+  double missing = 0;          ///< share of missing vines
+  double young = 0;            ///< share of second-year vines
+  int templates = 6;           ///< number of different plants
+  /// Meshes to use instead of generated plants (.glb .gltf .stl .obj .dae), z up (glTF: y up), m.
   std::vector<std::filesystem::path> meshes;
   template <class Archive>
   void serialize(Archive& archive) {

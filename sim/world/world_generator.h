@@ -10,7 +10,7 @@
 
 namespace vinebench::sim {
 
-/// What a vineyard is made from.
+/// The parameters of a generated vineyard.
 struct WorldRecipe {
   enum class Relief { kEven, kGentle, kRough };
   enum class Tags { kNone, kFirst, kEnds, kPosts };
@@ -20,15 +20,15 @@ struct WorldRecipe {
   double length = 30;          ///< m, of a row
   double row_spacing = 2.5;    ///< m
   double plant_spacing = 1.0;  ///< m
-  double heading_deg = 0;      ///< of the rows, from east over north
+  double heading_deg = 0;      ///< of the rows, counter-clockwise from east
   Relief terrain = Relief::kGentle;
-  double slope_percent = 0;  ///< in a direction that the seed chooses
+  double slope_percent = 0;  ///< in a direction drawn by seed
   int bbch = 89;             ///< growth stage
   int templates = 8;         ///< different plants
   Tags tags = Tags::kEnds;   ///< one in all, one at every row's end, one on every post
   std::string tag_family = "tag36h11";
   double tag_size = 0.161;  ///< m, side of the black square
-  int cartons = 0;          ///< that stand in aisles, plain and printed in turn
+  int cartons = 0;          ///< in the aisles, alternately plain and printed
   int people = 0;           ///< likewise
   std::int64_t seed = 1;    ///< of ground, slope, cartons and people
 
@@ -60,8 +60,8 @@ struct WorldRecipe {
   }
 };
 
-/// The world of a recipe, not yet placed: its rows are a block. Trellis and strips are those of
-/// practice, fitted to the aisles' width. Throws Error that lists what is wrong with the recipe.
+/// The world of a recipe, not yet placed: its rows are a block. Trellis and strips have common
+/// values, adapted to the aisles' width. Throws Error that lists the violations.
 WorldConfig make_world(const WorldRecipe& recipe);
 
 /// The YAML text of that world. Reading it gives the same world.

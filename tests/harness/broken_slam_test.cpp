@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the suite is for: a SLAM core that is broken does not pass. The faults are put into what the
-// core is told, which is the same as having them inside.
+// A broken SLAM core must not pass the suite. Faults are simulated by wrong inputs of the core.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -19,7 +18,7 @@
 namespace vinebench::harness {
 namespace {
 
-/// The frames of a simulation, taken once and given to any number of SLAM systems.
+/// The frames of a simulation, recorded once for any number of SLAM systems.
 class KeptFrames : public FrameSource {
  public:
   explicit KeptFrames(FrameSource& source) : rig_(source.rig()) {
@@ -61,11 +60,11 @@ class Drive {
   const Rig& rig() const { return frames_.rig(); }
   const slam::SlamConfig& config() const { return scenario_.slam; }
 
-  /// Which expectations a SLAM core does not meet that is told this rig and has these settings.
-  std::set<std::string> broken_expectations(const Rig& told, const slam::SlamConfig& config) {
+  /// The expectations not met by a SLAM core with this rig and these settings.
+  std::set<std::string> broken_expectations(const Rig& nominal, const slam::SlamConfig& config) {
     frames_.rewind();
     const auto slam =
-        slam::make_slam(config, told, sim::registered_tags(scenario_.simulation.world), pool_);
+        slam::make_slam(config, nominal, sim::registered_tags(scenario_.simulation.world), pool_);
     RunRecorder recorder(frames_.rig(), sim::world_tags(scenario_.simulation.world));
     run_lockstep(frames_, *slam, {&recorder});
     std::set<std::string> broken;
@@ -101,12 +100,12 @@ Rig with_the_back_pair_looking_ahead(Rig rig) {
   return rig;
 }
 
-// One test, for the drive takes longer to simulate than to be estimated.
+// One test, because the simulation of the drive takes longer than its estimation.
 TEST(BrokenSlamTest, EachFaultIsCaughtByTheExpectationThatShould) {
   Drive drive;
   EXPECT_TRUE(drive.broken_expectations(drive.rig(), drive.config()).empty());
 
-  // Depths, and with them the way driven, are 2 % too long: 2 cm at the end of a metre.
+  // Depths, and therefore the estimated path, are 2 % too long: 2 cm at the end of a metre.
   const auto longer =
       drive.broken_expectations(with_baselines_times(1.02, drive.rig()), drive.config());
   EXPECT_TRUE(longer.contains("ATE, first pose aligned"));
@@ -117,7 +116,7 @@ TEST(BrokenSlamTest, EachFaultIsCaughtByTheExpectationThatShould) {
   EXPECT_TRUE(open.contains("loop closures, correct"));
   EXPECT_TRUE(open.contains("loop closures, missed"));
 
-  // While the box covers the front pair nothing right is left.
+  // While the box covers the front pair no correct measurement is left.
   const auto mirrored =
       drive.broken_expectations(with_the_back_pair_looking_ahead(drive.rig()), drive.config());
   EXPECT_TRUE(mirrored.contains("coverage") || mirrored.contains("ATE, first pose aligned"));

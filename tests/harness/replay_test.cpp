@@ -18,8 +18,8 @@ using testing::HasSubstr;
 constexpr int kFrames = 12;
 constexpr double kStep = 0.02;  // m to the right a frame
 
-/// A textured wall 2 m ahead of a pair of 0.1 m baseline that moves to its right, in KITTI's form:
-/// 200 px * 0.1 m / 2 m = 10 px of disparity, 2 px a frame.
+/// A textured wall 2 m in front of a pair with 0.1 m baseline that moves to its right, in KITTI
+/// format: 200 px * 0.1 m / 2 m = 10 px of disparity, 2 px a frame.
 class WallRecording {
  public:
   explicit WallRecording(const test::TestFolder& folder) : root_(folder / "wall") {
@@ -38,7 +38,7 @@ class WallRecording {
   const std::filesystem::path& root() const { return root_; }
 
  private:
-  /// Whole pixels of one wide image, so that each view is exact.
+  /// Shifts of one wide image by integer pixels, so that each view is exact.
   static cv::Mat view(int shift) {
     static const cv::Mat wall = render_image(320 + 2 * kFrames + 10, 200, SyntheticTexture(3));
     return wall.colRange(shift, shift + 320);
@@ -64,7 +64,7 @@ class ReplayTest : public testing::Test {
 TEST_F(ReplayTest, FollowsARecordingAndWritesARunsFiles) {
   const RunOutcome outcome = replay(folder_ / "out");
   EXPECT_EQ(outcome.metrics["coverage"], 1);
-  // A tenth of a pixel, 1 mm at 2 m, is what tracking may be off.
+  // Tolerance of tracking: a tenth of a pixel, 1 mm at 2 m.
   EXPECT_LT(outcome.metrics["ate_rmse_m"].get<double>(), 1e-3);
   EXPECT_LT(outcome.metrics["ate_origin_rmse_m"].get<double>(), 5e-3);
   EXPECT_FALSE(outcome.metrics.contains("input_faults"));

@@ -131,7 +131,7 @@ TEST_F(RunTest, EventsTellTheStory) {
       estimate.T_map_body.reset();
       estimate.keyframe = false;
     }
-    // Ambiguous for a second, believed for one, and not where it was for half a second.
+    // Ambiguous for a second, accepted for one, and misplaced for half a second.
     if (t < 1) estimate.rejected_tags = {{"tag36h11", 7, 2, TagRejection::kAmbiguous}};
     if (t >= 2 && t < 2.5) estimate.rejected_tags = {{"tag36h11", 7, 2, TagRejection::kMisplaced}};
     if (t <= 2)
@@ -204,7 +204,7 @@ TEST_F(RunTest, AnInterruptedRunKeepsWhatItHas) {
   EXPECT_TRUE(outcome.interrupted);
   EXPECT_EQ(outcome.frames, 20);
   EXPECT_EQ(read_tum(folder_ / "groundtruth.tum").size(), 20u);
-  EXPECT_FALSE(fs::exists(folder_ / "metrics.json"));  // nor an earlier run's
+  EXPECT_FALSE(fs::exists(folder_ / "metrics.json"));  // also removed from an earlier run
 }
 
 TEST_F(RunTest, ARunWithoutAnyPoseIsJudged) {

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Whether images of the shipped worlds give SLAM corners that stay: near and far, and without the
-// flicker that aliasing makes. The corners that the SLAM's extractor selects in one image are
-// looked for among all that it finds in the next, before it selects: which of many good corners is
-// taken is its matter, whether one is there is the image's.
+// Repeatability of corners in images of the included worlds, near and far, without flicker by
+// aliasing. The corners that the SLAM core's extractor selects in one image are searched among all
+// of its candidates in the next: the test is about the images, not about the selection.
 
 #include <gtest/gtest.h>
 
@@ -25,9 +24,9 @@ namespace {
 
 const std::filesystem::path kSource = VINEBENCH_SOURCE_DIR;
 constexpr double kShift = 0.25;    // px
-constexpr double kNear = 1.5;      // px; a corner found again lies within this of where it moved
+constexpr double kNear = 1.5;      // px; tolerance of a repeated corner
 constexpr double kFar = 10;        // m
-constexpr double kElsewhere = 31;  // px; a shift at which only chance finds a corner
+constexpr double kElsewhere = 31;  // px; a shift with chance matches only
 
 struct Corners {
   std::vector<Eigen::Vector2d> pixels;

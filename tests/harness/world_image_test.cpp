@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The images of the real world against the camera model, through the detector that SLAM uses.
+// Images of an included world against the camera model, with the SLAM core's tag detector.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ TEST_F(WorldImageTest, TheTagsCornersAreWhereTheSideCameraProjectsThem) {
   const RigCamera& side = rig_.cameras[static_cast<std::size_t>(rig_.tag_cameras.at(0))];
   const sim::WorldConfig::Tag& tag = world_.tags.at(0);
   slam::TagDetector detector({}, sim::registered_tags(world_));
-  // The rover beside the tag; off to either side and turned, as it passes.
+  // The rover beside the tag; offset to either side and rotated, as when it passes.
   const double h = tag.size / 2;
   const std::array<Eigen::Vector3d, 4> corners{
       Eigen::Vector3d(-h, h, 0), {h, h, 0}, {h, -h, 0}, {-h, -h, 0}};
@@ -50,10 +50,10 @@ TEST_F(WorldImageTest, TheTagsCornersAreWhereTheSideCameraProjectsThem) {
     for (std::size_t c = 0; c < 4; ++c) {
       const double error = (seen[0].corners[c] - side.model.project(T_cam_tag * corners[c])).norm();
       squares += error * error;
-      // Seen 30 degrees from the side the far edge is drawn from a coarser level of its texture.
+      // At 30 degrees the far edge uses a coarser mip level.
       EXPECT_LT(error, 0.15) << "corner " << c << " from " << at.transpose();
     }
-    // The project's convention asks for a tenth of a pixel.
+    // The project's convention requires a tenth of a pixel.
     EXPECT_LT(std::sqrt(squares / 4), 0.1) << "from " << at.transpose();
     EXPECT_LT((seen[0].T_cam_tag.translation - T_cam_tag.translation).norm(), 0.0005);  // m
   }

@@ -2,9 +2,9 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Installs the library, builds examples/feed_images against it as a project of its own, feeds it
-# images and checks the way it finds; docs/library.md must show that very example.
-# Usage: library_test.sh ROOT BUILD CMAKE PLANE_PICTURES
+# Installs the library, builds examples/feed_images against it as a separate project, feeds it
+# images and checks the trajectory; docs/library.md must show the same example. Usage:
+# library_test.sh ROOT BUILD CMAKE PLANE_PICTURES
 set -euo pipefail
 root=$1 build=$2 cmake=$3 plane_pictures=$4
 work=$build/library
@@ -20,7 +20,7 @@ awk '/^```cpp$/ { inside = 1; next } inside && /^```$/ { exit } inside' "$root/d
 "$cmake" -S "$root/examples/feed_images" -B "$work/example" -DCMAKE_PREFIX_PATH="$prefix" \
   -DCMAKE_BUILD_TYPE=Release
 "$cmake" --build "$work/example"
-# Nothing of the source tree may be needed.
+# The package must not depend on the source tree.
 if grep -rnF "$root" "$prefix/lib/cmake" --include=vinebench*.cmake | grep -vF "$prefix"; then
   echo "the package names the source tree" >&2
   exit 1

@@ -6,9 +6,9 @@
 
 #include "tests/support/synthetic_texture.h"
 
-// Writes FOLDER/left/000000.png … and right/: what the rig of examples/feed_images sees of a plane
-// across its view. The plane is 2.4 m away, so that 0.12 m of baseline at 400 px is 20 px; the rig
-// moves 12 mm to its right a frame, which is 2 px.
+// Writes FOLDER/left/000000.png … and right/: images of a frontal plane for the rig of
+// examples/feed_images. The plane is 2.4 m away, so that 0.12 m of baseline at 400 px is 20 px; the
+// rig moves 12 mm to its right a frame, which is 2 px.
 int main(int argc, char** argv) {
   if (argc != 2) return 1;
   constexpr int kFrames = 20;

@@ -68,7 +68,7 @@ class FramesTest(unittest.TestCase):
             self.assertAlmostEqual(frame.time, pose[0], places=6)
 
     def test_images_of_an_earlier_frame_stay(self):
-        # Of a camera that moves, three frames held at once are three images.
+        # Three frames of a moving camera, held at once, are three different images.
         first, second, third = (f.images["back_left"] for f in self.frames)
         self.assertFalse(np.array_equal(first, second))
         self.assertFalse(np.array_equal(second, third))
@@ -85,7 +85,7 @@ class FramesTest(unittest.TestCase):
         camera = next(c for c in self.scenario.true_cameras if c.name == "back_left")
         flow, visible = before.flow_to(after, "back_left")
         depth = before.depth["back_left"].astype(float)
-        # What stands still: not the rover, and the sky has no depth.
+        # Static pixels: not the rover, and not the sky, which has no depth.
         still = (depth > 0) & (before.labels["back_left"] != 11) & (visible == 255)
         v, u = np.nonzero(still)
         z = depth[v, u]
@@ -109,7 +109,7 @@ class FramesTest(unittest.TestCase):
                 rows, columns = np.nonzero(thing["mask"])
                 box = (columns.min(), rows.min(), np.ptp(columns) + 1, np.ptp(rows) + 1)
                 self.assertEqual(thing["box"], box)
-                if thing["category"] == "plant":  # has its parts' pixels over again
+                if thing["category"] == "plant":  # includes the pixels of its parts
                     continue
                 numbers = frame.instances[camera][thing["mask"]]
                 same = numbers if thing["category"] == "bunch" else numbers & ~255
@@ -141,7 +141,7 @@ class FramesTest(unittest.TestCase):
     def test_bad_requests_are_one_error(self):
         cases = {
             "none.yaml": lambda: vinebench.Scenario("none.yaml"),
-            "'colour' is none": lambda: open_frames(truth=["colour"]),
+            "unknown 'colour'": lambda: open_frames(truth=["colour"]),
             "no camera named 'top'": lambda: vinebench.Scenario(SCENARIO, cameras=["top"]),
             "has no camera named 'top'": lambda: self.frames[0].things("top"),
             "world.sunn": lambda: open_frames(set={"world.sunn": 1}),

@@ -39,7 +39,7 @@ bool same(const cv::Mat& a, const cv::Mat& b) {
 
 class SimulationTest : public testing::Test {
  protected:
-  /// Ten frames of driving off beside a short row.
+  /// Ten frames of a start beside a short row.
   SimulationConfig config() const {
     SimulationConfig config;
     config.world.rows = {{{0, 1.5}, {2, 1.5}}};
@@ -186,8 +186,8 @@ TEST_F(SimulationTest, TheRigThatIsToldHasNoCalibrationError) {
   off_true.sensors.calibration.rotation_deg = 1;
   WorkerPool pool(1);
   const auto source = make_simulation(off_true, 1, folder_ / "cache", pool);
-  const Rig told = load_rig(off_true.rover.rig);
-  EXPECT_EQ(source->rig().cameras[0].T_body_cam.matrix(), told.cameras[0].T_body_cam.matrix());
+  const Rig nominal = load_rig(off_true.rover.rig);
+  EXPECT_EQ(source->rig().cameras[0].T_body_cam.matrix(), nominal.cameras[0].T_body_cam.matrix());
   EXPECT_FALSE(same(source->next()->frame.images[0], run(config())[0].frame.images[0]));
 }
 

@@ -15,7 +15,7 @@
 namespace vinebench::slam {
 namespace {
 
-/// The rover's arrangement with small images.
+/// The rover's rig with small images.
 Rig small_rig() {
   RigConfig config;
   for (const char* name : {"front_left", "front_right", "back_left", "back_right", "side"}) {
@@ -43,7 +43,7 @@ class FrontEndTest : public testing::Test {
     frame_.images = images;
   }
 
-  /// A textured wall 1.5 m before each pair and a tag before the side camera.
+  /// A textured wall 1.5 m in front of each pair and a tag in front of the side camera.
   static std::vector<cv::Mat> render(const StereoRig& rig) {
     std::vector<cv::Mat> images;
     for (const std::uint64_t texture : {11U, 12U}) {
@@ -75,7 +75,7 @@ class FrontEndTest : public testing::Test {
   StageTimes times_;
 };
 
-/// All that was found, byte by byte.
+/// All results, byte by byte.
 std::string bytes_of(const FrameFeatures& features) {
   std::string bytes;
   const auto append = [&](const auto& values) {
@@ -134,7 +134,7 @@ TEST_F(FrontEndTest, OneFrameLeavesNothingForTheNext) {
 }
 
 TEST_F(FrontEndTest, AnEmptyImageHasNoFeatures) {
-  frame_.images[0] = cv::Mat();  // front left: nothing of the front pair
+  frame_.images[0] = cv::Mat();  // front left: the front pair has no features
   frame_.images[3] = cv::Mat();  // back right: features without a match
   frame_.images[4] = cv::Mat();
   const auto features = process(frame_);
@@ -155,7 +155,7 @@ TEST_F(FrontEndTest, ColourImagesAreRead) {
     cv::merge(channels, 3, colour);
     image = colour;
   }
-  EXPECT_EQ(bytes_of(*process(frame_)), grey);  // three equal channels are that grey
+  EXPECT_EQ(bytes_of(*process(frame_)), grey);  // three equal channels give the same grey
 }
 
 TEST_F(FrontEndTest, AWrongSizeIsAnErrorThatNamesTheCamera) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 
-/// How exact motion-only adjustment is, against what theory allows, for rigs of one, two and three
-/// pairs. Noise is normal with the standard deviation that the estimator assumes.
+/// Accuracy of motion-only adjustment compared with theory, for rigs of one, two and three pairs.
+/// Gaussian noise with the standard deviation that the estimator assumes.
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ Vector6d error_of(const Pose& pose) {
   return error;
 }
 
-/// What the estimator's loss makes of normal noise. Residuals r of a stereo match are three
+/// Efficiency of the estimator's loss under Gaussian noise. Residuals r of a stereo match are three
 /// standard normal numbers, s = |r|^2 is chi-square with three degrees of freedom. The estimate
 /// solves sum J^T psi(r) = 0, psi(r) = w(s) r for s below the outliers' limit and 0 above. Its
 /// covariance is (Huber, "Robust estimation of a location parameter", 1964) b / a^2 times F^-1, F =
@@ -96,7 +96,7 @@ class MotionAccuracyTest : public testing::TestWithParam<int> {
     return result;
   }
 
-  /// Of all that `associations` tie, at the truth.
+  /// Of all `associations`, at the truth.
   Matrix6d fisher_information(const Associations& associations) const {
     Matrix6d F = Matrix6d::Zero();
     for (std::size_t v = 0; v < associations.size(); ++v) {
@@ -155,8 +155,8 @@ TEST_P(MotionAccuracyTest, HasTheErrorThatTheoryForetells) {
   EXPECT_LT(kRuns * mean.dot(F * mean) / theory.inflation, 27.9);
 }
 
-/// The loss costs a third of the information where noise is normal, and the information that comes
-/// with an estimate is half of what it is worth: the covariance errs on the safe side.
+/// With Gaussian noise the loss costs a third of the information, and the reported information is
+/// half of the actual one: the covariance is conservative.
 TEST(MotionLossTest, IsCautiousUnderNormalNoise) {
   const LossUnderNormalNoise theory = loss_under_normal_noise();
   EXPECT_NEAR(theory.inflation, 1.485, 0.001);
@@ -188,7 +188,7 @@ TEST_P(MotionAccuracyTest, BearsOutliersUpToFortyPercent) {
       const Vector6d e = error_of(estimate(frame, associations).T_map_body);
       sum += e.dot(F * e);
     }
-    // As good as the right ones alone allow, but for wrong ones that lie within the limit by
+    // As accurate as with the correct ones only, except for wrong ones that are within the limit by
     // chance: a tenth more error, squared and over four standard deviations of 240 degrees of
     // freedom.
     constexpr double factor = 1.1;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 
-/// The pipeline through motions that are hard for one reason each: a turn on the spot and a
-/// minute's rest; and with rigs of one, two and three pairs.
+/// The pipeline with difficult motions: a rotation on the spot and a minute at rest; and with rigs
+/// of one, two and three pairs.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ SyntheticAisle make_aisle(double noise, std::uint64_t seed, int landmarks, std::
   return aisle;
 }
 
-/// Greatest distance, m, and angle, rad, to the truth; both seen from their first pose.
+/// Greatest distance, m, and angle, rad, to the truth; both relative to their first pose.
 struct WorstError {
   double position = 0;
   double turn = 0;
@@ -97,14 +97,14 @@ std::vector<Pose> turning(int frames) {
 }
 
 TEST(PipelineMotionsTest, TurnsOnTheSpot) {
-  // 30 degrees a second: there is no parallax but the stereo pairs' own.
+  // 30 degrees a second: there is no parallax except that of the stereo pairs.
   const WorstError exact = drive(make_aisle(0, 3, 1000), turning(90));
   EXPECT_LT(exact.position, 1e-5);  // m; pixels are floats, as above, over twenty keyframes
   EXPECT_LT(exact.turn, 1e-5);      // rad
-  // Once round and a little more. Landmarks half a metre away are found on coarse levels, where
-  // half a pixel is 1.8 px of the image: over some 200 of them and both ends 1.8 / 263 /
-  // sqrt(100) = 0.7 mrad a keyframe, over 40 keyframes 4 mrad, and twice that; 1 mm of the cameras'
-  // lever of 0.15 m and of the landmarks themselves goes with it.
+  // Slightly more than one full turn. Landmarks half a metre away are found on coarse levels, where
+  // half a pixel is 1.8 px of the image: over some 200 of them and both ends 1.8 / 263 / sqrt(100)
+  // = 0.7 mrad a keyframe, over 40 keyframes 4 mrad, and twice that; 1 mm of the cameras' lever of
+  // 0.15 m and of the landmarks themselves goes with it.
   const WorstError noisy = drive(make_aisle(0.5, 3, 1000), turning(200));
   EXPECT_LT(noisy.position, 0.008);
   EXPECT_LT(noisy.turn, 0.009);
@@ -117,7 +117,7 @@ TEST(PipelineMotionsTest, DoesNotDriftInAMinuteOfRest) {
   const SlamSummary summary = pipeline.finish();
   ASSERT_EQ(summary.trajectory.size(), 900u);
   EXPECT_LE(summary.keyframes.size(), 2u);
-  // Each frame's noise is its own, and no drift: what may not wander is the mean of a second.
+  // The noise of a frame is not drift: the mean over a second must not drift.
   std::vector<Vector6d> seconds(60, Vector6d::Zero());
   for (std::size_t i = 0; i < 900; ++i) {
     const Pose& pose = summary.trajectory[i].pose;

@@ -11,7 +11,7 @@ namespace {
 
 using testing_support::SyntheticAisle;
 
-/// Of the aisle: more than 100 in view of each pair, and quick.
+/// Landmarks of the aisle: more than 100 in view of each pair, and fast.
 constexpr int kLandmarks = 1500;
 
 SlamConfig config() {
@@ -24,7 +24,7 @@ Pose driving(std::int64_t frame, double step = 0.02) {
   return {exp_so3({0, 0, 0.1 * std::sin(2.0 * x)}), {x, 0.05 * std::sin(x), 0}};
 }
 
-/// Greatest position error against the truth, both seen from their first pose, m.
+/// Largest position error against the truth, both relative to their first pose, m.
 double worst_error(const Trajectory& estimate, const std::vector<Pose>& truth) {
   double worst = 0;
   for (std::size_t i = 0; i < estimate.size(); ++i) {
@@ -59,8 +59,8 @@ TEST(PipelineTest, DriftsLittleWithNoise) {
     ASSERT_EQ(pipeline.process(aisle.frame(i, truth.back())).status, TrackingStatus::kTracking);
   }
   const SlamSummary summary = pipeline.finish();
-  // 4 m of way; half a pixel at half a metre is 1 mm for one feature, 0.03 mm for a thousand. A
-  // random walk over some 20 keyframe chains and its heading's lever stay within 0.2 % of the way.
+  // A path of 4 m; half a pixel at half a metre is 1 mm for one feature, 0.03 mm for a thousand. A
+  // random walk over some 20 keyframe chains and its heading's lever stay within 0.2 % of the path.
   EXPECT_LT(worst_error(summary.trajectory, truth), 0.008);
   EXPECT_GT(summary.landmarks, 500u);
 }
@@ -93,8 +93,8 @@ TEST(PipelineTest, GoesOnWhileOnePairIsBlind) {
   EXPECT_LT(worst_error(pipeline.finish().trajectory, truth), 0.01);
 }
 
-/// The last offsets that a drive of 3.6 m found, where the second pair's disparities are 0.8 px
-/// short, and its worst error, m.
+/// The final offsets found in a drive of 3.6 m whose second pair has disparities 0.8 px too small,
+/// and its largest error, m.
 std::pair<std::vector<double>, double> drive_miscalibrated(const SlamConfig& settings) {
   const SyntheticAisle aisle(0.5, 9, kLandmarks);
   Pipeline pipeline(settings, aisle.rig, {});
@@ -116,9 +116,8 @@ std::pair<std::vector<double>, double> drive_miscalibrated(const SlamConfig& set
   return {offsets, worst_error(pipeline.finish().trajectory, truth)};
 }
 
-// The bound on the error is no derived one: 8 mm is what noise alone is held to above, and this
-// drive misses it. What the test is after is the offset, and an error less than half of that
-// without it.
+// The bound on the error is not derived: this drive exceeds the 8 mm allowed for noise above. The
+// test checks the offset, and that the error is less than half of that without correction.
 TEST(PipelineTest, FindsThatAPairsDisparitiesAreShort) {
   const auto [offsets, error] = drive_miscalibrated(config());
   ASSERT_EQ(offsets.size(), 2u);
@@ -133,7 +132,7 @@ TEST(PipelineTest, FindsThatAPairsDisparitiesAreShort) {
   EXPECT_GT(uncorrected, 2 * error);
 }
 
-/// What wheels that slip by `slip` say of a frame's motion.
+/// Wheel readings of a frame's motion with the given slip.
 Pose wheels(std::int64_t frame, double slip) {
   Pose step = driving(frame - 1).inverse() * driving(frame);
   step.translation *= 1 + slip;
@@ -153,11 +152,12 @@ TEST(PipelineTest, ReckonsThroughABlackoutOfHalfASecond) {
         << i;
     ASSERT_TRUE(estimate.T_map_body.has_value());
     if (i == 47) {
-      // Acceleration of 0.5 m/s^2 that nobody saw: 0.07 m after 0.53 s.
+      // Unobserved acceleration of 0.5 m/s^2: 0.07 m after 0.53 s.
       EXPECT_NEAR(std::sqrt(estimate.covariance(0, 0)), 0.07, 0.01);
     }
   }
-  // The way sways by 2 cm in half a second: no more than that in the dark, millimetres behind it.
+  // The path sways by 2 cm in half a second: at most that during the blackout, millimetres after
+  // it.
   EXPECT_LT(worst_error(pipeline.finish().trajectory, truth), 0.02);
 }
 
@@ -170,7 +170,7 @@ TEST(PipelineTest, RestartsByItsWheelsWhereNothingIsKnown) {
     truth.push_back(driving(i));
     const bool dark = i >= 30 && i < 60;
     auto frame = dark ? aisle.frame(i, truth.back(), {0, 1}) : aisle.frame(i, truth.back());
-    // Behind the dark all looks different: nothing of the map is found again.
+    // After the blackout the scene is different: nothing of the map is matched.
     if (i >= 60) {
       for (StereoView& view : frame->views) {
         for (Descriptor& d : view.features.descriptors) {
@@ -187,8 +187,8 @@ TEST(PipelineTest, RestartsByItsWheelsWhereNothingIsKnown) {
     }
   }
   EXPECT_GE(reckoned, 30);
-  EXPECT_LE(reckoned, 33);  // and the frames until nothing was found three times
-  // 0.64 m in the dark by wheels that say 2 % more: 13 mm, and little besides.
+  EXPECT_LE(reckoned, 33);  // plus the frames until the map was restarted after three failures
+  // 0.64 m of dead reckoning with 2 % of slip: 13 mm, and little more.
   EXPECT_NEAR(worst_error(pipeline.finish().trajectory, truth), 0.013, 0.006);
 }
 
@@ -212,12 +212,13 @@ TEST(PipelineTest, FindsItselfAgainAfterTwoBlindFrames) {
   Pipeline pipeline(config(), aisle.rig, {});
   for (std::int64_t i = 0; i < 30; ++i) pipeline.process(aisle.frame(i, driving(i)));
   pipeline.process(aisle.frame(30, driving(30), {0, 1}));
-  // Two frames later the prediction still holds: tracking is found again.
+  // Two frames later the prediction is still valid: tracking recovers.
   pipeline.process(aisle.frame(31, driving(31), {0, 1}));
   EXPECT_EQ(pipeline.process(aisle.frame(32, driving(32))).status, TrackingStatus::kTracking);
 }
 
-/// Ahead 2 m, back 2 m (turned about, so that the map cannot be reused): drift is left for the tag.
+/// 2 m forward, 2 m back (turned round, so that the map cannot be reused): the tag has to correct
+/// the drift.
 Pose there_and_back(std::int64_t frame) {
   if (frame < 100) return driving(frame);
   if (frame < 160) {
@@ -229,7 +230,8 @@ Pose there_and_back(std::int64_t frame) {
   return end * Pose{exp_so3({0, 0, 3.14159265}), Eigen::Vector3d::Zero()};
 }
 
-/// Round the way: there, back, turned on at the start until the side camera sees the tag again.
+/// The round trip: there, back, then a rotation at the start until the side camera sees the tag
+/// again.
 Pose round_trip(std::int64_t frame) {
   const Pose pose = there_and_back(std::min<std::int64_t>(frame, 260));
   if (frame <= 260) return pose;
@@ -239,10 +241,10 @@ Pose round_trip(std::int64_t frame) {
 
 constexpr std::int64_t kReturn = 319;  // frame from which on the tag is in view again
 
-/// A round trip that begins and ends before a tag.
+/// A round trip that begins and ends in front of a tag.
 class RoundTripTest : public testing::Test {
  protected:
-  /// The tag is at T_world_tag_ in the beginning and at `later` in the end.
+  /// The tag is at T_world_tag_ at the beginning and at `later` at the end.
   void drive(Pipeline& pipeline, const Pose& later) {
     for (std::int64_t i = 0; i <= kReturn + 1; ++i) {
       truth_.push_back(round_trip(i));
@@ -260,12 +262,12 @@ class RoundTripTest : public testing::Test {
   }
 
   void expect_the_loop_closed() const {
-    EXPECT_EQ(closed_at_, std::vector<std::int64_t>{kReturn + 1});  // the second in a row
+    EXPECT_EQ(closed_at_, std::vector<std::int64_t>{kReturn + 1});  // the second consecutive one
     const Pose moved = truth_[0].inverse() * truth_[kReturn + 1];
     EXPECT_LT((closure_.T_earlier_later.translation - moved.translation).norm(), 1e-6);
     EXPECT_EQ(rejected_, 0u);
     // Exact tag corners at both ends: the last pose is as good as the first, to the few tenths of a
-    // millimetre by which features outvote eight corners.
+    // millimetre by which features outweigh eight corners.
     const Pose last = summary_.trajectory.front().pose.inverse() * summary_.trajectory.back().pose;
     const Pose last_truth = truth_.front().inverse() * truth_.back();
     EXPECT_LT((last.translation - last_truth.translation).norm(), 0.002);
@@ -295,14 +297,14 @@ TEST_F(RoundTripTest, SoDoesOneThatWasMappedAtFirstSight) {
 }
 
 TEST_F(RoundTripTest, ATagThatWasMovedOrIsThereTwiceClosesNone) {
-  // The way is about 4 m: a drift of 0.13 m is the most that is believed.
+  // The path is about 4 m long: a drift of at most 0.13 m is accepted.
   Pose moved = T_world_tag_;
   moved.translation.x() += 0.2;
   Pipeline pipeline(config(), aisle_.rig, {{"tag36h11", 0, 0.161, T_world_tag_}});
   drive(pipeline, moved);
   EXPECT_TRUE(closed_at_.empty());
   EXPECT_EQ(rejected_, 2u);
-  // What is left is the drift of 4 m on few landmarks with a pixel of noise.
+  // The remaining error is the drift over 4 m with few landmarks and a pixel of noise.
   EXPECT_LT(worst_error(summary_.trajectory, truth_), 0.05);
 }
 

@@ -45,7 +45,7 @@ const cv::Mat& wall(std::uint64_t texture) {
   return walls[texture];
 }
 
-/// What is seen `place` steps from the start.
+/// The images `place` steps from the start.
 Frame frame(int index, int place) {
   Frame seen;
   seen.index = index;
@@ -62,8 +62,8 @@ Eigen::Vector3d true_position(int place) {
   return {0, -kStep * place, 0};
 }
 
-/// One pixel of the coarser levels, 1.3 px, at 1.5 m and 200 px: of a flat wall a turn looks much
-/// like a step to the side.
+/// One pixel of the coarser levels, 1.3 px, at 1.5 m and 200 px: for a flat wall a rotation is
+/// similar to a lateral step.
 constexpr double kPositionError = 0.01;  // m
 
 std::unique_ptr<MappingSystem> system(WorkerPool& pool) {
@@ -76,7 +76,7 @@ class SlamTest : public testing::Test {
  protected:
   std::filesystem::path file(const std::string& name) const { return folder_ / name; }
 
-  /// A map file of the way past the walls.
+  /// A map file of the path past the walls.
   std::filesystem::path saved_map() const {
     static const std::string bytes = drive_and_save();
     write_file_atomically(file("drive.map"), bytes);
@@ -126,13 +126,13 @@ TEST_F(SlamTest, ALoadedMapIsFoundAgain) {
   const std::size_t landmarks = untouched->finish().landmarks;
   const auto slam = system(pool_);
   slam->load_map(saved_map());
-  // From the middle of the way, the other way round. Two frames must agree on the place.
+  // From the middle of the path, in the opposite direction. Two frames must agree on the pose.
   EXPECT_EQ(slam->process(frame(0, 12)).status, TrackingStatus::kInitializing);
   for (int i = 1; i < 8; ++i) {
     const Estimate estimate = slam->process(frame(i, 12 - i));
     ASSERT_EQ(estimate.status, TrackingStatus::kTracking) << i;
     EXPECT_LT((estimate.T_map_body->translation - true_position(12 - i)).norm(), kPositionError);
-    EXPECT_FALSE(estimate.keyframe) << i;  // the map knows the way
+    EXPECT_FALSE(estimate.keyframe) << i;  // the path is in the map
   }
   const SlamSummary summary = slam->finish();
   EXPECT_EQ(summary.trajectory.size(), 7u);

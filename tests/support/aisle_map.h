@@ -11,8 +11,8 @@
 
 namespace vinebench::testing_support {
 
-/// A map of the aisle as it is: keyframes at the true poses, landmarks at the true places, every
-/// feature tied to its own.
+/// A perfect map of the aisle: keyframes at the true poses, landmarks at the true positions, every
+/// feature associated correctly.
 struct AisleMap {
   AisleMap(const SyntheticAisle& from, const std::vector<Pose>& poses)
       : aisle(from), rig(from.rig, slam::OrbConfig{}), map(slam::OrbConfig{}.scale) {
@@ -21,7 +21,7 @@ struct AisleMap {
     }
   }
 
-  /// Adds a keyframe, ties what is known and makes landmarks of the rest. Returns its id.
+  /// Adds a keyframe, associates known landmarks and creates the others. Returns its id.
   int add(const std::shared_ptr<const slam::FrameFeatures>& frame, const Pose& T_map_body) {
     const int id = map.add_keyframe(frame, T_map_body, associate(*frame));
     for (std::size_t v = 0; v < frame->views.size(); ++v) {
@@ -37,7 +37,7 @@ struct AisleMap {
     return id;
   }
 
-  /// The true landmark of each feature, as far as the map has it.
+  /// The true landmark of each feature, if the map has it.
   slam::Associations associate(const slam::FrameFeatures& frame) const {
     slam::Associations associations = slam::no_associations(frame);
     for (std::size_t v = 0; v < frame.views.size(); ++v) {

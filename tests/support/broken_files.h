@@ -43,7 +43,7 @@ inline sim::Asset small_plant() {
   return asset;
 }
 
-/// Puts the asset into a scene and looks whether all of it can be drawn.
+/// Adds the asset to a scene and checks that all of it can be rendered.
 inline void expect_sound(const sim::Asset& asset) {
   sim::Scene scene;
   sim::add_asset(scene, asset);
@@ -51,10 +51,10 @@ inline void expect_sound(const sim::Asset& asset) {
   EXPECT_GT(sim::triangle_count(asset.model.levels.at(0)), 0);
 }
 
-/// What is broken is either loaded whole or named.
+/// A broken file is either loaded completely or an error that names it.
 class BrokenFiles : public testing::Test {
  protected:
-  /// The message for a file of that name and content, which it must name; empty where it loads.
+  /// The message for a file of that name and content, which it must name; empty if it loads.
   std::string message(const std::string& name, std::string_view content) const {
     const auto file = folder_.write(name, content);
     std::optional<sim::Asset> asset;

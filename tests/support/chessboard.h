@@ -11,8 +11,8 @@
 
 namespace vinebench::test {
 
-/// A chessboard of 10 x 7 squares in the plane y = 0 around the origin, to measure where an image
-/// shows known points.
+/// A chessboard of 10 x 7 squares in the plane y = 0 around the origin, to measure the image
+/// positions of known points.
 struct Chessboard {
   static constexpr int kColumns = 10;
   static constexpr int kRows = 7;
@@ -52,14 +52,14 @@ struct Chessboard {
     return pixels;
   }
 
-  /// The largest distance of an inner corner, as found, from where the camera projects it, px.
+  /// The largest distance of a detected inner corner from its projection, px.
   static double worst_corner(const cv::Mat& rgb, const PinholeCamera& camera,
                              const Pose& T_world_cam) {
     const std::vector<cv::Point2f> expected = corners(camera, T_world_cam);
-    // Started off the truth, so that a corner that is not there cannot be "found" where it began.
+    // Started off the truth, so that a missing corner is not "found" at its start.
     std::vector<cv::Point2f> found = expected;
     for (cv::Point2f& corner : found) corner += cv::Point2f(0.7f, -0.6f);
-    // A symmetric blur moves no corner; without it the search feels the pixel grid by 0.1 px.
+    // A symmetric blur moves no corner; without it the pixel grid causes errors of 0.1 px.
     cv::Mat grey;
     cv::cvtColor(rgb, grey, cv::COLOR_RGB2GRAY);
     cv::GaussianBlur(grey, grey, {5, 5}, 1.0);

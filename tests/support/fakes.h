@@ -27,15 +27,15 @@ inline Rig rig() {
   return rig;
 }
 
-/// Once round a circle of 1 m radius in 20 s: 0.314 m/s.
+/// Once around a circle of 1 m radius in 20 s: 0.314 m/s.
 inline Pose circle(Stamp stamp) {
   const double angle = 2 * std::numbers::pi * to_seconds(stamp) / 20;
   return {from_roll_pitch_yaw({0, 0, angle + std::numbers::pi / 2}),
           {std::cos(angle), std::sin(angle), 0}};
 }
 
-/// Twenty seconds on the circle; the tag is in view during the first and the last 2 s, the front
-/// cameras see nothing but carton from 8 s to 12 s.
+/// Twenty seconds on the circle; the tag is in view during the first and the last 2 s, cartons
+/// cover the front cameras from 8 s to 12 s.
 class Source : public FrameSource {
  public:
   explicit Source(int seed = 1, std::int64_t frames = 201) : seed_(seed), frames_(frames) {}
@@ -68,7 +68,7 @@ class Source : public FrameSource {
   StageTimes times_;
 };
 
-/// A SLAM system that knows the way and answers as `change` makes it.
+/// A SLAM system that returns the true path, modified by `change`.
 class Slam : public SlamSystem {
  public:
   using Change = std::function<void(Estimate&)>;
@@ -98,7 +98,7 @@ class Slam : public SlamSystem {
   StageTimes times_;
 };
 
-/// The closure that the truth would measure between two stamps, off by `offset` metres along x.
+/// The true closure between two stamps, off by `offset` metres along x.
 inline LoopClosure closure(Stamp earlier, Stamp later, double offset = 0) {
   LoopClosure closure;
   closure.tag_id = 7;
@@ -126,7 +126,7 @@ inline harness::Trial trial() {
   return trial;
 }
 
-/// Stands for the resolved scenario beside a run's results.
+/// Substitute for the resolved scenario beside a run's results.
 inline constexpr const char* kSettings = "name: \"fake\"\n";
 
 /// A run folder for these fakes.

@@ -26,7 +26,7 @@ inline cv::Mat grey_of(const cv::Mat& rgb) {
   return grey;
 }
 
-/// RenderedImage b as a sees it.
+/// Image b warped to view a.
 inline cv::Mat warped(const cv::Mat& b, const cv::Mat& flow, const cv::Vec2f& offset = {0, 0}) {
   cv::Mat map(flow.size(), CV_32FC2), result;
   for (int y = 0; y < flow.rows; ++y) {
@@ -46,8 +46,8 @@ inline double mean_difference(const cv::Mat& a, const cv::Mat& b, const cv::Mat&
 }
 
 /// How far patches of 24 px of `b` (warped onto `a`) still are from a's, px: one step of Lucas and
-/// Kanade's least squares over the pixels counted, where the patch has texture both ways. Pixels
-/// outside the mask reach no pixel that counts.
+/// Kanade's least squares over the pixels counted, where the patch has texture in both directions.
+/// Pixels outside the mask do not contribute.
 inline std::vector<double> patch_shifts(const cv::Mat& a, const cv::Mat& b, const cv::Mat& mask,
                                         const cv::Mat& counted) {
   constexpr int kSide = 24;
@@ -75,7 +75,7 @@ inline std::vector<double> patch_shifts(const cv::Mat& a, const cv::Mat& b, cons
           ++pixels;
         }
       }
-      // Corners as good as those that a tracker would take: 2 grey levels a pixel both ways.
+      // Corners with sufficient texture for a tracker: 2 grey levels a pixel in both directions.
       const double weakest = normal.selfadjointView<Eigen::Upper>().eigenvalues().minCoeff();
       if (pixels < 60 || weakest < 4.0 * pixels) continue;
       shifts.push_back((normal.inverse() * right).norm());

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 inline constexpr int kWidth = 32;
 inline constexpr int kHeight = 24;
 
-/// A small image whose greys tell camera and number.
+/// A small image whose grey levels encode camera and number.
 inline cv::Mat numbered_image(int camera, int number) {
   return {kHeight, kWidth, CV_8UC1, cv::Scalar(20 * camera + number)};
 }
@@ -34,7 +34,8 @@ inline void write_text(const fs::path& file, const std::string& text) {
   write_file_atomically(file, text);
 }
 
-/// A KITTI excerpt without labels and times: two cameras 0.5 m apart, driving ahead by 1 m a frame.
+/// A KITTI excerpt without labels and times: two cameras 0.5 m apart, driving forward by 1 m a
+/// frame.
 inline fs::path write_kitti(const TestFolder& folder, int frames = 5) {
   const fs::path root = folder / "kitti";
   std::string poses;
@@ -49,7 +50,7 @@ inline fs::path write_kitti(const TestFolder& folder, int frames = 5) {
 }
 
 inline std::string sensor_yaml(double y, const std::string& distortion = "[0, 0, 0, 0]") {
-  // The camera looks ahead (body x), so T_BS turns z to x, x to -y, y to -z.
+  // The camera looks forward (body x), so T_BS maps z to x, x to -y, y to -z.
   return fmt::format(
       "sensor_type: camera\nT_BS:\n  cols: 4\n  rows: 4\n"
       "  data: [0, 0, 1, 0,\n  -1, 0, 0, {},\n  0, -1, 0, 0,\n  0, 0, 0, 1]\nrate_hz: 20\n"
@@ -114,7 +115,7 @@ inline std::vector<Sample> play_all(const fs::path& folder,
   return samples;
 }
 
-/// How many events of each kind there are.
+/// Number of events by kind.
 inline std::map<std::string, int> count_events(const std::vector<Sample>& samples) {
   std::map<std::string, int> counts;
   for (const Sample& sample : samples) {

@@ -8,8 +8,8 @@
 
 namespace vinebench::testing_support {
 
-/// The rover's rig with its front pair, with its back pair too, or with a third one that is the
-/// front pair turned to the left.
+/// The rover's rig with its front pair, with front and back pair, or with a third pair: the front
+/// pair rotated to the left.
 inline slam::StereoRig rig_of_pairs(slam::StereoRig rig, std::size_t pairs) {
   slam::RectifiedPair side = rig.pairs.front();
   const Pose turn{exp_so3({0, 0, std::numbers::pi / 2}), {0, 0, 0}};

@@ -12,8 +12,8 @@
 
 namespace vinebench::testing_support {
 
-/// One pair, whose left camera's frame is the body's, before a textured plane that is slanted like
-/// the ground: in the camera's first frame n . p = 1 with n = (0.1, 0.6, 0.8) / m. The map holds
+/// One pair, whose left camera's frame is the body's, in front of a textured plane with the slant
+/// of the ground: in the camera's first frame n . p = 1 with n = (0.1, 0.6, 0.8) / m. The map holds
 /// one keyframe at the origin with a landmark every 30 px, found on level 0 in the left half of the
 /// image and on level 2 in the right one.
 struct SlantedPlane {
@@ -42,7 +42,7 @@ struct SlantedPlane {
     return lens().unproject(pixel) * depth(pixel);
   }
 
-  /// What the left camera sees from a pose; no features.
+  /// The left camera's image from a pose; no features.
   std::shared_ptr<slam::FrameFeatures> image(const Pose& T_map_body) const {
     auto frame = std::make_shared<slam::FrameFeatures>();
     frame->views.resize(1);
@@ -50,7 +50,7 @@ struct SlantedPlane {
     return frame;
   }
 
-  /// What both cameras see.
+  /// The images of both cameras.
   std::shared_ptr<slam::FrameFeatures> stereo_image(const Pose& T_map_body) const {
     auto frame = image(T_map_body);
     const Pose T_left_right{Eigen::Quaterniond::Identity(), {kBaseline, 0, 0}};
@@ -83,7 +83,7 @@ struct SlantedPlane {
   slam::Map map;
   std::vector<Eigen::Vector2d> places;  ///< px, of landmark i in the keyframe
   Eigen::Vector3d normal{0.1, 0.6, 0.8};
-  std::uint64_t texture = 8;  ///< of the images that are yet to be taken
+  std::uint64_t texture = 8;  ///< of the images taken from now on
 
  private:
   static slam::StereoRig make_rig() {
@@ -96,8 +96,8 @@ struct SlantedPlane {
     return rig;
   }
 
-  /// Each pixel looked up where its ray meets the plane, at the pixel that shows that place from
-  /// the first pose.
+  /// Each pixel is looked up at the intersection of its ray with the plane, projected into the
+  /// first pose's image.
   std::vector<cv::Mat> pyramid(const Pose& T_map_cam, std::uint64_t noise) const {
     const SyntheticTexture plane(texture);
     const auto grey = [&](double x, double y) {

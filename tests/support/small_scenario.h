@@ -15,8 +15,8 @@ namespace vinebench::test {
 inline constexpr double kFocal = 60;       // px, of the pair
 inline constexpr double kBaseline = 0.12;  // m
 
-/// Six frames of a rover that drives off between a row of two vines and a tag, seen by three small
-/// cameras; in a folder of its own, with the grown plants.
+/// Six frames of a rover that starts between a row of two vines and a tag, with three small
+/// cameras; in a separate folder, with its plants.
 class SmallScenario : public testing::Test {
  protected:
   SmallScenario() {

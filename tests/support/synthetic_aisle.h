@@ -37,11 +37,11 @@ class SyntheticAisle {
     }
   }
 
-  /// Which point a feature is of, and where that is in the world.
+  /// The point of a feature, and its position in the world.
   int point_of(const slam::Descriptor& descriptor) const { return index_.at(descriptor); }
   const Eigen::Vector3d& point(int index) const { return points_[static_cast<std::size_t>(index)]; }
 
-  /// Pairs listed in `blind` see nothing.
+  /// Pairs listed in `blind` have no features.
   std::shared_ptr<slam::FrameFeatures> frame(std::int64_t index, const Pose& T_world_body,
                                              const std::vector<std::size_t>& blind = {}) const {
     auto features = std::make_shared<slam::FrameFeatures>();

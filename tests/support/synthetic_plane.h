@@ -9,8 +9,8 @@
 
 namespace vinebench {
 
-/// A textured plane before a rectified pair. In the left image its disparity is linear:
-/// d(x, y) = at_middle + by_x (x - middle) + by_y (y - middle), px.
+/// A textured plane in front of a rectified pair. In the left image its disparity is linear: d(x,
+/// y) = at_middle + by_x (x - middle) + by_y (y - middle), px.
 struct SyntheticPlane {
   double at_middle = 20;
   double by_x = 0;  ///< px of disparity a px

@@ -16,7 +16,7 @@
 
 namespace vinebench {
 
-/// A printed tag36h11 before a camera, drawn by shooting rays: each pixel is the mean of 6 x 6.
+/// A ray-traced image of a printed tag36h11: each pixel is the mean of 6 x 6 samples.
 class SyntheticTag {
  public:
   SyntheticTag(int id, double size) : size_(size) {
@@ -29,7 +29,7 @@ class SyntheticTag {
       }
     }
     cell_ = size / family->width_at_border;
-    std::free(print->buf);  // the library does not export its own destroyer
+    std::free(print->buf);  // the library does not export image_u8_destroy
     std::free(print);
     tag36h11_destroy(family);
   }
@@ -53,7 +53,7 @@ class SyntheticTag {
   }
 
   void draw(cv::Mat& image, const PinholeCamera& camera, const Pose& T_cam_tag) const {
-    constexpr int kSamples = 12;  // edges fall on twelfths of a pixel
+    constexpr int kSamples = 12;  // edges are quantised to twelfths of a pixel
     const Pose T_tag_cam = T_cam_tag.inverse();
     // Only pixels near the tag: within the print's circumscribed circle.
     const Eigen::Vector2d middle = camera.project(T_cam_tag.translation);

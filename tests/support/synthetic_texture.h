@@ -9,9 +9,9 @@
 
 namespace vinebench {
 
-/// A texture that is a function of the plane: noise of several scales, pushed through a steep
-/// curve so that it has edges as leaves and bark do. Known at every real coordinate, so an image
-/// of it moved, turned or scaled is exact.
+/// A texture as a function of the plane: noise of several scales, with a steep response curve so
+/// that it has edges like leaves and bark. Defined at every real coordinate, so a shifted, rotated
+/// or scaled image of it is exact.
 class SyntheticTexture {
  public:
   explicit SyntheticTexture(std::uint64_t seed) : seed_(seed) {}
@@ -55,8 +55,7 @@ class SyntheticTexture {
   std::uint64_t seed_;
 };
 
-/// RenderedImage whose pixel is the mean of 3 x 3 samples of grey(x, y) within it, plus normal
-/// noise.
+/// An image whose pixels are means of 3 x 3 samples of grey(x, y), plus Gaussian noise.
 template <class Grey>
 cv::Mat render_image(int width, int height, const Grey& grey, double sigma = 0,
                      std::uint64_t seed = 0) {

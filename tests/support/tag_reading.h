@@ -14,7 +14,7 @@
 
 namespace vinebench::test {
 
-/// A tag as AprilTag's detector finds it.
+/// A tag found by AprilTag's detector.
 struct ReadTag {
   int id = 0;
   int wrong_bits = 0;
@@ -22,7 +22,7 @@ struct ReadTag {
 };
 
 /// Corners of a tag's black square in its own frame (x right, y down), m: lower left, lower right,
-/// upper right, upper left, as AprilTag counts them.
+/// upper right, upper left, in AprilTag's order.
 inline std::array<Eigen::Vector3d, 4> tag_corners(double size) {
   const double h = size / 2;
   return {Eigen::Vector3d(-h, h, 0), {h, h, 0}, {h, -h, 0}, {-h, -h, 0}};

@@ -14,7 +14,7 @@
 
 namespace vinebench::test {
 
-/// An empty folder of the running test, removed after it.
+/// An empty folder for the running test, removed afterwards.
 class TestFolder {
  public:
   TestFolder() {
@@ -43,7 +43,7 @@ class TestFolder {
   std::filesystem::path path_;
 };
 
-/// The message of the Error that `action` throws; empty when it throws none.
+/// The message of the Error thrown by `action`; empty if there is none.
 template <class Action>
 std::string error_of(const Action& action) {
   try {

@@ -25,7 +25,7 @@ inline sim::PlantBrief brief(int bbch = 89,
   return brief;
 }
 
-/// Painted once: every test that does not look at them uses the same ones.
+/// Painted once: tests that do not depend on them share them.
 inline const std::vector<sim::Texture>& textures() {
   static const std::vector<sim::Texture> kTextures =
       sim::plant_textures({}, sim::growth_stage(89), 1);

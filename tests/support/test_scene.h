@@ -46,8 +46,8 @@ inline int add_material(sim::Scene& scene, Label label, const Eigen::Vector3f& c
   return static_cast<int>(scene.materials.size()) - 1;
 }
 
-/// A rectangle of the plane y = 0 around the origin that faces -y, as a sheet of paper held before
-/// a camera that looks along +y: the image's top left is at (-width / 2, 0, height / 2).
+/// A rectangle of the plane y = 0 around the origin that faces -y, towards a camera that looks
+/// along +y: the image's top left is at (-width / 2, 0, height / 2).
 inline sim::Primitive panel(int material, double width, double height) {
   const auto w = static_cast<float>(width / 2);
   const auto h = static_cast<float>(height / 2);
@@ -77,7 +77,7 @@ inline void add_instance(sim::Scene& scene, int model, const Eigen::Vector3d& po
                              static_cast<int>(scene.instances.size())});
 }
 
-/// Even light from everywhere, so that colours are what the textures say.
+/// Uniform light, so that colours equal those of the textures.
 inline void light_evenly(sim::Scene& scene) {
   scene.light.sun.setZero();
   scene.light.sky.setOnes();

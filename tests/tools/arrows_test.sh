@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Includes go one way: tools and python -> harness -> sim and slam -> core. Usage: arrows_test.sh ROOT
+# Allowed includes: tools and python -> harness -> sim and slam -> core. Usage: arrows_test.sh ROOT
 set -euo pipefail
 cd "$1"
 failed=0

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# What the command line says to bad input: exit code 2 and one message that names file, line and
-# key. Usage: cli_test.sh VINEBENCH ROOT
+# Bad input of the command line: exit code 2 and one message that names file, line and key. Usage:
+# cli_test.sh VINEBENCH ROOT
 set -uo pipefail
 vinebench=$1
 root=$2
@@ -42,7 +42,7 @@ expect() {
   fi
 }
 
-# A scenario of its own, with $1 as further lines from line 4 on.
+# Writes a scenario, with $1 as further lines from line 4 on.
 scenario() {
   printf '%s\n' "name: bad" "world: world.yaml" "rover: $root/models/csl-rover/rover.yaml" "$1" \
     "route: {waypoints: [{position: [0, 0]}]}" >"$work/bad.yaml"
@@ -103,7 +103,7 @@ echo "5 1 2 3" >"$work/short.tum"
 expect 2 "eval of a broken file" "short.tum:1: expected 8 columns" -- \
   eval "$work/truth.tum" "$work/short.tum"
 sed 's/^/10/' "$work/truth.tum" >"$work/later.tum"
-expect 2 "eval of strangers" "later.tum: fewer than three" -- \
+expect 2 "eval of unrelated trajectories" "later.tum: fewer than three" -- \
   eval "$work/truth.tum" "$work/later.tum"
 
 expect 0 "help of replay" "DATASET" "--groundtruth" "--rig" -- replay --help
@@ -131,28 +131,28 @@ expect 2 "recording of a set" "--record: is for one scenario" -- \
   run "$root/scenarios/quick-loop.yaml" --seeds 1..2 --record "$work/set" --out "$work/out"
 expect 2 "jobs of one run" "expected several scenarios or --seeds" -- \
   run "$root/scenarios/quick-loop.yaml" --jobs 2 --out "$work/out"
-expect 2 "verdicts where no folder is" "none/verdicts.xml: cannot be written" -- \
+expect 2 "verdicts in a missing folder" "none/verdicts.xml: cannot be written" -- \
   run "$root/scenarios/quick-loop.yaml" --seeds 1..2 --out "$work/out" \
   --junit "$work/none/verdicts.xml"
 expect 2 "comparison with nothing" "none: expected a folder of runs" -- \
   compare "$work/none" "$work/none"
-expect 2 "comparison of no runs" "empty: has no run" -- compare "$work/empty" "$work/empty"
+expect 2 "comparison of no runs" "empty: contains no run" -- compare "$work/empty" "$work/empty"
 mkdir -p "$work/a" "$work/b"
 echo '{"scenario": "row", "seed": 1, "ate_rmse_m": 0.01}' >"$work/a/metrics.json"
 echo '{"scenario": "row", "seed": 1, "ate_rmse_m": 0.02}' >"$work/b/metrics.json"
 expect 0 "comparison" "row: B is unknown" "one pair" -- compare "$work/a" "$work/b"
 sed -i 's/"seed": 1/"seed": 2/' "$work/b/metrics.json"
-expect 2 "comparison of strangers" "no scenario and seed is in both folders" -- \
+expect 2 "comparison of unrelated runs" "no scenario and seed is in both folders" -- \
   compare "$work/a" "$work/b"
 expect 2 "bench of no data set" "is no recording" -- bench slam "$work/empty"
 
 echo junk >"$work/junk.map"
 quick_loop=$root/scenarios/quick-loop.yaml
-expect 2 "load of no map" "junk.map: not a map of Vinebench" -- \
+expect 2 "load of a file that is not a map" "junk.map: not a map of Vinebench" -- \
   run "$quick_loop" --out "$work/out" --load-map "$work/junk.map"
 expect 2 "load of a missing map" "none.map" -- \
   run "$quick_loop" --out "$work/out" --load-map "$work/none.map"
-expect 2 "save where no folder is" "there is no folder" -- \
+expect 2 "save to a missing folder" "does not exist" -- \
   run "$quick_loop" --out "$work/out" --save-map "$work/none/row.map"
 
 # A world without a block, and one place: some seconds.
@@ -165,7 +165,7 @@ for key in '"cpu_ms"' '"frame_wall_ms"' '"scaling"' '"memory_mib"'; do
 done
 expect 2 "bench of a missing world" "none.yaml" -- bench render --world "$work/none.yaml"
 pushd "$work" >/dev/null || exit 1
-expect 2 "bench elsewhere" "no worlds/csl-vineyard.yaml here" "--world" -- bench render
+expect 2 "bench in another folder" "no worlds/csl-vineyard.yaml here" "--world" -- bench render
 popd >/dev/null || exit 1
 
 if [[ $failures -ne 0 ]]; then

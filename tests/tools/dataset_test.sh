@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# A small data set in every format, recorded, checked, and read by Python's stock readers. Ends with
-# 77 (skipped) where Python lacks them. Usage: dataset_test.sh VINEBENCH ROOT
+# A small data set in every format, recorded, checked, and read by standard Python readers. Exits
+# with 77 (skipped) if they are not installed. Usage: dataset_test.sh VINEBENCH ROOT
 set -euo pipefail
 vinebench=$1 root=$2
 work=$(mktemp -d)
@@ -31,7 +31,7 @@ formats=euroc,kitti,tum,dcvslam,rgb,depth,depth32,disparity,flow,flo,normals,sem
   { cat "$work/log"; exit 1; }
 "$vinebench" check "$work/data"
 
-# What a person may do to it: each ends with one message, and leaves what is there.
+# Invalid requests: each ends with one message and does not change existing data.
 expect() {
   local code=$1 words=$2 got=0
   shift 2
@@ -52,7 +52,7 @@ touch "$work/file"
 expect 2 "Not a directory" "${record[@]}" --format rgb --out "$work/file/g"
 expect 2 "is no data set of ours" "$vinebench" check "$work"
 [[ ! -e $work/b && ! -e $work/d ]]
-# A disk that takes no more than a few images.
+# A disk with space for a few images only.
 (ulimit -f 4 && trap '' XFSZ && expect 2 "cannot be written: File too large" \
   "${record[@]}" --format depth32 --out "$work/full")
 "$vinebench" check "$work/data" >/dev/null

@@ -29,7 +29,7 @@ def quaternion(yaw, pitch):
 
 
 def write_pair(folder, seed, drop_every):
-    """A winding way of 30 s at 15 Hz, and an estimate that drifts, jitters and misses frames; its
+    """A winding path of 30 s at 15 Hz, and an estimate that drifts, jitters and misses frames; its
     stamps are up to 2 ms late."""
     draw = random.Random(seed)
     truth, estimate = [], []

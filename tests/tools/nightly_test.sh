@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# tools/nightly.sh with a program of our own in vinebench's place. Usage: nightly_test.sh ROOT
+# tools/nightly.sh with a fake vinebench program. Usage: nightly_test.sh ROOT
 set -uo pipefail
 root=$1
 work=$(mktemp -d)
@@ -15,7 +15,7 @@ check() { # check NAME COMMAND...
   fi
 }
 
-# Writes a table as `vinebench run` does, notes its arguments and ends with $CODE.
+# Writes a table as `vinebench run` does, records its arguments and exits with $CODE.
 cat >"$work/fake" <<'END'
 #!/usr/bin/env bash
 printf '%s\n' "$@" >"$OUT/arguments"

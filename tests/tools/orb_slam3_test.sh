@@ -2,8 +2,7 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# examples/orb_slam3/run.sh with a program of our own in ORB-SLAM3's place. Usage: orb_slam3_test.sh
-# ROOT
+# examples/orb_slam3/run.sh with a fake ORB-SLAM3 program. Usage: orb_slam3_test.sh ROOT
 set -uo pipefail
 root=$1
 work=$(mktemp -d)

@@ -4,21 +4,21 @@
 #
 # The quick-loop scenario from end to end. Usage: quick_loop_test.sh STEP VINEBENCH ROOT WORK [PLUGIN]
 # with STEP one of
-#   verdict  its expectations hold, and a second run is the same to the byte
-#   threads  one thread gives what two give (needs verdict)
+#   verdict  its expectations are met, and a second run is the same to the byte
+#   threads  one thread gives the same as two (needs verdict)
 #   resolved its own scenario.resolved.yaml repeats it (needs verdict)
-#   map      a run in the map that verdict left finds its place there, by tag and by appearance (needs
+#   map      a run with the map of verdict is relocalised in it, by tag and by appearance (needs
 #            verdict)
 #   replayed replays of recordings of it, EuRoC and KITTI, give the same estimate (0.8 s)
-#   plugin   the SLAM core behind the door for others' gives the same estimate (0.8 s); PLUGIN is
+#   plugin   the SLAM core as a plug-in gives the same estimate (0.8 s); PLUGIN is
 #            examples/slam_plugin
-#   external a program takes the core's place, and its poses are judged (0.3 s)
-#   front    with the front cameras alone it is lost or ten times worse (needs verdict)
+#   external a program replaces the core, and its poses are evaluated (0.3 s)
+#   front    with the front cameras only it is lost or ten times worse (needs verdict)
 set -euo pipefail
 step=$1 vinebench=$2 root=$3 work=$4
 scenario=$root/scenarios/quick-loop.yaml
 
-# A figure of a run's metrics.json; "null" where it was not measured.
+# A metric of a run's metrics.json; "null" if it was not measured.
 metric() { sed -nE "s/^  \"$2\": \"?([^\",]*)\"?,?\$/\1/p" "$work/$1/metrics.json"; }
 
 same_hash() {
@@ -41,7 +41,7 @@ case $step in
     same_hash resolved
     ;;
   map)
-    # In a known place nothing is mapped anew, so that there is no loop to close.
+    # In a known place no keyframes are added, so there is no loop to close.
     in_the_map=(--load-map "$work/verdict.map" --set expectations.loop_closures_correct_min=0
       --set expectations.loop_closures_missed_max=9)
     "$vinebench" run "$scenario" --out "$work/by_tag" "${in_the_map[@]}"
@@ -73,13 +73,13 @@ case $step in
     code=0
     "$vinebench" run "$scenario" --out "$work/short" --set duration=0.8 \
       --record "$work/recording" || code=$?
-    [[ $code -le 1 ]] || exit $code  # too short for what the scenario expects
+    [[ $code -le 1 ]] || exit $code  # too short for the scenario's expectations
     "$vinebench" replay "$work/recording" --out "$work/replayed" --threads 1
     for file in estimate.tum estimate_live.tum keyframes.tum; do
       [[ -s $work/short/$file ]] || { echo "$file is empty" >&2; exit 1; }
       cmp "$work/short/$file" "$work/replayed/$file"
     done
-    # KITTI has the front pair alone.
+    # KITTI has the front pair only.
     rm -rf "$work/recording"
     "$vinebench" run "$scenario" --out "$work/short" --set duration=0.8 --set slam.cameras=front \
       --record "$work/recording" --record-format kitti || code=$?
@@ -96,7 +96,7 @@ case $step in
       [[ $run == built_in ]] || library=(--set "slam.plugin.library=$5")
       code=0
       "$vinebench" run "$scenario" --out "$work/$run" --set duration=0.8 "${library[@]}" || code=$?
-      [[ $code -le 1 ]] || exit $code  # too short for what the scenario expects
+      [[ $code -le 1 ]] || exit $code  # too short for the scenario's expectations
     done
     for file in estimate.tum estimate_live.tum keyframes.tum; do
       [[ -s $work/built_in/$file ]] || { echo "$file is empty" >&2; exit 1; }
@@ -108,7 +108,7 @@ case $step in
     ;;
   external)
     mkdir -p "$work"
-    # Stands still, and has no pose of the last frame.
+    # A stationary estimate without a pose of the last frame.
     cat >"$work/stand.sh" <<'END'
 #!/bin/sh
 sed '1d; $d; s/$/ 0 0 0 0 0 0 1/' "$1/frames.csv" >"$2/trajectory.txt"

@@ -26,7 +26,7 @@ def image(name, kind):
     by_cv = cv2.imread(str(file), cv2.IMREAD_UNCHANGED)
     assert by_cv is not None and by_cv.dtype == kind, name
     if kind == np.uint16 and by_cv.ndim == 3:
-        return by_cv[..., ::-1]  # PIL reads no 16 bits of three channels
+        return by_cv[..., ::-1]  # PIL does not support 16-bit RGB
     by_pil = np.asarray(Image.open(file))
     turned = by_cv[..., ::-1] if by_cv.ndim == 3 else by_cv
     assert np.array_equal(turned, by_pil.astype(turned.dtype)), name
@@ -66,7 +66,7 @@ table = {int(row[0]) for row in csv.reader((root / "instances/instances.csv").op
          if not row[0].startswith("#")}
 assert set(np.unique(numbers)) - {0} <= table
 
-# COCO, with its masks decompressed here by the format's own rule.
+# COCO, with its masks decompressed here.
 coco = json.loads((root / "coco/instances.json").read_text())
 images = {image["id"]: image for image in coco["images"]}
 assert len(images) == 2 * frames

@@ -2,9 +2,9 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# ROS bags: recorded, interrupted, killed, on a full disk, and read by ROS's own Python library. Ends
-# with 77 (skipped) where Python lacks it or the program was built without rosbag.
-# Usage: ros_test.sh VINEBENCH ROOT
+# ROS bags: recorded, interrupted, killed, on a full disk, and read by ROS's Python library. Exits
+# with 77 (skipped) if it is not installed or the program was built without rosbag. Usage:
+# ros_test.sh VINEBENCH ROOT
 set -euo pipefail
 vinebench=$1 root=$2
 work=$(mktemp -d)

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kFileName = "\"file_name\":\"";
 
-/// Gives every item of a list, as a line without its end.
+/// Calls for every item of a list, a line without its end.
 using Take = std::function<void(const std::string&)>;
 using Items = std::function<void(const Take&)>;
 
@@ -39,7 +39,7 @@ Items lines_of(const fs::path& file) {
   };
 }
 
-/// The items of one list of a file that write_coco() made.
+/// The items of one list of a file written by write_coco().
 void take_list(const fs::path& file, const std::string& list, const Take& take) {
   std::ifstream in = open(file);
   bool inside = false;
@@ -53,10 +53,10 @@ void take_list(const fs::path& file, const std::string& list, const Take& take) 
       take(line);
     }
   }
-  fail("{}: expected a list '{}' of one item a line", file.string(), list);
+  fail("{}: expected a list '{}' with one item on each line", file.string(), list);
 }
 
-/// Of all parts, with the names of their images put below `prefix(part)`.
+/// The items of all parts, with image names below `prefix(part)`.
 Items lists_of(const fs::path& folder, const std::vector<std::string>& parts,
                const std::string& file, const std::string& list, const std::string& below) {
   return [=](const Take& take) {
@@ -73,7 +73,7 @@ Items lists_of(const fs::path& folder, const std::vector<std::string>& parts,
   };
 }
 
-/// A list as it stands in the file; the rest is written around it.
+/// A list of the file.
 void write_list(std::ofstream& out, const std::string& name, const Items& items) {
   out << "\"" << name << "\": [";
   const char* before = "\n";
@@ -127,7 +127,8 @@ Json category_json(Category category) {
           {"color", {60, 160, 60}}};
 }
 
-/// Of instances.json: all things, or the chosen ones. Of panoptic.json: what a pixel can be.
+/// Categories of instances.json: all things, or the selected ones; of panoptic.json: all categories
+/// of pixels.
 Json category_list(bool panoptic, const std::set<Category>& chosen) {
   Json list = Json::array();
   for (std::size_t i = 0; i < kCategories; ++i) {

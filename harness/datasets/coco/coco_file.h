@@ -11,16 +11,16 @@
 
 namespace vinebench::harness {
 
-// COCO's two files, instances.json and panoptic.json. They may be larger than memory: every item
-// of their lists has a line of its own, and lines are copied.
+// COCO's two files, instances.json and panoptic.json. They may be larger than memory: every item of
+// their lists is one line, and lines are copied.
 
-/// Makes both of a folder's images.jsonl, annotations.jsonl and panoptic.jsonl. `categories` are
-/// those of instances.json, all things where empty. Throws Error.
+/// Makes both from a folder's images.jsonl, annotations.jsonl and panoptic.jsonl. `categories` are
+/// those of instances.json, all things if empty. Throws Error.
 void write_coco_from_lists(const std::filesystem::path& folder,
                            const std::set<Category>& categories);
 
-/// Makes both, in `folder`, of those in these folders below it, the images' names relative to
-/// `folder` (to the folder `panoptic` of each sequence for panoptic images likewise).
+/// Makes both in `folder` from those of these folders below it, with image names relative to
+/// `folder` (for panoptic images, to the folder `panoptic` of each sequence).
 void merge_coco(const std::filesystem::path& folder, const std::vector<std::string>& parts,
                 const std::set<Category>& categories);
 

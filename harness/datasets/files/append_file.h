@@ -9,8 +9,8 @@
 
 namespace vinebench::harness {
 
-/// A text file that grows by whole parts: what was appended is on its way to the disk at once, and
-/// a part that does not fit is taken back. Throws Error with the system's reason.
+/// A text file that grows by complete parts: each part is flushed at once, and a part that does not
+/// fit on the disk is removed again. Throws Error with the system's reason.
 class AppendFile {
  public:
   explicit AppendFile(std::filesystem::path file);

@@ -32,7 +32,7 @@ void BackgroundWorker::wait() {
   rethrow();
 }
 
-/// With the mutex held.
+/// Requires the mutex to be locked.
 void BackgroundWorker::rethrow() {
   if (error_) std::rethrow_exception(error_);
 }

@@ -11,19 +11,19 @@
 
 namespace vinebench::harness {
 
-/// One thread that does jobs in their order, beside the caller. At most `capacity` wait; the caller
-/// of one more waits too, so that memory is bounded.
+/// One thread that runs jobs in order. At most `capacity` jobs are queued; adding another one
+/// blocks, so that memory is bounded.
 class BackgroundWorker {
  public:
   explicit BackgroundWorker(std::size_t capacity);
   BackgroundWorker(const BackgroundWorker&) = delete;
   BackgroundWorker& operator=(const BackgroundWorker&) = delete;
-  ~BackgroundWorker();  ///< does what waits, and forgets what goes wrong
+  ~BackgroundWorker();  ///< completes queued jobs and ignores their exceptions
 
-  /// Rethrows what an earlier job threw; no job is done after that one.
+  /// Rethrows an exception of an earlier job; no job is run after that one.
   void submit(std::function<void()> job);
 
-  /// Returns when all is done; rethrows likewise.
+  /// Waits for all jobs; rethrows likewise.
   void wait();
 
  private:

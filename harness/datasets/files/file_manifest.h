@@ -16,7 +16,7 @@ namespace vinebench::harness {
 /// XXH3 of 128 bits as 32 digits, as `xxhsum -H128` prints it.
 std::string xxh128(std::string_view bytes);
 
-/// The same of a file, which may be larger than the memory. Throws Error when it cannot be read.
+/// The same for a file, which may be larger than memory. Throws Error if it cannot be read.
 std::string xxh128_of_file(const std::filesystem::path& file);
 
 /// A file of a data set.
@@ -25,19 +25,19 @@ struct ListedFile {
   std::string hash;  ///< xxh128()
 };
 
-/// The list of a data set's files with their hashes, a line each, which `xxhsum -c` reads too. It
-/// grows with the data set, so that what an interrupted one has can be checked.
+/// The list of a data set's files with their hashes, one a line, readable by `xxhsum -c`. It grows
+/// with the data set, so that an interrupted one can be checked.
 class FileManifest {
  public:
   static constexpr const char* kName = "files.xxh128";
 
-  /// Begins the list of that folder.
+  /// Starts the list of that folder.
   explicit FileManifest(const std::filesystem::path& folder);
 
-  /// Adds files that were written with these hashes.
+  /// Adds files with these hashes.
   void add(const std::vector<ListedFile>& files);
 
-  /// Adds every file of the folder that is not listed yet and is none of `without`, by name.
+  /// Adds every file of the folder that is neither listed yet nor in `without`.
   void add_rest(const std::vector<std::string>& without);
 
   std::int64_t files() const { return static_cast<std::int64_t>(names_.size()); }
@@ -48,8 +48,7 @@ class FileManifest {
   std::vector<std::string> names_;
 };
 
-/// Reads a list. Throws Error that names file and line; a last line that was cut off by an
-/// interruption is passed over.
+/// Reads a list. Throws Error that names file and line; an incomplete last line is ignored.
 std::vector<ListedFile> read_manifest(const std::filesystem::path& file);
 
 /// All files below a folder, relative to it, by name.

@@ -23,7 +23,7 @@ constexpr int kJpegQuality = 95;
 constexpr int kWebpLossless = 101;  // OpenCV: a quality above 100
 
 std::string encode(const char* ending, const cv::Mat& image, const std::vector<int>& options) {
-  cv::Mat bgr;  // not a second name of the image: that would turn its colours for others
+  cv::Mat bgr;  // a copy: the image may be shared
   if (image.channels() == 3) cv::cvtColor(image, bgr, cv::COLOR_RGB2BGR);
   std::vector<unsigned char> bytes;
   if (!cv::imencode(ending, bgr.empty() ? image : bgr, bytes, options)) {

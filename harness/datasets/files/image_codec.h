@@ -10,19 +10,19 @@
 
 namespace vinebench::harness {
 
-/// How images for people and networks are stored. Labels are always PNG.
+/// File format of colour and grey images. Labels are always PNG.
 enum class ImageKind { kPng, kJpeg, kWebp };
 inline std::vector<std::string> yaml_names(ImageKind) {
   return {"png", "jpg", "webp"};
 }
 
-/// RGB or grey, 8 bits: PNG and WebP without loss, JPEG of quality 95.
+/// RGB or grey, 8 bits: PNG and lossless WebP, JPEG of quality 95.
 std::string encode_image(const cv::Mat& image, ImageKind kind);
 
-/// What the SLAM core sees of an image (RGB or grey).
+/// The grey image that the SLAM core uses (from RGB or grey).
 cv::Mat to_grey(const cv::Mat& image);
 
-/// NumPy's file format (version 1.0) of an image of floats: shape (rows, columns) or (rows,
+/// NumPy's file format (version 1.0) for an image of floats: shape (rows, columns) or (rows,
 /// columns, channels), little-endian.
 std::string encode_npy(const cv::Mat& image);
 

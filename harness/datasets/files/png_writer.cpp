@@ -19,7 +19,7 @@ namespace vinebench::harness {
 namespace {
 
 constexpr int kLevel = 1;               // libdeflate's fastest that compresses
-constexpr std::uint8_t kSubFilter = 1;  // each byte less that of the pixel to the left
+constexpr std::uint8_t kSubFilter = 1;  // difference to the left pixel
 constexpr std::uint8_t kGrey = 0;       // colour types of PNG
 constexpr std::uint8_t kRgb = 2;
 constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
@@ -58,8 +58,8 @@ void copy_row(const std::uint8_t* from, std::size_t size, bool wide, std::uint8_
   }
 }
 
-/// Each row behind the number of its filter; good until the thread's next call. Memory of a whole
-/// image is kept, since fresh pages cost as much as the filter.
+/// The filtered rows, each after its filter number; valid until the thread's next call. The buffer
+/// is reused, because fresh pages cost as much as the filter.
 const std::vector<std::uint8_t>& filtered(const cv::Mat& image) {
   const std::size_t pixel = image.elemSize();
   const std::size_t row = static_cast<std::size_t>(image.cols) * pixel;
@@ -81,7 +81,7 @@ const std::vector<std::uint8_t>& filtered(const cv::Mat& image) {
   return bytes;
 }
 
-/// Likewise good until the thread's next call.
+/// Also valid until the thread's next call.
 std::string_view compressed(const std::vector<std::uint8_t>& bytes) {
   const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
       libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
@@ -96,7 +96,7 @@ std::string_view compressed(const std::vector<std::uint8_t>& bytes) {
 }  // namespace
 
 std::string encode_png(const cv::Mat& image) {
-  static_assert(std::endian::native == std::endian::little, "rows of 16 bits are turned round");
+  static_assert(std::endian::native == std::endian::little, "rows of 16 bits are byte-swapped");
   const bool known = (image.depth() == CV_8U || image.depth() == CV_16U) &&
                      (image.channels() == 1 || image.channels() == 3);
   if (!known || image.empty()) fail("PNG: expected an image of 8 or 16 bits, grey or RGB");

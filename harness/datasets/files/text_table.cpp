@@ -21,7 +21,7 @@ std::string trimmed(const std::string& text) {
   return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
 }
 
-/// At commas where there are any, else at blanks. A comma at the line's end closes no field.
+/// Splits at commas if there are any, otherwise at blanks. A trailing comma adds no field.
 std::vector<std::string> split_fields(const std::string& line) {
   std::vector<std::string> fields;
   std::istringstream in(line);

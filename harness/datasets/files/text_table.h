@@ -10,7 +10,7 @@
 
 namespace vinebench::harness {
 
-/// One line of a text file of columns, with what it takes to say where a fault is.
+/// One line of a text file of columns, with its position for error messages.
 struct TableRow {
   std::filesystem::path file;
   int line = 0;
@@ -23,14 +23,14 @@ struct TableRow {
   Stamp nanoseconds(std::size_t column) const;
 };
 
-/// Reads a file of columns separated by commas, blanks or tabs. Empty lines and lines that begin
-/// with '#' are left out; so are carriage returns. Throws Error when the file cannot be read.
+/// Reads a file of columns separated by commas, blanks or tabs. Empty lines, lines that begin with
+/// '#' and carriage returns are ignored. Throws Error if the file cannot be read.
 std::vector<TableRow> read_rows(const std::filesystem::path& file);
 
-/// The same, without a first line that begins with no number: a header.
+/// The same, without a header: a first line that does not begin with a number.
 std::vector<TableRow> read_table(const std::filesystem::path& file);
 
-/// Whether the text is a finite number, all of it.
+/// Whether the whole text is a finite number.
 bool is_number(const std::string& text);
 
 }  // namespace vinebench::harness

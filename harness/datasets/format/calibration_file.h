@@ -10,9 +10,9 @@
 
 namespace vinebench::harness {
 
-/// Cameras as they truly are, which labels agree with: `cameras`, a list of name, size, intrinsics,
+/// The true cameras, consistent with the labels: `cameras`, a list of name, size, intrinsics,
 /// position (m) and rotation (qx qy qz qw) in the body, and `stereo_pairs` as in a rig. Reading
-/// what was written gives the same bits.
+/// restores the same bits.
 std::string format_calibration(const Rig& rig);
 
 /// Throws Error that names file, line and key.

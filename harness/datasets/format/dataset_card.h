@@ -11,7 +11,7 @@
 
 namespace vinebench::harness {
 
-/// What dataset.yaml says of a data set: of one sequence, or of a folder of several.
+/// dataset.yaml: the description of one sequence, or of a folder of several.
 struct DatasetCard {
   static constexpr const char* kName = "dataset.yaml";
 
@@ -21,15 +21,15 @@ struct DatasetCard {
   std::string scenario;
   std::string world;
   std::int64_t seed = 0;
-  std::vector<std::string> sequences;  ///< folders below this one, each with a card of its own
-  bool complete = false;               ///< false while it is recorded, and after an interruption
+  std::vector<std::string> sequences;  ///< folders below this one, each with its own dataset.yaml
+  bool complete = false;               ///< false during the recording, and after an interruption
   std::vector<std::string> formats;
   std::vector<std::string> cameras;
   std::int64_t frames = 0;
   std::int64_t planned_frames = 0;
   std::int64_t files = 0;       ///< in the list of files
   std::string files_xxh128;     ///< hash of that list, which has the hash of every file
-  std::string settings_xxh128;  ///< hash of scenario.resolved.yaml and of what was asked for
+  std::string settings_xxh128;  ///< hash of scenario.resolved.yaml and of the options
   std::string units = "m, s, rad, px; times of files in ns since the scenario's start";
   std::string frames_and_axes =
       "world: x east, y north, z up. body: x ahead, y left, z up. cameras: x right, y down, z "

@@ -22,25 +22,24 @@ struct ImuNoise {
   Axes accelerometer;
 };
 
-/// What a recording keeps beside the frames.
+/// The metadata of a recording.
 struct RecordingNotes {
-  RigConfig rig;  ///< as the SLAM system is told of it
+  RigConfig rig;  ///< the nominal rig
   std::vector<RegisteredTag> tags;
   slam::SlamConfig slam;
   double imu_rate_hz = 200;
   ImuNoise imu;
-  std::string scenario;  ///< its name
-  std::string world;     ///< its name
+  std::string scenario;  ///< name
+  std::string world;     ///< name
   std::int64_t seed = 0;
   std::string settings;              ///< the scenario with all defaults resolved, YAML
-  std::vector<WorldTag> world_tags;  ///< what Truth::visible_tags counts
-  /// The cameras that take the images, in the rig's order: they differ from it by the calibration
-  /// error.
+  std::vector<WorldTag> world_tags;  ///< indexed by Truth::visible_tags
+  /// The true cameras, in the rig's order: they differ from it by the calibration error.
   std::vector<RigCamera> true_cameras;
 };
 
-/// The notes with these cameras alone, in the rig's order, the pairs both of whose cameras are
-/// left, and tag cameras. All where no name is given. Throws Error for a name that the rig has not.
+/// The metadata with these cameras only, in the rig's order, with the remaining complete pairs and
+/// tag cameras. All if no name is given. Throws Error for a name that the rig does not have.
 RecordingNotes with_cameras(RecordingNotes notes, const std::vector<std::string>& names);
 
 }  // namespace vinebench::harness

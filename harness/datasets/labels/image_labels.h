@@ -13,19 +13,19 @@
 
 namespace vinebench::harness {
 
-/// One thing of an image, or what of a category a plant has there.
+/// One thing in an image, or a plant's part of one category.
 struct ThingLabel {
   Category category = Category::kBunch;
-  std::int32_t number = 0;   ///< of RenderedImage::instances; of a plant its whole's
-  std::int32_t segment = 0;  ///< its pixels' value in the panoptic image; 0 of a whole plant
+  std::int32_t number = 0;   ///< of RenderedImage::instances; for a plant, of the whole
+  std::int32_t segment = 0;  ///< its pixels' value in the panoptic image; 0 for a whole plant
   Runs mask;
-  /// Share of its outline within the image that it shows itself in; absent for parts of plants
-  /// that have no outline of their own (trunk, cane, leaf) and for the rover.
+  /// Visible share of its surface points within the image; absent for parts of plants without their
+  /// own points (trunk, cane, leaf) and for the rover.
   std::optional<double> visibility;
   std::optional<double> truncation;  ///< share of it outside the image; absent likewise
 };
 
-/// Pixels of no countable thing.
+/// Pixels of uncountable categories.
 struct StuffLabel {
   Category category = Category::kSky;
   std::int32_t segment = 0;
@@ -38,9 +38,10 @@ struct ImageLabels {
   cv::Mat segments;                ///< CV_32SC1: panoptic ids; every pixel has one
 };
 
-/// Takes an image's labels and instances apart. Visibility and truncation are measured at points
-/// of the thing's surface (SceneIndex::points): the share of those that fall outside the image,
-/// and of the others the share whose pixel shows the thing. In wind they are those of still air.
+/// Splits an image's labels and instances into things and stuff. Truncation and visibility are
+/// measured at points of the thing's surface (SceneIndex::points): the share of points outside the
+/// image, and of the others the share whose pixel shows the thing. In wind, the points of still air
+/// are used.
 ImageLabels label_things(const TruthView& view, const SceneIndex& scene);
 
 }  // namespace vinebench::harness

@@ -14,11 +14,11 @@ void add_events(RecordedFrame& frame, const SourceEvent& event, int count) {
 }
 
 void note_faults(const ImageList& list, RecordedFrame& first) {
-  add_events(first, {"stamp_out_of_order", list.camera, "put in its place"}, list.out_of_order);
-  add_events(first, {"stamp_repeated", list.camera, "left out"}, list.repeated);
+  add_events(first, {"stamp_out_of_order", list.camera, "sorted"}, list.out_of_order);
+  add_events(first, {"stamp_repeated", list.camera, "dropped"}, list.repeated);
 }
 
-/// Frames that the first camera lacks are told at the frame after them.
+/// Frames missing in the first camera are reported at the frame after them.
 void note_gaps(Stamp period, const std::string& camera, std::vector<RecordedFrame>& frames) {
   for (std::size_t i = 1; i < frames.size() && period > 0; ++i) {
     const Stamp step = frames[i].stamp - frames[i - 1].stamp;
@@ -40,7 +40,7 @@ std::size_t nearest_frame(const std::vector<RecordedFrame>& frames, Stamp stamp)
   return stamp - frames[index - 1].stamp <= frames[index].stamp - stamp ? index - 1 : index;
 }
 
-/// Each frame keeps the nearest of the images that it is nearest to.
+/// Each image goes to its nearest frame; each frame keeps the nearest of its images.
 void associate(const ImageList& list, std::size_t camera, Stamp half,
                std::vector<RecordedFrame>& frames) {
   std::vector<Stamp> off(frames.size(), half + 1);

@@ -11,7 +11,7 @@ cv::Mat read_grey(const std::filesystem::path& file) {
   cv::Mat image;
   try {
     image = cv::imread(file.string(), cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {  // an absurd size in a damaged header
+  } catch (const cv::Exception&) {  // an invalid size in a damaged header
     return {};
   }
   if (image.empty() || image.channels() == 1) return image;

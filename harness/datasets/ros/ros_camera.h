@@ -10,7 +10,7 @@
 
 namespace vinebench::harness {
 
-/// How ROS knows a camera of a rig.
+/// A camera of the rig in ROS.
 struct RosCamera {
   std::string frame;  ///< "<name>_optical_frame"
   std::string
@@ -19,8 +19,8 @@ struct RosCamera {
   RosCameraInfo calibration;
 };
 
-/// Of a pair that is not rectified, R and P are of the view that the SLAM core rectifies it to.
-/// Throws Error for a name that ROS cannot have in a topic, and a pair that cannot be rectified.
+/// For a pair that is not rectified, R and P are those of the SLAM core's rectified view. Throws
+/// Error for a name that is invalid in a ROS topic, and a pair that cannot be rectified.
 std::vector<RosCamera> ros_cameras(const Rig& rig);
 
 }  // namespace vinebench::harness

@@ -20,7 +20,7 @@ struct Visible {
   auto batch_key() const { return std::tie(shell, model, level, order, shaded); }
 };
 
-/// Shells grow with the distance: few batches far away, a good order nearby. Small things hide
+/// Shells grow with the distance: few batches far away, a good order nearby. Small objects occlude
 /// little, so their shells are wide.
 int shell_of(double distance, bool ordered) {
   const double octave = std::log2(1 + distance);
@@ -34,7 +34,7 @@ int level_of(const GpuModel& model, double distance) {
   return -1;
 }
 
-/// What a camera may see of instances.
+/// Culling of instances for a camera.
 class View {
  public:
   View(const GpuScene& scene, const PinholeCamera& camera, const Pose& T_world_cam,
@@ -46,8 +46,8 @@ class View {
         nearer_(kLevelFocalLength / (lod_scale * std::max(camera.fx, camera.fy))),
         shadow_(shadow) {}
 
-  /// Adds the rover where it may be in view: closely looked at, as its own cameras stand within its
-  /// bounds.
+  /// Adds the rover if it may be in view, with a precise test, because its own cameras are within
+  /// its bounds.
   void add_rover(const Pose& T_world_rover) {
     const Eigen::Affine3d cam_from_rover(cam_from_world_ * T_world_rover.matrix());
     std::vector<Eigen::Vector3d> corners;
@@ -60,7 +60,7 @@ class View {
     add(place(scene_.rover_model, model, T_world_rover, 1), scene_.instances.size());
   }
 
-  /// Adds the instance where it may be in view.
+  /// Adds the instance if it may be in view.
   void add(const GpuInstance& instance, std::size_t index) {
     const GpuModel& model = scene_.models[static_cast<std::size_t>(instance.model)];
     const Eigen::Vector3d centre = (cam_from_world_ * instance.centre.homogeneous()).head<3>();
@@ -104,7 +104,7 @@ class View {
   Frustum frustum_;
   Eigen::Vector3d camera_;
   Eigen::Matrix4d cam_from_world_;
-  double nearer_;  ///< distances of levels are for kLevelFocalLength
+  double nearer_;  ///< scales distances of levels from kLevelFocalLength
   const RoverShadow* shadow_;
   std::vector<Visible> visible_;
 };

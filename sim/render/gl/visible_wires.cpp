@@ -8,7 +8,7 @@ namespace vinebench::sim {
 
 std::vector<VisibleWires> visible_wires(const GpuScene& scene, const PinholeCamera& camera,
                                         const Pose& T_world_cam) {
-  // A wire takes this share of a pixel's width at least; of less light not a grey level is left.
+  // Minimum width of a wire in the image; thinner ones change less than a grey level.
   constexpr double kThinnest = 0.02;  // px
   const Frustum frustum(camera);
   const Pose T_cam_world = T_world_cam.inverse();

@@ -12,17 +12,17 @@ namespace vinebench::sim {
 namespace {
 
 constexpr int kLargestView = 8192;  // pixels a side
-constexpr int kMargin = 2;          // pixels around what the lens sees
+constexpr int kMargin = 2;          // pixels around the visible area
 constexpr double kMostStretch = 1.5;
 
-/// The point of the plane z = 1 that each pixel sees, CV_64FC2.
+/// The undistorted point of the plane z = 1 for each pixel, CV_64FC2.
 cv::Mat seen_points(const PinholeCamera& camera) {
   cv::Mat points(camera.height, camera.width, CV_64FC2);
   for (int y = 0; y < camera.height; ++y) {
     auto* row = points.ptr<cv::Vec2d>(y);
     for (int x = 0; x < camera.width; ++x) {
       const Eigen::Vector3d ray = camera.unproject({x, y});
-      // Not written as error > 1e-6, which a distance that is no number would pass.
+      // Written so that NaN is an error.
       if (!((camera.project(ray) - Eigen::Vector2d(x, y)).norm() < 1e-6)) {
         fail(
             "lens: the distortion ({}, {}, {}, {}) folds over at pixel ({}, {}), expected one that "
@@ -36,7 +36,7 @@ cv::Mat seen_points(const PinholeCamera& camera) {
   return points;
 }
 
-/// The most that the lens enlarges any detail against a pinhole of its focal length.
+/// Maximum magnification of the lens against a pinhole of its focal length.
 double magnification(const PinholeCamera& camera, const cv::Mat& points) {
   double most = 1;
   for (int y = 1; y < points.rows; y += 7) {
@@ -64,7 +64,7 @@ PinholeCamera covering_view(const PinholeCamera& camera, const cv::Mat& points) 
   const double width = std::ceil(view.fx * (x_max - x_min)) + 1 + 2 * kMargin;
   const double height = std::ceil(view.fy * (y_max - y_min)) + 1 + 2 * kMargin;
   if (!(width <= kLargestView && height <= kLargestView)) {
-    fail("lens: the distortion asks for a view of {} x {} pixels, expected at most {} a side",
+    fail("lens: the distortion requires a view of {} x {} pixels, expected at most {} a side",
          width, height, kLargestView);
   }
   view.width = static_cast<int>(width);
@@ -74,7 +74,7 @@ PinholeCamera covering_view(const PinholeCamera& camera, const cv::Mat& points) 
   return view;
 }
 
-/// Where each pixel is in the view, CV_32FC2.
+/// Position of each pixel in the view, CV_32FC2.
 cv::Mat places_in(const PinholeCamera& view, const cv::Mat& points) {
   cv::Mat places(points.size(), CV_32FC2);
   for (int y = 0; y < points.rows; ++y) {
@@ -87,7 +87,7 @@ cv::Mat places_in(const PinholeCamera& view, const cv::Mat& points) {
   return places;
 }
 
-/// A view's rows from `top`, as a camera of its own.
+/// A view's rows from `top`, as a separate camera.
 PinholeCamera crop_rows(PinholeCamera view, int top, int rows) {
   view.cy -= top;
   view.height = rows;
@@ -114,7 +114,7 @@ void add_map(LensBand& band, const PinholeCamera& whole, const cv::Mat& places) 
 cv::Mat LensBand::resample(const cv::Mat& image, bool nearest) const {
   if (map.empty() || image.empty()) return image;
   cv::Mat rows_seen;
-  // Given the fractions too, OpenCV 4.6 takes the pixel that is not the nearest.
+  // With fractions, OpenCV 4.6 does not select the nearest pixel.
   if (nearest) {
     cv::remap(image, rows_seen, map_nearest, {}, cv::INTER_NEAREST, cv::BORDER_REPLICATE);
   } else {

@@ -32,7 +32,7 @@ TEST(CameraTest, DistortionIsBrownConrady) {
 }
 
 TEST(CameraTest, UnprojectUndoesProjectAllOverTheImage) {
-  // Without distortion, a mild lens, and a barrel such as a wide lens has (monotonic to the
+  // No distortion, mild distortion, and the barrel distortion of a wide lens (monotonic up to the
   // corner, where r2 = 2.9).
   for (const std::array<double, 4>& distortion :
        {std::array<double, 4>{}, {-0.02, 0.001, 1e-3, -5e-4}, {-0.06, 0.004, 0, 0}}) {

@@ -20,7 +20,7 @@ Pose pose_b() {
 }
 
 TEST(PoseTest, TakesAPointFromItsSecondFrameToItsFirst) {
-  // b stands at (1, 2, 3) of a, its x axis along a's y axis.
+  // b is at (1, 2, 3) in a, its x axis along a's y axis.
   const Pose T_a_b{exp_so3({0, 0, kPi / 2}), {1, 2, 3}};
   const Eigen::Vector3d p_a = T_a_b * Eigen::Vector3d(5, 0, 0);
   EXPECT_LT((p_a - Eigen::Vector3d(1, 7, 3)).norm(), kRounding);

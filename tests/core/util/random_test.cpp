@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kDraws = 200000;
 
-/// Share of equal bits over many draws; 1/2 for streams that have nothing to do with each other.
+/// Share of equal bits over many draws; 1/2 for independent streams.
 double agreement(const RandomStream& a, const RandomStream& b) {
   constexpr std::uint64_t kWords = 2000;
   int different = 0;

@@ -51,7 +51,7 @@ TEST_P(WorkerPoolTest, RethrowsTheExceptionOfTheLowestItemAfterAllAreDone) {
         testing::ThrowsMessage<Error>("item 3"));
     EXPECT_EQ(done, 20);
   }
-  // And is as good as new.
+  // The pool remains usable.
   int calls = 0;
   pool.for_each(1, [&](std::size_t) { ++calls; });
   EXPECT_EQ(calls, 1);

@@ -29,7 +29,7 @@ void expect_pose(const Pose& pose, const Eigen::Vector3d& at, double yaw) {
 }
 
 TEST(AisleRouteTest, DrivesTheMiddleAisleLookingAheadAndBackByTurns) {
-  // Three rows: the aisle of rows 0 and 1. Two places at a quarter and three quarters of 4 m.
+  // Three rows: the aisle of rows 0 and 1. Two poses at a quarter and three quarters of 4 m.
   sim::WorldConfig world;
   world.rows = {{{0, -1}, {4, -1}}, {{0, 1}, {4, 1}}, {{0, 3}, {4, 3}}};
   const std::vector<Pose> route = aisle_route(world, 2);
@@ -39,7 +39,7 @@ TEST(AisleRouteTest, DrivesTheMiddleAisleLookingAheadAndBackByTurns) {
 }
 
 TEST(AisleRouteTest, ExpandsABlock) {
-  // Rows to the north at x = 0, -2, -4, -6 (each to the left of the one before): the middle aisle
+  // Rows to the north at x = 0, -2, -4, -6 (each to the left of the previous one): the middle aisle
   // is at x = -3.
   sim::WorldConfig world;
   world.block = sim::WorldConfig::Block{4, 10, 2, 90, {0, 0}};

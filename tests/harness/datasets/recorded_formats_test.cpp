@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What is recorded, read as strictly as other people's readers do.
+// Recorded formats, read as strictly as by other tools.
 
 #include <gmock/gmock.h>
 #include <yaml-cpp/yaml.h>
@@ -64,7 +64,7 @@ TEST_F(RecordedFormatsTest, Euroc) {
   const auto imu = lines_of(mav / "imu0/data.csv");
   EXPECT_EQ(numbers_of(imu.at(1), ',').size(), 7u);
   EXPECT_EQ(imu.at(0).substr(0, 43), "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_");
-  // 17 columns, w first: of a rover that hardly turns w is the one near 1. TUM has it last.
+  // 17 columns, w first: of a rover that hardly turns, w is near 1. TUM has it last.
   const auto truth = lines_of(mav / "state_groundtruth_estimate0/data.csv");
   const auto tum = lines_of(out() / "tum/body.txt");
   ASSERT_EQ(truth.size(), kFrames + 1);
@@ -110,7 +110,7 @@ TEST_F(RecordedFormatsTest, SettingsOfOtherSystems) {
   const cv::FileStorage raw((settings / "orbslam3_raw.yaml").string(), cv::FileStorage::READ);
   cv::Mat T_c1_c2;
   raw["Stereo.T_c1_c2"] >> T_c1_c2;
-  EXPECT_NEAR(T_c1_c2.at<float>(0, 3), 0.12f, 1e-6f);  // the right camera stands to the right
+  EXPECT_NEAR(T_c1_c2.at<float>(0, 3), 0.12f, 1e-6f);  // the right camera is on the right
   const auto basalt = nlohmann::json::parse(read_file(settings / "basalt_calib.json"))["value0"];
   EXPECT_EQ(basalt["T_imu_cam"].size(), 3u);
   EXPECT_EQ(basalt["calib_gyro_bias"].size(), 12u);
@@ -216,7 +216,7 @@ TEST_F(RecordedFormatsTest, AReplayGivesTheFramesOfTheRun) {
   EXPECT_NEAR(rig.baseline(rig.stereo_pairs[0]), test::kBaseline, 1e-15);
 }
 
-/// The true path by the readings alone: rates and accelerations summed up from the start.
+/// The path from the readings only: rates and accelerations integrated from the start.
 TEST_F(RecordedFormatsTest, InertialReadingsIntegrateToTheTrajectory) {
   request_.overrides = {{"sensors.inertial",
                          "{gyroscope: {noise_density: 0, bias_random_walk: 0, "
@@ -238,7 +238,7 @@ TEST_F(RecordedFormatsTest, InertialReadingsIntegrateToTheTrajectory) {
     v += a * dt;
   }
   const Pose error = truth.back().pose.inverse() * T;
-  // A metre of way in 2 s, sampled at 200 Hz: 5 ms of an acceleration of 2 m/s^2 at each change of
+  // A path of 1 m in 2 s, sampled at 200 Hz: 5 ms of an acceleration of 2 m/s^2 at each change of
   // it is 10 mm/s, over two seconds 20 mm.
   EXPECT_GT((truth.back().pose.translation - truth.front().pose.translation).norm(), 0.4);
   EXPECT_LT(error.translation.norm(), 0.04);

@@ -80,11 +80,12 @@ TEST_F(RandomisationTest, FaultsNameFileLineAndKey) {
   };
   EXPECT_THAT(error("  - {key: a}"), HasSubstr("draws.yaml:2: draws.0.key: expected exactly one"));
   EXPECT_THAT(error("  - {key: a, uniform: [4, 2]}"), HasSubstr("draws.0.uniform"));
-  EXPECT_THAT(error("  - {key: a, uniform: [1, 2], max: 3}"), HasSubstr("go with normal alone"));
+  EXPECT_THAT(error("  - {key: a, uniform: [1, 2], max: 3}"),
+              HasSubstr("min and max require normal"));
   EXPECT_THAT(error("  - {key: a, choice: [1, 2], weights: [1]}"),
               HasSubstr("one for each choice"));
   EXPECT_THAT(error("  - {key: a, integer: [1, 2]}\n  - {key: a, integer: [1, 2]}"),
-              HasSubstr("stands twice"));
+              HasSubstr("duplicate key"));
   EXPECT_THAT(error("  - {kee: a, integer: [1, 2]}"), HasSubstr("kee: unknown key"));
   EXPECT_THAT(error_of([&] { draw_overrides(folder_ / "none.yaml", 1); }), HasSubstr("none.yaml"));
 }

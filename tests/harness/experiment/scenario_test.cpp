@@ -100,7 +100,7 @@ slam: {cameras: front}
   EXPECT_EQ(scenario.name, "derived");
   EXPECT_EQ(scenario.seed, 7);
   EXPECT_EQ(scenario.simulation.sensors.wheels.counts_per_turn, 99);
-  EXPECT_EQ(scenario.simulation.world.name, "small");  // joined with the base's world
+  EXPECT_EQ(scenario.simulation.world.name, "small");  // merged with the base's world
   EXPECT_EQ(scenario.simulation.world.sun.elevation_deg, 20);
   EXPECT_EQ(scenario.simulation.world.boxes.size(), 1u);  // the world's own; lists are replaced
   EXPECT_EQ(scenario.simulation.route.waypoints.size(), 1u);

@@ -72,7 +72,7 @@ TEST_F(FrameStreamTest, TruthThatWasNotAskedForIsAnError) {
 TEST_F(FrameStreamTest, BadRequestsAreOneError) {
   StreamRequest request = stream_request();
   request.truth = {"colour"};
-  EXPECT_THAT(error_of([&] { FrameStream{request}; }), HasSubstr("'colour' is none"));
+  EXPECT_THAT(error_of([&] { FrameStream{request}; }), HasSubstr("unknown 'colour'"));
   request = stream_request();
   request.cameras = {"top"};
   EXPECT_THAT(error_of([&] { FrameStream{request}; }), HasSubstr("no camera named 'top'"));

@@ -58,7 +58,7 @@ TEST_F(RecordTest, AnInterruptedRecordingIsReadableAndGoesOn) {
   EXPECT_THAT(error_of([&] { record({"euroc"}); }), HasSubstr("is not empty"));
   request_.resume = true;
   EXPECT_THAT(error_of([&] { record({"euroc"}); }), HasSubstr("with other settings"));
-  EXPECT_EQ(open_recording(request_.out).frames.size(), 3u);  // which was left as it was
+  EXPECT_EQ(open_recording(request_.out).frames.size(), 3u);  // unchanged
   EXPECT_EQ(record({"euroc", "coco", "depth", "semantic"}).frames, kFrames);
   const std::string resumed = manifest();
   EXPECT_EQ(record({"euroc", "coco", "depth", "semantic"}).skipped, 1);
@@ -70,7 +70,7 @@ TEST_F(RecordTest, AnInterruptedRecordingIsReadableAndGoesOn) {
 
 TEST_F(RecordTest, WhatAnAbruptEndLeavesIsReadable) {
   record({"euroc", "depth"}, 3);
-  // As the power goes: the card of the beginning, half a line, half an image.
+  // As after a power failure: the initial dataset.yaml, half a line, half an image.
   DatasetCard card = read_card(request_.out);
   card.frames = 0;
   card.files_xxh128 = "";

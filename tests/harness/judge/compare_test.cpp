@@ -29,8 +29,8 @@ MetricChange ate_change(const std::vector<double>& before, const std::vector<dou
   return compare_metrics(pairs).front();
 }
 
-// Differences 1, 2, 3 mm: mean 2, standard deviation 1, t of two degrees 4.303:
-// 4.303 / sqrt(3) = 2.484, so that zero is within.
+// Differences 1, 2, 3 mm: mean 2, standard deviation 1, t of two degrees 4.303: 4.303 / sqrt(3) =
+// 2.484, so the interval contains zero.
 TEST(CompareTest, AnIntervalThatHoldsZeroIsTheSame) {
   const MetricChange change = ate_change({0.010, 0.011, 0.012}, {0.011, 0.013, 0.015});
   EXPECT_EQ(change.figure.title, "ATE, mm");
@@ -41,7 +41,7 @@ TEST(CompareTest, AnIntervalThatHoldsZeroIsTheSame) {
   EXPECT_EQ(change.change, Change::kSame);
 }
 
-// Differences 2, 2.1, 1.9 mm: standard deviation 0.1, half width 0.248: zero is far out.
+// Differences 2, 2.1, 1.9 mm: standard deviation 0.1, half width 0.248: the interval excludes zero.
 TEST(CompareTest, PairsTakeOutWhatSeedsHaveInCommon) {
   EXPECT_EQ(ate_change({0.01, 0.05, 0.2}, {0.012, 0.0521, 0.2019}).change, Change::kWorse);
   EXPECT_EQ(ate_change({0.012, 0.0521, 0.2019}, {0.01, 0.05, 0.2}).change, Change::kBetter);
@@ -101,10 +101,10 @@ TEST(CompareTest, RunsArePairedByScenarioAndSeed) {
               HasSubstr("empty: has no run"));
   write("b/again", run(2, 0.02));
   EXPECT_THAT(test::error_of([&] { pair_runs(folder / "a", folder / "b"); }),
-              HasSubstr("row, seed 2 is there twice"));
+              HasSubstr("row, seed 2 is duplicate"));
   folder.write("b/again/metrics.json", "{");
   EXPECT_THAT(test::error_of([&] { pair_runs(folder / "a", folder / "b"); }),
-              HasSubstr("is no metrics.json of a run"));
+              HasSubstr("is not a metrics.json of a run"));
 }
 
 // Reference values of the distribution's 97.5 % quantile: 2.0395 (31), 1.9840 (100), 1.9600 (inf).

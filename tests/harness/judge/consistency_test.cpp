@@ -9,8 +9,8 @@
 namespace vinebench::harness {
 namespace {
 
-/// Poses off by `offset` along the body's x axis, said to be known to a centimetre and a
-/// hundredth of a radian; the first frame saw the tag.
+/// Poses off by `offset` along the body's x axis, with standard deviations of 1 cm and 0.01 rad;
+/// the first frame saw the tag.
 RunRecord record_of(const std::vector<double>& offsets) {
   RunRecord record;
   record.rig = fakes::rig();

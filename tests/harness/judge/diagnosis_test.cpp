@@ -15,8 +15,8 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// Twenty seconds of a straight way east at 0.5 m/s, 10 frames a second, seen by a pair and a side
-/// camera in clear view, with a tag in view from 5 s to 6 s. Everything is well.
+/// Twenty seconds straight east at 0.5 m/s, 10 frames a second, with a pair and a side camera in
+/// clear view and a tag in view from 5 s to 6 s. No degradation.
 class DiagnosisTest : public testing::Test {
  protected:
   DiagnosisTest() {
@@ -50,7 +50,7 @@ class DiagnosisTest : public testing::Test {
   void meanwhile(const std::function<void(Tick&)>& change) {
     for (std::size_t i = 100; i <= 120; ++i) change(record_.ticks[i]);
   }
-  /// From 10 s on the estimate slides off to the left, by 0.1 m in the end, at 12 s.
+  /// From 10 s on the estimate drifts to the left, up to 0.1 m at 12 s.
   void slide() {
     for (std::size_t i = 100; i < record_.ticks.size(); ++i) {
       const double share = std::min(1.0, static_cast<double>(i - 100) / 20);
@@ -84,14 +84,14 @@ TEST_F(DiagnosisTest, WeakTrackingBehindACartonIsOcclusion) {
   meanwhile([](Tick& tick) {
     weaken(tick);
     tick.truth.box_share = {0.9, 0.9, 0};
-    tick.estimate.cameras[0].features = 20;  // no lack of texture: a carton is in the way
+    tick.estimate.cameras[0].features = 20;  // not a lack of texture: a carton occludes it
   });
   const auto list = found();
   ASSERT_EQ(list.size(), 1u);
   EXPECT_EQ(list[0].cause, Cause::kOcclusion);
   EXPECT_EQ(list[0].first, 100u);
   EXPECT_EQ(list[0].last, 120u);
-  EXPECT_THAT(list[0].cameras, ElementsAre(0));  // a pair's left camera stands for both
+  EXPECT_THAT(list[0].cameras, ElementsAre(0));  // a pair's left camera represents both
   EXPECT_EQ(list[0].share, 1);
   EXPECT_EQ(list[0].inliers, 20);
   EXPECT_EQ(list[0].usual_inliers, 180);
@@ -115,7 +115,7 @@ TEST_F(DiagnosisTest, LosingTrackIsSuffering) {
 TEST_F(DiagnosisTest, FewFeaturesInAClearViewAreLittleTexture) {
   meanwhile([](Tick& tick) {
     weaken(tick);
-    tick.estimate.cameras[0].features = 150;  // of usually 500
+    tick.estimate.cameras[0].features = 150;  // the median is 500
   });
   EXPECT_THAT(causes(), ElementsAre(Cause::kLittleTexture));
 }
@@ -137,7 +137,7 @@ TEST_F(DiagnosisTest, AnErrorThatGrowsFastIsFoundWithoutWeakTracking) {
   ASSERT_EQ(list.size(), 1u);
   EXPECT_EQ(list[0].cause, Cause::kUnexplained);
   // Seconds that end from 10.2 s (10 mm of growth; 7.5 mm are 1.5 % of 0.5 m) to 12.8 s are fast;
-  // they begin one earlier.
+  // they begin one second earlier.
   EXPECT_NEAR(static_cast<double>(list[0].first), 93, 1);
   EXPECT_NEAR(static_cast<double>(list[0].last), 128, 1);
   EXPECT_NEAR(list[0].error_growth, 0.1, 1e-9);
@@ -176,12 +176,12 @@ TEST_F(DiagnosisTest, ASteadyDriftOfTheWholeRunIsSuffering) {
   ASSERT_EQ(list.size(), 1u);
   EXPECT_EQ(list[0].cause, Cause::kCalibrationError);
   EXPECT_NEAR(list[0].error_growth, 0.2, 0.01);  // m, 2 % of 10 m
-  // Half a percent is 2.5 mm a second: the ordinary drift of a good system.
+  // Half a percent is 2.5 mm a second: the normal drift of a good system.
   for (Tick& tick : record_.ticks) tick.estimate.T_map_body->translation *= 1.005 / 1.02;
   EXPECT_TRUE(found().empty());
 }
 
-// Plants stand 1 m apart along the row, which leads east: a jump ahead by 2.05 m is two of them.
+// Plants are 1 m apart along the row, which leads east: a jump forward by 2.05 m is two spacings.
 TEST_F(DiagnosisTest, AJumpByPlantsIsARepeatedPattern) {
   const auto jump = [&](double x, double y) {
     for (std::size_t i = 110; i < record_.ticks.size(); ++i) {

@@ -66,9 +66,9 @@ TEST(EvaluateTest, ScaleIsKept) {
   EXPECT_NEAR(evaluation->origin.rmse, std::sqrt((0.09 + 0.36) / 3), kRounding);
 }
 
-// A square whose estimate is turned by 10 degrees about its first corner. SE(3) undoes all of it;
-// the first pose alone carries the same turn, so the origin alignment undoes it too. With the first
-// pose's rotation kept true, a corner at distance d is off by 2 d sin(5 deg).
+// A square whose estimate is rotated by 10 degrees about its first corner. SE(3) alignment removes
+// all of it; the first pose has the same rotation, so origin alignment removes it too. With the
+// first pose's rotation kept true, a corner at distance d is off by 2 d sin(5 deg).
 TEST(EvaluateTest, OriginAlignmentTrustsTheFirstPose) {
   const Trajectory truth = through({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
   const double turn = 10 * std::numbers::pi / 180;
@@ -81,7 +81,7 @@ TEST(EvaluateTest, OriginAlignmentTrustsTheFirstPose) {
   EXPECT_NEAR(evaluation->origin.rmse, chord * std::sqrt((0.0 + 1 + 2 + 1) / 4), kRounding);
 }
 
-// Mirrored points have no rotation onto each other: the alignment must stay a rotation.
+// No rotation aligns mirrored points: the alignment must remain a rotation.
 TEST(EvaluateTest, AlignmentIsNeverAMirror) {
   const Trajectory truth = through({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}});
   const Trajectory mirror = through({{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}});

@@ -67,8 +67,8 @@ TEST(LoopJudgeTest, AReturnWithoutAClosureIsMissed) {
   EXPECT_EQ(verdict.missed[0].last, 200u);
 }
 
-// The truth has the tag in view at the beginning and from 18 s on; a detector may read it from afar
-// before that. A closure while it was still in view the first time is none with its return.
+// The truth has the tag in view at the beginning and from 18 s on; a detector may find it at a
+// distance before that. A closure during the first view does not count for its return.
 TEST(LoopJudgeTest, AClosureSinceTheTagWasLeftBelongsToItsReturn) {
   const auto missed_with = [](double at) {
     return verdict_of(at, fakes::closure(fakes::seconds(0.5), fakes::seconds(at))).missed.size();
@@ -84,8 +84,8 @@ TEST(LoopJudgeTest, AnotherTagsClosureDoesNotCount) {
   EXPECT_EQ(verdict_of(19, other).missed.size(), 1u);
 }
 
-// The way back comes past one tag from 16 to 18 s, where the loop is closed, and past another after
-// it. Where both are registered, the second tells nothing new; a tag that was mapped does.
+// The way back passes one tag from 16 to 18 s, where the loop is closed, and then another one. If
+// both are registered, the second adds no information; an unregistered tag does.
 TEST(LoopJudgeTest, ARegisteredTagSoonAfterAnotherIsNoReturnOfItsOwn) {
   RunRecord record = record_of([](Estimate& estimate) {
     if (estimate.stamp != fakes::seconds(17)) return;
@@ -129,7 +129,7 @@ TEST(LoopJudgeTest, AGlimpseNeedNotBeNoticed) {
   EXPECT_TRUE(judge_loop_closures(record).missed.empty());
 }
 
-// A rover that stands still while something hides its tag has closed no loop.
+// A stationary rover whose tag is hidden for a while has closed no loop.
 TEST(LoopJudgeTest, AVisitNeedsAWayWithoutTheTag) {
   RunRecord record = record_of({});
   for (Tick& tick : record.ticks) tick.truth.T_world_body = fakes::circle(0);

@@ -83,7 +83,7 @@ TEST(ResultsTest, InitialisingIsNotLost) {
 }
 
 // The estimate's circle is 1 % larger. Aligned, every pose is 0.01 m off (a closed circle's centre
-// of mass stays put but for the doubled first point).
+// of mass does not move, except for the doubled first point).
 TEST(ResultsTest, LiveAndCorrectedAreJudgedApart) {
   RunRecord record = record_of({});
   for (StampedPose& stamped : record.summary.trajectory) {

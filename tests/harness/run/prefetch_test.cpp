@@ -27,7 +27,7 @@ TEST(PrefetchTest, GivesTheSourcesSamplesInOrder) {
   }
   EXPECT_FALSE(ahead.next());
   EXPECT_FALSE(ahead.next());
-  ahead.times();  // nothing is under way: must not wait for ever
+  ahead.times();  // nothing is pending: must not block
 }
 
 TEST(PrefetchTest, MayBeLeftBeforeTheEnd) {
@@ -36,7 +36,7 @@ TEST(PrefetchTest, MayBeLeftBeforeTheEnd) {
     Prefetch ahead(source);
     ahead.next();
   }
-  // One was given, one was under way: the source goes on with the third.
+  // One was returned, one was pending: the source continues with the third.
   EXPECT_EQ(source.next()->frame.index, 2);
 }
 

@@ -26,7 +26,7 @@ std::map<std::size_t, ChildOutcome> run_all(ChildJobs jobs) {
 
 TEST(RunInChildTest, ReturnsTheTextAndLeavesThisProcessAlone) {
   int here = 1;
-  const std::string text(100'000, 'x');  // more than a pipe holds at once
+  const std::string text(100'000, 'x');  // more than a pipe's buffer
   EXPECT_EQ(run_in_child("a job",
                          [&] {
                            here = 2;
@@ -60,7 +60,7 @@ TEST(RunInChildrenTest, OneThatFailsTakesNoOtherAlong) {
   EXPECT_EQ(outcomes.at(3).text, "text 3");
 }
 
-// Each job waits for the other one's file: they end only if they run at the same time.
+// Each job waits for the other one's file: they end only if they run concurrently.
 TEST(RunInChildrenTest, RunsThemSideBySide) {
   const test::TestFolder folder;
   const auto outcomes = run_all({.count = 2, .at_once = 2, .job = [&](std::size_t i) {

@@ -19,7 +19,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// The estimate slides sideways by `seed` centimetres once it has left the start.
+/// After the start the estimate is off sideways by `seed` centimetres.
 RunOutcome slide(const ScenarioConfig& scenario, int, const RunOptions& options) {
   const double offset = 0.01 * static_cast<double>(scenario.seed);
   fakes::Source source;
@@ -93,7 +93,7 @@ TEST_F(RunSetTest, WhatIsThereIsKeptUnlessItsInputsDiffer) {
   EXPECT_TRUE(again[0].runs[0].kept);
   EXPECT_FALSE(again[0].runs[1].kept);
   EXPECT_EQ(again[0].runs[0].metrics["frames"], 201);
-  EXPECT_THAT(progress_, HasSubstr("seed 1: passed (there already)"));
+  EXPECT_THAT(progress_, HasSubstr("seed 1: passed (kept)"));
 
   options_.force = true;
   EXPECT_FALSE(run({1})[0].runs[0].kept);

@@ -25,7 +25,7 @@ TEST(SeedListTest, SaysWhatIsWrong) {
     EXPECT_THAT(error(text), HasSubstr("expected whole numbers")) << text;
   }
   EXPECT_THAT(error("5..1"), HasSubstr("5..1 runs backwards"));
-  EXPECT_THAT(error("1..3,2"), HasSubstr("2 stands twice"));
+  EXPECT_THAT(error("1..3,2"), HasSubstr("2 is repeated"));
   EXPECT_THAT(error("0..9223372036854775807"), HasSubstr("at most 10000"));
 }
 

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// The fakes' rig; its first camera is 0.1 m ahead of the body and 0.5 m above it.
+/// The fakes' rig; its first camera is 0.1 m in front of the body and 0.5 m above it.
 RecordingNotes notes() {
   RecordingNotes notes;
   for (const RigCamera& camera : fakes::rig().cameras) {
@@ -82,10 +82,10 @@ TEST_F(ExternalSlamTest, TheRecordingHasAllButTheTruth) {
   EXPECT_TRUE(fs::exists(folder_ / "recording/mav0/cam2/data/2000000000.png"));
   EXPECT_TRUE(fs::exists(folder_ / "recording/rig.yaml"));
   EXPECT_FALSE(fs::exists(folder_ / "recording/mav0/state_groundtruth_estimate0"));
-  EXPECT_EQ(run(": >out.txt").metrics["coverage"], 0);  // replaces the recording of before
+  EXPECT_EQ(run(": >out.txt").metrics["coverage"], 0);  // replaces the previous recording
 }
 
-// The truth of the left camera: the body's circle and the camera's place on it.
+// The truth of the left camera: the body's circle and the camera's position on it.
 TEST_F(ExternalSlamTest, PosesOfACameraAreJudgedAsTheBodys) {
   config_.poses_of = "front_left";
   std::string poses;
@@ -105,7 +105,7 @@ TEST_F(ExternalSlamTest, SaysWhatWentWrong) {
       error("echo no vocabulary >&2; exit 3"),
       testing::AllOf(HasSubstr("slam.sh: exit code 3"), HasSubstr("log.txt: no vocabulary")));
   EXPECT_THAT(error("kill -SEGV $$"), HasSubstr("slam.sh: ended by signal 11; it printed nothing"));
-  EXPECT_THAT(error(":"), HasSubstr("left no trajectory; expected "));
+  EXPECT_THAT(error(":"), HasSubstr("wrote no trajectory; expected "));
   EXPECT_THAT(error("echo 1 2 3 >trajectory.txt"), HasSubstr("trajectory.txt:1: expected 8"));
   config_.timeout = 0.1;
   EXPECT_THAT(error("sleep 60"), HasSubstr("took more than 0.1 s"));

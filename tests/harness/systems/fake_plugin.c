@@ -23,7 +23,7 @@ struct fake {
 
 static int fails(const struct fake* fake, const char* where, vinebench_message message) {
   if (strstr(fake->settings, where) == NULL) return 0;
-  snprintf(message.text, message.size, "told to fail in %s", where);
+  snprintf(message.text, message.size, "asked to fail in %s", where);
   return 1;
 }
 

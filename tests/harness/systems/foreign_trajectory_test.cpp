@@ -59,7 +59,7 @@ TEST(ForeignTrajectoryTest, FramesTakeTheNearestPoseAndMayHaveNone) {
   EXPECT_EQ(trajectory[1].pose.translation.x(), 5);
 }
 
-// The sensor sits 0.5 m ahead of the body and looks the same way: the body is 0.5 m behind it.
+// The sensor is 0.5 m in front of the body with the same orientation: the body is 0.5 m behind it.
 TEST(ForeignTrajectoryTest, PosesOfASensorBecomeTheBodys) {
   const Pose T_body_sensor{Eigen::Quaterniond::Identity(), {0.5, 0, 0}};
   const Trajectory trajectory = read("0 2 0 0 0 0 0 1\n", T_body_sensor.inverse());
@@ -76,7 +76,7 @@ TEST(ForeignTrajectoryTest, SaysWhatIsWrong) {
   EXPECT_THAT(error("0 1 2 nan 0 0 0 1\n"), HasSubstr("expected a number, found 'nan'"));
   EXPECT_THAT(error("0 1 2 3 0 0 0 2\n"), HasSubstr("expected a unit quaternion, found norm 2"));
   EXPECT_THAT(error("1403636579.7 1 2 3 0 0 0 1\n"),
-              HasSubstr("none of its 1 poses is of a frame: they are from 1.403636580 to"));
+              HasSubstr("none of its 1 poses matches a frame: they are from 1.403636580 to"));
 }
 
 }  // namespace

@@ -62,9 +62,9 @@ TEST_F(PluginSlamTest, AFrameGoesInAndAnEstimateComesOut) {
 TEST_F(PluginSlamTest, WhatItSaysOfAFailureIsTheError) {
   for (const char* function : {"create", "process", "finish"}) {
     EXPECT_THAT(error(std::string("fail.") + function),
-                HasSubstr(std::string(function) + ": told to fail in " + function));
+                HasSubstr(std::string(function) + ": asked to fail in " + function));
   }
-  EXPECT_THAT(error("bad.pose"), HasSubstr("fake_plugin.so: a pose of it is none"));
+  EXPECT_THAT(error("bad.pose"), HasSubstr("fake_plugin.so: invalid pose"));
 }
 
 TEST_F(PluginSlamTest, WhatIsNoPluginIsAnError) {

@@ -29,7 +29,7 @@ Texture chequers(const std::string& name, bool repeat) {
   return {name, rgba, repeat};
 }
 
-/// A triangle that is its own mirror image in no axis: no two of its coordinates are alike.
+/// A triangle without symmetry: no two of its coordinates are equal.
 Primitive triangle(int material, float shift = 0) {
   Primitive p;
   p.material = material;
@@ -101,7 +101,7 @@ TEST(GlbTest, EveryBitComesBack) {
   EXPECT_EQ(to_glb(back), to_glb(asset));
 }
 
-/// A .gltf of one triangle with corners (0, 0, 0), (1, 0, 0), (0, 2, 0) and its buffer in the text.
+/// A .gltf of one triangle with corners (0, 0, 0), (1, 0, 0), (0, 2, 0) and an embedded buffer.
 std::string gltf(const std::string& node = "\"mesh\":0", const std::string& more = "",
                  const std::string& accessor = "\"count\":3,\"type\":\"VEC3\"") {
   // Nine little-endian floats: 1 is 0000803f, 2 is 00000040.
@@ -217,7 +217,7 @@ TEST(GlbTest, FlippedBytesNeverCrash) {
     const auto file = folder.write("flipped.glb", flipped);
     errors += error_of([&] { load_asset(file); }).empty() ? 0 : 1;
   }
-  EXPECT_GT(errors, 20);  // most bytes are JSON, where nearly any change tells
+  EXPECT_GT(errors, 20);  // most bytes are JSON, where nearly any change is an error
 }
 
 TEST(GlbTest, NumbersThatAreNoneAndIndicesOutOfRangeAreNamed) {
@@ -251,7 +251,7 @@ TEST(MeshFileTest, AMissingFileAndAnUnknownKindAreNamed) {
 
 const char* const kObj = "v 0 0 0\nv 1 0 0\nv 0 0 2\nvt 0 0\nvt 1 0\nvt 0 1\n";
 
-/// The vertex at that place, m; fails the test where there is none.
+/// The vertex at that position, m; fails the test if there is none.
 Vertex vertex_at(const Asset& asset, const Eigen::Vector3f& place) {
   for (const Primitive& primitive : asset.model.levels.at(0).primitives) {
     for (const Vertex& v : primitive.vertices) {

@@ -48,7 +48,7 @@ std::uint32_t word(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-/// The .gltf of a .glb: its JSON with the buffer as text inside.
+/// The .gltf of a .glb: its JSON with an embedded buffer.
 std::string as_gltf(const std::string& glb) {
   const std::size_t size = word(glb, 12);
   std::string json = glb.substr(20, size);
@@ -82,7 +82,7 @@ TEST_F(BrokenAssetsTest, AChunkThatEndsBehindTheFile) {
   EXPECT_THAT(problem("long.glb", glb), HasSubstr("does not fit into the file"));
 }
 
-/// Three bytes of 600 files are replaced, most often in the JSON, where they do most harm.
+/// Three bytes of 600 files are replaced, most often in the JSON, where errors are most likely.
 TEST_F(BrokenAssetsTest, BytesThatChanged) {
   const std::string glb = to_glb(small_plant()), gltf = as_gltf(glb);
   RandomSequence random(RandomStream(7, "broken assets"));
@@ -100,7 +100,7 @@ TEST_F(BrokenAssetsTest, BytesThatChanged) {
     errors += error.empty() ? 0 : 1;
   }
   EXPECT_GT(errors, 200);
-  EXPECT_LT(errors, 600);  // names and colours may change without harm
+  EXPECT_LT(errors, 600);  // changed names and colours are valid
 }
 
 TEST_F(BrokenAssetsTest, NumbersThatAreNone) {
@@ -148,7 +148,7 @@ TEST_F(BrokenAssetsTest, WhatIsNoFile) {
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
     EXPECT_THAT(error_of([&] { load_asset(pipe); }), HasSubstr("a pipe or a device"));
     const auto huge = folder_.write("huge." + kind, "x");
-    std::filesystem::resize_file(huge, (std::uintmax_t{1} << 30) + 1);  // takes no room
+    std::filesystem::resize_file(huge, (std::uintmax_t{1} << 30) + 1);  // sparse file
     EXPECT_THAT(error_of([&] { load_asset(huge); }), HasSubstr("at most 1 GiB"));
   }
 }
@@ -213,7 +213,7 @@ TEST_F(BrokenAssetsTest, ColladaThatIsDeepOrLong) {
   problem("text.dae", dae("<node><instance_geometry url=\"#gone\"/></node>"));
 }
 
-/// Assimp's readers meet broken bytes as well.
+/// Broken bytes for assimp's readers.
 TEST_F(BrokenAssetsTest, OtherFormatsThatChanged) {
   std::string stl(84, ' ');
   stl[80] = 4;
@@ -239,7 +239,7 @@ TEST_F(BrokenAssetsTest, OtherFormatsThatChanged) {
 TEST_F(BrokenAssetsTest, ObjThatNamesWhatIsNotThere) {
   const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 0 2\n";
   for (const char* face : {"f 1 2 9", "f 1 2 99999999999999999999", "f 0 1 2", "f -9 -8 -7"}) {
-    message("far.obj", corners + face + "\n");  // assimp leaves some of them out
+    message("far.obj", corners + face + "\n");  // assimp drops some of them
   }
   EXPECT_THAT(problem("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 0 2\nf 1 2 3\n"), HasSubstr("finite"));
   EXPECT_THAT(problem("far.obj", "v 1e30 0 0\nv 1 0 0\nv 0 0 2\nf 1 2 3\n"),

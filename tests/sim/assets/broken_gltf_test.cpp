@@ -86,7 +86,7 @@ TEST_F(BrokenGltfTest, FewNodesThatUnfoldToMany) {
   EXPECT_THAT(with(&Gltf::nodes, nodes + R"({"mesh":0}])"), HasSubstr("more than 100000 nodes"));
 }
 
-/// A mesh of a megabyte that 99 999 nodes show.
+/// A mesh of a megabyte with 99 999 instances.
 TEST_F(BrokenGltfTest, OneMeshShownTooOften) {
   Gltf gltf;
   folder_.write("big.bin", std::string(1 << 20, '\0'));

@@ -12,7 +12,8 @@
 namespace vinebench::sim {
 namespace {
 
-/// How a plant looks: the share of the image that it covers, and its mean colour (RGB, 0 to 255).
+/// The appearance of a plant: the share of the image that it covers, and its mean colour (RGB, 0 to
+/// 255).
 struct Look {
   double coverage = 0;
   cv::Scalar colour;
@@ -33,7 +34,7 @@ const std::array<Eigen::Vector3d, 4> kTowards{
     Eigen::Vector3d(0, -1, 0.1), Eigen::Vector3d(0, 1, 0.1), Eigen::Vector3d(1, -1, 0.2),
     Eigen::Vector3d(1, -0.2, 0.05)};
 
-/// A metre of row from 8 m away in each direction, through a lens that shows it 240 pixels wide.
+/// A metre of row from 8 m away in each direction, 240 pixels wide in the image.
 std::vector<Look> looks_of_level(const Asset& plant, std::size_t level) {
   constexpr double kDistance = 8, kFocal = 240 * kDistance;
   const PinholeCamera camera{240, 360, kFocal, kFocal, 119.5, 179.5, {}};
@@ -43,7 +44,7 @@ std::vector<Look> looks_of_level(const Asset& plant, std::size_t level) {
   for (const Eigen::Vector3d& towards : kTowards) {
     const Pose T_world_cam = test::look_at(middle + kDistance * towards.normalized(), middle);
     const RenderedImage image = renderer.render(camera, T_world_cam, {true, false});
-    cv::Mat seen;  // what the farthest levels paint into one
+    cv::Mat seen;  // the farthest levels merge parts
     cv::inRange(image.labels, static_cast<int>(Label::kCane), static_cast<int>(Label::kBunch),
                 seen);
     looks.push_back(
@@ -66,9 +67,9 @@ TEST_P(LevelsTest, AllHaveTheSameCoverageAndColour) {
       SCOPED_TRACE(testing::Message()
                    << "level " << level << " from " << kTowards.at(i).transpose());
       ASSERT_GT(near[i].coverage, 0.15);
-      // Cards hide the thin gaps between leaves that are seen aslant: a fifth at most.
+      // Cards hide thin gaps between leaves in oblique views: a fifth at most.
       EXPECT_NEAR(looks[i].coverage / near[i].coverage, 1, level < 3 ? 0.04 : 0.2);
-      // A tenth of a colour's value is 0.15 of an aperture: no camera sees that step outdoors.
+      // A tenth of a colour's value is 0.15 f-stops: not noticeable outdoors.
       for (int c = 0; c < 2; ++c) {
         EXPECT_NEAR(looks[i].colour[c] / near[i].colour[c], 1, 0.1) << "channel " << c;
       }

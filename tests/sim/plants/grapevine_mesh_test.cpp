@@ -24,7 +24,7 @@ using test::label_of;
 using test::plant;
 using test::textures;
 
-// Vertices are floats: a metre is known to 1e-7.
+// Vertices are floats, with a relative precision of 1e-7.
 constexpr float kRounding = 1e-5f;  // m
 
 TEST(GrapevineMeshTest, TheLowestBerryHangsExactlyWhereTheWorldSays) {
@@ -48,8 +48,8 @@ TEST(GrapevineMeshTest, TheCanopyKeepsToItsDepthAndHeight) {
   narrow.vines.lowest_bunch = 0.5;
   for (const PlantBrief& each : {brief(), narrow}) {
     const auto half = static_cast<float>(each.vines.canopy_depth / 2 / kLargestPlantScale);
-    // The shoots' tips end at canopy_top, or half a step of 0.09 m later; the last leaves rise from
-    // there by at most the length of one: 0.122 m.
+    // The shoots' tips end at canopy_top, or half a step of 0.09 m later; the last leaves extend
+    // beyond by at most the length of one: 0.122 m.
     const auto top = static_cast<float>(each.vines.canopy_top) + 0.045f + 0.122f;
     for (const std::uint64_t seed : kSeeds) {
       float highest = 0;

@@ -34,7 +34,7 @@ TEST(GrapevineTest, ShootsAndBunchesAreAsManyAsAskedFor) {
         bunches += static_cast<double>(vine.bunches.size());
       }
       EXPECT_NEAR(shoots / (kSeeds.size() * spacing), 15, 1) << "one shoot of 0.8 m is 1.25";
-      // Bunches that would hang into each other are left out.
+      // Bunches that would intersect are left out.
       EXPECT_LE(bunches / shoots, 1.3);
       EXPECT_GE(bunches / shoots, 0.85);
     }
@@ -55,7 +55,7 @@ TEST(GrapevineTest, LeafAreaIsThatOfTheRow) {
 }
 
 TEST(GrapevineTest, LeavesOfOneMetreOfRowStayWithinPractice) {
-  // Single canopies: 2 to 5 m^2 a metre (Kliewer and Dokoozlian); half of the fruit zone's taken.
+  // Single canopies: 2 to 5 m^2 a metre (Kliewer and Dokoozlian); half of the fruit zone's removed.
   const double area = leaf_area(grow_grapevine(brief(), 1, 0));
   EXPECT_GT(area, 1.4);
   EXPECT_LE(area, 2.1);
@@ -141,7 +141,7 @@ TEST(GrapevineTest, WoodKeepsToThePlantsShareOfTheRow) {
     const bool both = training == Training::kBilateralCordon || training == Training::kDoubleGuyot;
     const float foot = vine.wood.at(0).path.at(0).x();
     EXPECT_NEAR(foot, both ? 0.0f : -0.485f, 0.05f);
-    float end = 0;  // of what lies along the wire
+    float end = 0;  // of the canes along the wire
     for (const auto* tubes : {&vine.wood, &vine.canes}) {
       for (const Tube& tube : *tubes) end = std::max(end, tube.path.back().x());
     }

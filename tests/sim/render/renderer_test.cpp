@@ -38,7 +38,7 @@ class ChessboardTest : public testing::Test {
   Scene scene_ = Chessboard::scene();
 };
 
-// Done means 0.1 px: a tenth of what a feature's corner is measured to.
+// Required: 0.1 px, a tenth of the accuracy of a feature's corner.
 TEST_F(ChessboardTest, CornersAreWhereTheCameraProjectsThem) {
   Renderer renderer(scene_, {});
   const Eigen::Vector3d centre(0.02, 0, -0.01);
@@ -228,7 +228,7 @@ TEST_F(TwoPanelsTest, LabelsAndDepthAgreeWithGeometry) {
       ASSERT_NEAR(image.depth.at<float>(v, u), depth, 1e-4) << u << ", " << v;
     }
   }
-  // All but pixels whose centre lies on an edge to the last bit.
+  // Except pixels whose centre is exactly on an edge.
   EXPECT_GT(compared, 0.999 * camera.width * camera.height);
   const auto middle = image.rgb.at<cv::Vec3b>(240, 376);
   EXPECT_GT(middle[1], middle[0]);

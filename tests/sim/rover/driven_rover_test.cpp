@@ -22,16 +22,17 @@ class DrivenRoverTest : public testing::Test {
     route_.waypoints[1].position = {1, 0};
     route_.waypoints[1].wait = 1;
   }
-  /// Where the rover ends when fifteen times a second `told` of its true pose is steered by.
-  template <class Told>
-  Eigen::Vector3d end_of_drive(Told told) const {
+  /// The rover's final position when it is steered, 15 times a second, by `feedback`, given its
+  /// true pose.
+  template <class Feedback>
+  Eigen::Vector3d end_of_drive(Feedback feedback) const {
     DrivenRover rover(rover_, world_, route_, 1);
     const std::int64_t frames = rover.route().duration() * 15 / kNanosecondsPerSecond;
     Stamp stamp = 0;
     for (std::int64_t i = 0; i <= frames; ++i) {
       stamp = stamp_of_frame(i, 15);
       rover.advance_to(stamp);
-      told(rover, i, stamp);
+      feedback(rover, i, stamp);
     }
     return rover.T_world_body(stamp).translation;
   }
@@ -41,7 +42,7 @@ class DrivenRoverTest : public testing::Test {
   RouteConfig route_;
 };
 
-// A centimetre: what the position loop leaves of motors that differ by 1 %.
+// A centimetre: the remaining error of the position loop with motors that differ by 1 %.
 TEST_F(DrivenRoverTest, EndsAtTheRoutesEnd) {
   const Eigen::Vector3d end = end_of_drive([](DrivenRover&, std::int64_t, Stamp) {});
   EXPECT_NEAR(end.x(), 1, 0.01);
@@ -56,7 +57,8 @@ TEST_F(DrivenRoverTest, TheTruthToldGoesTheSameWay) {
   EXPECT_NEAR(end.y(), 0, 0.01);
 }
 
-// Told to be 0.1 m farther and 0.05 m farther left than it is, it stops that much short and right.
+// With an estimate 0.1 m too far forward and 0.05 m too far left, it stops that much short and
+// right.
 TEST_F(DrivenRoverTest, AWrongPoseToldIsDrivenInto) {
   const Pose shift{Eigen::Quaterniond::Identity(), {0.1, 0.05, 0}};
   const Eigen::Vector3d end = end_of_drive([&](DrivenRover& rover, std::int64_t, Stamp stamp) {
@@ -66,8 +68,8 @@ TEST_F(DrivenRoverTest, AWrongPoseToldIsDrivenInto) {
   EXPECT_NEAR(end.y(), -0.05, 0.01);
 }
 
-// Told nothing after the first second it goes on as commanded: a hundredth of the way is what the
-// motors' spread leaves, and as much for where the wheels lag behind.
+// Without an estimate after the first second the last command continues: a hundredth of the
+// distance for the spread of the motors, and as much for the lag of the wheels.
 TEST_F(DrivenRoverTest, WithoutNewsItGoesOnAsCommanded) {
   const Eigen::Vector3d end = end_of_drive([](DrivenRover& rover, std::int64_t i, Stamp stamp) {
     if (i <= 15) rover.steer_by(stamp, rover.T_world_body(stamp));

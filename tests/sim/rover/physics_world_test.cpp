@@ -58,7 +58,7 @@ std::vector<Eigen::Vector3d> surface(int type, const Eigen::Vector3d& size) {
   return points;
 }
 
-/// Surface of the rover in its body frame, as it is drawn in its file.
+/// Surface of the rover's visual geoms in its body frame.
 std::vector<Eigen::Vector3d> rover_surface(PhysicsWorld& physics) {
   physics.refresh();
   std::vector<Eigen::Vector3d> points;
@@ -113,7 +113,7 @@ TEST(PhysicsWorldTest, NoPartOfTheRoverIsInAImage) {
 
 TEST(PhysicsWorldTest, ObstaclesStandWhereTheWorldSays) {
   WorldConfig world = one_row();
-  world.boxes.resize(2);  // the same name twice is no problem
+  world.boxes.resize(2);  // duplicate names are allowed
   world.boxes[1].position = {2, 3};
   world.boxes[1].size = {0.6, 0.4, 0.3};
   world.boxes[1].yaw_deg = 90;

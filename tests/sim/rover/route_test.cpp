@@ -90,7 +90,7 @@ TEST(RouteTest, WaitsStandStill) {
   std::vector<RouteConfig::Waypoint> waypoints{waypoint(0, 0), waypoint(2, 0), waypoint(2, 2)};
   waypoints[0].wait = 1;
   waypoints[1].wait = 2;
-  waypoints[1].pass = true;  // who waits, stops
+  waypoints[1].pass = true;  // waiting implies stopping
   waypoints[2].wait = 0.5;
   const Route route(route_of(waypoints));
   EXPECT_EQ(route.duration(), from_seconds(1 + 5 + 2 + 5 + 0.5));
@@ -101,7 +101,7 @@ TEST(RouteTest, WaitsStandStill) {
 
 TEST(RouteTest, PassesStraightOnAtFullSpeed) {
   const Route route(route_of({waypoint(0, 0), passed(1, 0), waypoint(2, 0)}));
-  EXPECT_EQ(route.duration(), from_seconds(5));  // as if there were no waypoint between
+  EXPECT_EQ(route.duration(), from_seconds(5));  // as without the waypoint
   EXPECT_NEAR(route.at(from_seconds(2.5)).velocity.x(), 0.5, 1e-9);
 }
 
@@ -119,7 +119,7 @@ TEST(RouteTest, PassesACornerAtBoundedKink) {
     }
     last = here;
   }
-  // 0.1 s of 0.5 m/s^2 at once, and what 1 ms adds to it.
+  // 0.1 s of 0.5 m/s^2 instantaneously, plus the change within 1 ms.
   EXPECT_NEAR(kink, 0.05, 0.001);
   // A right angle turns a speed v by v * sqrt(2).
   EXPECT_NEAR(slowest, 0.05 / std::sqrt(2), 0.001);
@@ -138,7 +138,7 @@ TEST(RouteTest, IsContinuousAndKeepsItsLimits) {
     const double s = to_seconds(t);
     EXPECT_LE(here.velocity.head<2>().norm(), 0.5 + 1e-9) << s;
     EXPECT_LE(std::abs(here.velocity.z()), kPi / 2 + 1e-9) << s;
-    // The mean of the velocities at both ends, but for a kink of at most 0.05 m/s or 9 deg/s.
+    // The mean of the velocities at both ends, except for a kink of at most 0.05 m/s or 9 deg/s.
     const Eigen::Vector3d predicted = last.pose + 0.5 * dt * (last.velocity + here.velocity);
     EXPECT_LT((here.pose - predicted).head<2>().norm(), 0.05 * dt) << s;
     EXPECT_LT(std::abs((here.pose - predicted).z()), 0.16 * dt) << s;

@@ -32,7 +32,7 @@ RoverConfig csl_rover() {
   return load_rover(kModels / "rover.yaml");
 }
 
-/// One row far from where the tests drive.
+/// One row far from the test drives.
 WorldConfig field() {
   WorldConfig world;
   world.rows = {{{0, 10}, {4, 10}}};
@@ -44,11 +44,11 @@ Eigen::Vector2d position_of(const Rover& rover) {
 }
 
 struct Drive {
-  Eigen::Vector2d moved;      ///< m, in the body frame of its beginning
+  Eigen::Vector2d moved;      ///< m, in the initial body frame
   double turned = 0;          ///< rad
   double gyro_turn = 0;       ///< rad, the gyro's integral
   double heave = 0;           ///< m, peak to peak, of the front left camera
-  double odometry_error = 0;  ///< m, of the wheels' own reckoning
+  double odometry_error = 0;  ///< m, of the wheel odometry
   double odometry_turn = 0;   ///< rad
 };
 
@@ -111,7 +111,7 @@ TEST(RoverTest, SlidesSidewaysAtTheSpeedAsked) {
   for (const double speed : {0.3, -0.3}) {
     const Drive left = drive({0, speed, 0});
     EXPECT_NEAR(left.moved.y(), 3 * speed, 0.9 * 0.03);
-    EXPECT_LT(std::abs(left.moved.y()), 0.9);  // slip loses way, it never gains any
+    EXPECT_LT(std::abs(left.moved.y()), 0.9);  // slip only shortens the path
     EXPECT_NEAR(left.moved.x(), 0, 0.005);
     EXPECT_NEAR(left.turned, 0, 0.01);
   }
@@ -127,7 +127,7 @@ TEST(RoverTest, CameraHeavesLessThanAMillimetre) {
   // Twelve rollers a wheel at spread phases; 0.28 mm measured ahead, up to 0.75 mm in turns.
   const Drive ahead = drive({0.3, 0, 0});
   EXPECT_LT(ahead.heave, 0.0003);
-  EXPECT_GT(ahead.heave, 0.00001);  // real rollers: not a smooth disc
+  EXPECT_GT(ahead.heave, 0.00001);  // discrete rollers, not a smooth disc
   EXPECT_LT(drive({0, 0, 0.8}).heave, 0.001);
 }
 
@@ -154,7 +154,7 @@ TEST(RoverTest, StandsStillOnTheGroundAtTheStart) {
   EXPECT_NEAR(start.translation.x(), 1, 1e-12);
   EXPECT_NEAR(start.translation.y(), -2, 1e-12);
   EXPECT_NEAR(yaw_of(start.rotation), 2.5, 1e-12);
-  // Each wheel stands somewhere between two rollers' crests: 0.5 mm covers the wheels' ripple.
+  // Each wheel is between two rollers' crests: 0.5 mm covers the wheels' ripple.
   EXPECT_NEAR(start.translation.z(), 0, 0.0005);
   EXPECT_LT((start.rotation * Eigen::Vector3d::UnitZ()).head<2>().norm(), 0.002);
 
@@ -164,7 +164,7 @@ TEST(RoverTest, StandsStillOnTheGroundAtTheStart) {
   EXPECT_LT((rover.T_world_body().translation - start.translation).norm(), 0.0001);
   ASSERT_EQ(imu.size(), 200u);
   for (const ImuSample& sample : imu) {
-    // Gravity alone; its direction tilts with the body by less than 0.002 rad.
+    // Gravity only; its direction tilts with the body by less than 0.002 rad.
     EXPECT_NEAR(sample.specific_force.z(), 9.81, 0.001);
     EXPECT_LT(sample.specific_force.head<2>().norm(), 0.002 * 9.81);
     EXPECT_LT(sample.angular_velocity.norm(), 0.001);
@@ -317,7 +317,7 @@ TEST(RoverTest, APostIsInTheWay) {
 }
 
 TEST(RoverTest, TurnsRoundInAnAisle) {
-  // Two rows 0.8 m apart, a post at either hand: 0.365 m are free to each side.
+  // Two rows 0.8 m apart, a post on either side: 0.365 m clearance each.
   WorldConfig world;
   world.rows = {{{0, -0.4}, {4, -0.4}}, {{0, 0.4}, {4, 0.4}}};
   Rover rover(csl_rover(), world, {2, 0, 0}, 1);
@@ -328,7 +328,7 @@ TEST(RoverTest, TurnsRoundInAnAisle) {
   EXPECT_NEAR(imu.size(), 800, 0);
   double turned = 0;
   for (const ImuSample& sample : imu) turned += sample.angular_velocity.z() / 200;
-  EXPECT_NEAR(turned, 3.2, 0.1);  // nothing held it
+  EXPECT_NEAR(turned, 3.2, 0.1);  // not blocked
   EXPECT_LT((position_of(rover) - Eigen::Vector2d(2, 0)).norm(), 0.01);
 }
 
@@ -391,14 +391,14 @@ TEST(MecanumDriveTest, BodyMotionInvertsWheelSpeeds) {
   const MecanumDrive drive;
   const Eigen::Vector3d twist(0.3, -0.2, 0.7);
   EXPECT_NEAR((drive.body_motion(drive.wheel_speeds(twist)) - twist).norm(), 0, 1e-12);
-  // Ahead all wheels turn alike: 0.3 m/s at 0.1 m are 3 rad/s.
+  // Forward, all wheels have the same speed: 0.3 m/s at 0.1 m are 3 rad/s.
   EXPECT_THAT(drive.wheel_speeds({0.3, 0, 0}), testing::Each(testing::DoubleEq(3)));
 }
 
 TEST(SpeedLoopTest, KeepsItsLimitAndDoesNotWindUp) {
   SpeedLoop loop(SpeedLoopConfig{});
   for (int i = 0; i < 4000; ++i) EXPECT_LE(loop.torque(10, 0, 0.0025), 5);  // a blocked wheel
-  // Once the wheel is 1 rad/s too fast the torque turns round within 0.2 s.
+  // Once the wheel is 1 rad/s too fast the torque changes its sign within 0.2 s.
   double torque = 0;
   for (int i = 0; i < 80; ++i) torque = loop.torque(10, 11, 0.0025);
   EXPECT_LT(torque, 0);

@@ -26,12 +26,12 @@ const std::filesystem::path kModel =
     std::filesystem::path(VINEBENCH_SOURCE_DIR) / "models/csl-rover/rover.xml";
 const Pose kRover{Eigen::Quaterniond::Identity(), {2, 1, 0}};
 
-/// Looks straight down on a place, x to the right.
+/// A camera that looks straight down on a point, x to the right.
 Pose above(double x, double y, double height) {
   return {Eigen::Quaterniond(0, 1, 0, 0), {x, y, height}};
 }
 
-/// A square that lies flat, its face up.
+/// A horizontal square, face up.
 Primitive sheet(int material, double side) {
   Primitive primitive = panel(material, side, side);
   for (Vertex& vertex : primitive.vertices) {
@@ -41,8 +41,8 @@ Primitive sheet(int material, double side) {
   return primitive;
 }
 
-/// Even ground, and the sun in the west, 45 degrees high: what is at a height of z
-/// casts its shadow z further east.
+/// Even ground, and the sun in the west, 45 degrees high: a point at height z casts its shadow z
+/// further east.
 class RoverViewTest : public testing::Test {
  protected:
   RoverViewTest() {
@@ -79,7 +79,7 @@ class RoverViewTest : public testing::Test {
 };
 
 TEST_F(RoverViewTest, IsSeenFromOutsideWhereItStands) {
-  // Between the wheels one looks at the chassis' side, 0.13 m off the middle: 1.87 m away.
+  // Between the wheels the chassis' side is visible, 0.13 m off the middle: 1.87 m away.
   const Pose view = look_at({2, -1, 0.165}, {2, 1, 0.165});
   const RenderedImage image =
       draw(view, kRover, {.labels = true, .depth = true, .instances = true, .normals = true});
@@ -93,7 +93,7 @@ TEST_F(RoverViewTest, IsSeenFromOutsideWhereItStands) {
   EXPECT_EQ(cv::countNonZero(labels == static_cast<int>(Label::kRover)), 0);
 }
 
-// Done means the stereo cameras see past it: nothing of it is in the rig's own images.
+// The rover must not be visible in the rig's own images.
 TEST_F(RoverViewTest, IsInNoneOfItsOwnImages) {
   const Rig rig = load_rig(kModel.parent_path() / "rig.yaml");
   Renderer renderer(scene_, {});
@@ -106,8 +106,7 @@ TEST_F(RoverViewTest, IsInNoneOfItsOwnImages) {
 
 TEST_F(RoverViewTest, ItsShadowLiesWhereTheSunCastsIt) {
   // The camera bar is at a height of 0.475 to 0.505 m and reaches 0.08 m to either side. Its middle
-  // casts to x = 2 + 0.49, where the shadow of all that is lower (0.235 m, and up to 0.22 m ahead)
-  // has ended.
+  // casts to x = 2 + 0.49, beyond the shadow of lower parts (0.235 m high, up to 0.22 m ahead).
   const Pose view = above(2.8, 1, 1.0);
   const cv::Mat with = draw(view, kRover).rgb, without = draw(view, {}).rgb;
   const auto dark = [&](double x, double y) {
@@ -132,7 +131,7 @@ TEST_F(RoverViewTest, ItsShadowIsAsDarkAsAPlants) {
   const cv::Vec3b by_sheet = at(draw(view, {}).rgb, view, {2.49, 1, 0});
   // The map of the ground's light holds 8 bits: a grey level or two.
   EXPECT_LE(cv::norm(at(by_rover, view, {2.49, 1, 0}), by_sheet, cv::NORM_INF), 2);
-  // Where both fall on the ground it is no darker than under one.
+  // Where both overlap the ground is not darker than in one of them.
   const cv::Vec3b by_both = at(draw(view, kRover).rgb, view, {2.49, 1, 0});
   EXPECT_LE(cv::norm(by_both, by_sheet, cv::NORM_INF), 2);
 }
@@ -196,17 +195,17 @@ TEST_F(RoverViewTest, FlowGoesWithTheRover) {
       }
       ++pixels;
       if (truth.visible.at<std::uint8_t>(y, x) != 0) ++visible;
-      // Floats of a motion of 0.05 m, and of depth: far below a hundredth of a pixel.
+      // Float precision of a motion of 0.05 m, and of depth: far below 0.01 px.
       EXPECT_LT(cv::norm(truth.flow.at<cv::Vec2f>(y, x)), 0.01);
     }
   }
   EXPECT_GT(pixels, 2000);
-  EXPECT_GT(visible, 0.95 * pixels);  // all but pixels on the edges of rollers
+  EXPECT_GT(visible, 0.95 * pixels);  // all except pixels on the edges of rollers
 }
 
 TEST(RoverAssetTest, HasTheModelsMeasures) {
   const Asset rover = rover_asset(kModel);
-  // The collision hull is not shown; the wheels reach furthest: 0.15 + 0.10 m ahead, and to the
+  // The collision hull is not visible; the wheels extend furthest: 0.15 + 0.10 m ahead, and to the
   // side 0.19 m and the rollers' 0.0623 m of half length at 45 degrees.
   EXPECT_NEAR(rover.model.bounds.max().y(), 0.236f, 0.005f);
   EXPECT_NEAR(rover.model.bounds.max().x(), 0.25f, 0.005f);
@@ -235,7 +234,7 @@ TEST(RoverAssetTest, ShapesHaveTheirVolume) {
   };
   constexpr double kPi = 3.14159265358979;
   EXPECT_NEAR(volume("type='box' size='0.1 0.2 0.3'"), 8 * 0.006, 1e-6);
-  // Round things are polyhedra within them: of 8 to 20 sides, 2 to 20 % smaller.
+  // Round shapes are inscribed polyhedra: of 8 to 20 sides, 2 to 20 % smaller.
   const auto expect_round = [&](double found, double exact) {
     EXPECT_LT(found, exact);
     EXPECT_GT(found, 0.78 * exact);

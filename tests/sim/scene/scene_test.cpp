@@ -95,7 +95,7 @@ TEST_F(SceneTest, TheTagsPrintLiesInItsPlaneWithItsBlackSquareToSize) {
   const Pose T_world_tag = tag_pose(world.tags[0]);
   for (const Vertex& v : print.vertices) {
     const Eigen::Vector3d p_world = tags[0].T_world_model * v.position.cast<double>();
-    // u grows to the right and v down the print, as x and y of the tag do.
+    // u increases to the right and v down the print, like x and y of the tag.
     const Eigen::Vector3d expected =
         T_world_tag * Eigen::Vector3d((2 * v.uv.x() - 1) * half, (2 * v.uv.y() - 1) * half, 0);
     EXPECT_LT((p_world - expected).norm(), 1e-7);
@@ -151,7 +151,7 @@ TEST_F(SceneTest, SomePlacesAreEmptyOrHaveAYoungVine) {
   world.vines.missing = 0.2;
   world.vines.young = 0.3;
   const Scene scene = build_scene(world, 1, folder_ / "cache");
-  // Grown ones bear fruit, young ones do not; all have a trunk.
+  // Adult vines have bunches, young ones do not; all have a trunk.
   const std::size_t grown = instances_of(scene, Label::kBunch).size();
   const std::vector<Instance> all = instances_of(scene, Label::kTrunk);
   // Of 100 places; the standard deviation of a share of 0.2 to 0.5 is at most 5.
@@ -176,7 +176,7 @@ TEST_F(SceneTest, WoodLedToOneSidePointsTheSameWayAllAlongTheRow) {
 }
 
 std::string glb_of_model(const Scene& scene, std::size_t index) {
-  const Asset asset{{}, scene.materials, scene.models.at(index)};  // images are compared apart
+  const Asset asset{{}, scene.materials, scene.models.at(index)};  // images are compared separately
   return to_glb(asset);
 }
 
@@ -214,7 +214,7 @@ TEST_F(SceneTest, TheSecondBuildReadsTheKeptPlantsAndIsTheSame) {
   const std::vector<std::filesystem::path> plants = plants_in(folder_ / "cache");
   ASSERT_EQ(plants.size(), 2u);
   expect_same(first, build_scene(world, 1, folder_ / "cache"));
-  // Were the files not read, the other plant put in the first one's place would change nothing.
+  // If the files were not read, replacing the first plant's file would have no effect.
   write_file_atomically(plants[0], read_file(plants[1]));
   const Scene doubled = build_scene(world, 1, folder_ / "cache");
   EXPECT_EQ(glb_of_model(doubled, 0), glb_of_model(doubled, 1));
@@ -255,7 +255,7 @@ TEST_F(SceneTest, AWorldsOwnMeshesStandInPlaceOfGrownPlants) {
       "solid vine\nfacet normal 0 -1 0\nouter loop\nvertex 0 0 0\nvertex 0.25 0 0\n"
       "vertex 0 0 1.25\nendloop\nendfacet\nendsolid vine\n";
   world.vines.meshes = {folder_.write("a.obj", obj), folder_.write("b.stl", stl)};
-  // No plant is grown: the cache is not even asked for.
+  // No plant is generated: the cache is not used.
   const Scene scene = build_scene(world, 1, folder_ / "cache");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "cache"));
   EXPECT_EQ(scene.models.at(0).bounds.max(), Eigen::Vector3f(0.5f, 0, 1.5f));

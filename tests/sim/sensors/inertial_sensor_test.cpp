@@ -20,7 +20,7 @@ std::vector<double> readings(const InertialAxesConfig& config, std::size_t count
   return values;
 }
 
-/// Allan deviation over clusters of `seconds` that follow one another (IEEE Std 952-1997, C.3).
+/// Allan deviation over adjacent clusters of `seconds` (IEEE Std 952-1997, C.3).
 double allan_deviation(const std::vector<double>& values, double seconds) {
   const auto n = static_cast<std::size_t>(std::lround(seconds * kRate));
   std::vector<double> means;
@@ -70,7 +70,8 @@ TEST(InertialSensorTest, InstabilityIsStationary) {
   const std::vector<double> values = readings(config, 400000);
   double sum = 0;
   for (const double value : values) sum += value * value;
-  // 4000 s hold about 2000 independent values: the deviation is known to 1 / sqrt(2 * 2000).
+  // 4000 s have about 2000 independent values: the deviation's standard error is 1 / sqrt(2 *
+  // 2000).
   EXPECT_NEAR(std::sqrt(sum / 400000), 0.01, 0.01 * 3 / std::sqrt(4000.0));
 }
 

@@ -22,8 +22,8 @@ using testing::HasSubstr;
 
 constexpr double kBaseline = 0.2;  // m
 
-/// A panel of 0.5 x 3 m at 2 m before one of 4 x 1 m at 3 m, and sky round them. Both cameras look
-/// along +y, the right one 0.2 m beside the left one.
+/// A panel of 0.5 x 3 m at 2 m in front of one of 4 x 1 m at 3 m, surrounded by sky. Both cameras
+/// look along +y, the right one 0.2 m beside the left one.
 class TwoPanelsTruthTest : public testing::Test {
  protected:
   TwoPanelsTruthTest() {
@@ -37,9 +37,9 @@ class TwoPanelsTruthTest : public testing::Test {
     if (!renderer_) renderer_.emplace(scene_, RendererConfig{});
     return {camera_, T_world_cam, renderer_->render(camera_, T_world_cam, truth_request())};
   }
-  static Pose eye(double x) { return look_at({x, 0, 0}, {x, 1, 0}); }
+  static Pose camera_at(double x) { return look_at({x, 0, 0}, {x, 1, 0}); }
 
-  /// Whether u is within 0.6 px of one of the edges: pixels there may fall either way.
+  /// Whether u is within 0.6 px of one of the edges: pixels there are ambiguous.
   static bool on_edge(double u, std::initializer_list<double> edges) {
     return std::ranges::any_of(edges, [u](double edge) { return std::abs(u - edge) < 0.6; });
   }
@@ -50,7 +50,7 @@ class TwoPanelsTruthTest : public testing::Test {
 };
 
 TEST_F(TwoPanelsTruthTest, TheOcclusionMaskIsWhatTheDrawingSays) {
-  const DisparityTruth truth = disparity(view(eye(0)), view(eye(kBaseline)));
+  const DisparityTruth truth = disparity(view(camera_at(0)), view(camera_at(kBaseline)));
   ASSERT_EQ(truth.disparity.type(), CV_32FC1);
   ASSERT_EQ(truth.visible.type(), CV_8UC1);
   const auto pixel = [&](double x, double depth) { return camera_.fx * x / depth + camera_.cx; };
@@ -78,7 +78,7 @@ TEST_F(TwoPanelsTruthTest, TheOcclusionMaskIsWhatTheDrawingSays) {
 }
 
 TEST_F(TwoPanelsTruthTest, FlowIsWhereThePlanesPointsGo) {
-  const TruthView a = view(eye(0));
+  const TruthView a = view(camera_at(0));
   const TruthView b = view(look_at({0.1, 0.3, -0.05}, {0.2, 2, 0.1}, 0.1));
   const FlowTruth truth = optical_flow(a, b);
   int compared = 0, outside = 0;
@@ -105,16 +105,16 @@ TEST_F(TwoPanelsTruthTest, FlowIsWhereThePlanesPointsGo) {
 }
 
 TEST_F(TwoPanelsTruthTest, WhatIsBehindTheOtherCameraHasNoFlow) {
-  const FlowTruth truth = optical_flow(view(eye(0)), view(look_at({0, 4, 0}, {0, 5, 0})));
+  const FlowTruth truth = optical_flow(view(camera_at(0)), view(look_at({0, 4, 0}, {0, 5, 0})));
   EXPECT_TRUE(std::isnan(truth.flow.at<cv::Vec2f>(239, 375)[0]));
   EXPECT_EQ(truth.visible.at<std::uint8_t>(239, 375), 0);
-  // The sky is ahead of both.
+  // The sky is in front of both.
   EXPECT_NEAR(truth.flow.at<cv::Vec2f>(10, 10)[0], 0, 0.001);
   EXPECT_NE(truth.visible.at<std::uint8_t>(10, 10), 0);
 }
 
 TEST_F(TwoPanelsTruthTest, WrongViewsAreErrors) {
-  const TruthView left = view(eye(0)), right = view(eye(kBaseline));
+  const TruthView left = view(camera_at(0)), right = view(camera_at(kBaseline));
   TruthView lacking = right;
   lacking.image.normals.release();
   EXPECT_THAT(error_of([&] { optical_flow(left, lacking); }),
@@ -122,10 +122,10 @@ TEST_F(TwoPanelsTruthTest, WrongViewsAreErrors) {
   TruthView bent = right;
   bent.camera.distortion[0] = 0.1;
   EXPECT_THAT(error_of([&] { optical_flow(left, bent); }), HasSubstr("distortion"));
-  EXPECT_THAT(error_of([&] { disparity(right, left); }), HasSubstr("no rectified pair"));
+  EXPECT_THAT(error_of([&] { disparity(right, left); }), HasSubstr("not a rectified pair"));
   TruthView turned = right;
   turned.T_world_cam.rotation = turned.T_world_cam.rotation * exp_so3({0, 0.01, 0});
-  EXPECT_THAT(error_of([&] { disparity(left, turned); }), HasSubstr("no rectified pair"));
+  EXPECT_THAT(error_of([&] { disparity(left, turned); }), HasSubstr("not a rectified pair"));
 }
 
 TEST_F(TwoPanelsTruthTest, NumbersSayWhatTheyStandFor) {
@@ -156,7 +156,7 @@ class LensTruthTest : public TwoPanelsTruthTest {
     shot.exposure = {config.exposure.time, config.exposure.gain_db};
     shot.request = truth_request();
     return sensor.capture(
-        shot, [&](Stamp) { return eye(0); },
+        shot, [&](Stamp) { return camera_at(0); },
         [&](const PinholeCamera& view, const Pose& pose, const Renderer::Request& request) {
           return renderer_->render(view, pose, request);
         });

@@ -27,7 +27,7 @@ TEST(LabelShareTest, CountsPixels) {
   EXPECT_DOUBLE_EQ(label_share(labels(cv::Rect(0, 0, 10, 10)), Label::kBox), 0.5);
 }
 
-/// A tag of 0.2 m at (0, 0, 1) that faces -y, before a camera of 752 x 480 with f = 263 px.
+/// A tag of 0.2 m at (0, 0, 1) that faces -y, in front of a camera of 752 x 480 with f = 263 px.
 class TagVisibleTest : public testing::Test {
  protected:
   TagVisibleTest() {
@@ -36,7 +36,7 @@ class TagVisibleTest : public testing::Test {
     tag_.facing_deg = -90;
   }
 
-  /// All pixels show the tag's label unless a test says otherwise.
+  /// All pixels have the tag's label unless a test changes it.
   bool visible(const Pose& T_world_cam) const {
     return is_tag_visible(tag_, camera_, T_world_cam, labels_);
   }

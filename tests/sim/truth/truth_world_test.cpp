@@ -43,7 +43,7 @@ class TruthWorldTest : public testing::Test {
   const Scene& grow(const WorldConfig& world) {
     return scene_ = build_scene(world, 1, folder_ / "cache");
   }
-  /// In the aisle, turned a little to one row.
+  /// In the aisle, turned slightly to one row.
   static Pose in_aisle(double x = -0.3, double y = 0.02, double yaw = 0.15, double pitch = 0) {
     return Rig::mount({x, y, 0.45}, {0, pitch, yaw});
   }
@@ -85,7 +85,7 @@ TEST_F(TruthWorldTest, FlowWarpsOneImageOntoTheNext) {
   const std::vector<double> trips = round_trips(forth, back, forth.visible);
   EXPECT_LT(quantile(trips, 0.5), 0.05);
   EXPECT_LT(quantile(trips, 0.99), 0.5);
-  // What is seen in both images is the same thing.
+  // Points visible in both images belong to the same instance.
   int same = 0, all = 0;
   for (int y = 0; y < camera_.height; ++y) {
     for (int x = 0; x < camera_.width; ++x) {
@@ -125,7 +125,7 @@ TEST_F(TruthWorldTest, DisparityWarpsTheRightImageOntoTheLeft) {
   EXPECT_LT(quantile(shifts, 0.95), 0.5);
 }
 
-/// What a thing may be labelled as.
+/// The labels allowed for an object.
 bool may_show(Thing thing, Label label) {
   switch (thing) {
     case Thing::kGround:
@@ -185,7 +185,7 @@ TEST_F(TruthWorldTest, LabelsInstancesDepthAndNormalsAgreeWithTheGeometry) {
           const Model& model = scene_.models[static_cast<std::size_t>(instance.model)];
           const Eigen::Vector3f p_model =
               ((instance.T_world_model.inverse() * p) / instance.scale).cast<float>();
-          // Cards of the far levels reach a little beyond the finest level.
+          // Cards of the far levels extend slightly beyond the finest level.
           ASSERT_LT(model.bounds.exteriorDistance(p_model), 0.03) << name.model << " " << p;
         }
         if (name.thing == Thing::kGround && v.image.depth.at<float>(y, x) < 15) {
@@ -257,7 +257,7 @@ TEST_F(TruthWorldTest, WindMovesLeavesAndMotionSaysWhereTo) {
   constexpr double kTime = 3, kLater = 3.1;  // s
   Scene still = grow(csl_vineyard()), windy = still;
   windy.wind.speed = 4;
-  // Without shadows, through which leaves would move and change their brightness.
+  // Without shadows, in which moving leaves would change their brightness.
   const RendererConfig config{.shadow_map_size = 0};
   Renderer calm(still, config), renderer(windy, config);
   const Pose pose = in_aisle(0.3, 0, 0.6, -0.25);
@@ -281,7 +281,7 @@ TEST_F(TruthWorldTest, WindMovesLeavesAndMotionSaysWhereTo) {
       }
     }
   }
-  EXPECT_GT(quantile(lengths, 0.5), 1);  // px: else nothing is shown here
+  EXPECT_GT(quantile(lengths, 0.5), 1);  // px: otherwise the test says nothing
   leaves &= forth.visible;
   EXPECT_GT(cv::countNonZero(leaves), 0.6 * static_cast<double>(lengths.size()));
   const std::vector<double> trips = round_trips(forth, back, leaves);

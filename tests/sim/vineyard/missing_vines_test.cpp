@@ -25,7 +25,7 @@ WorldConfig gappy(const test::TestFolder& folder) {
   return world;
 }
 
-/// Places with a trunk to bump into.
+/// Positions with a solid trunk.
 std::set<int> trunks(const WorldConfig& world, std::uint64_t seed) {
   const std::string mjcf = world_mjcf(world, "rover.xml", seed);
   std::set<int> places;
@@ -35,7 +35,7 @@ std::set<int> trunks(const WorldConfig& world, std::uint64_t seed) {
   return places;
 }
 
-/// Places with a plant to see: those of the one model that is the mesh.
+/// Positions with a visible plant: instances of the mesh.
 std::set<int> plants(const WorldConfig& world, std::uint64_t seed, const test::TestFolder& folder) {
   const Scene scene = build_scene(world, seed, folder / "cache");
   std::set<int> places;

@@ -38,7 +38,7 @@ double spread(const Texture& texture) {
 }
 
 TEST(CartonTest, APrintedOneHasAPrintOfItsSeed) {
-  // Board alone varies by a few grey levels and its tape; print is dark on it.
+  // Plain board varies by a few grey levels and its tape; print is dark.
   EXPECT_LT(spread(carton_texture(1)), 15);
   EXPECT_GT(spread(print_texture(1)), 40);
   EXPECT_EQ(cv::norm(print_texture(1).rgba, print_texture(1).rgba, cv::NORM_INF), 0);
@@ -73,7 +73,7 @@ TEST(ObstacleTest, APersonIsAsTallAsAskedAndStandsOnTheGround) {
   ASSERT_EQ(scene.instances.size(), 1u);
   const Instance& person = scene.instances[0];
   const Eigen::AlignedBox3f bounds = scene.models[0].bounds;
-  // The hat's crown is the figure's top; soles are 0.5 cm above or below the ground.
+  // The hat is the person's highest point; soles are within 0.5 cm of the ground.
   EXPECT_NEAR(bounds.max().z() * person.scale, 1.6, 0.02);
   EXPECT_NEAR(bounds.min().z(), 0, 0.015);
   EXPECT_NEAR(person.T_world_model.translation.z(), 0.2, 1e-9);  // 2 m uphill of the middle
@@ -157,7 +157,7 @@ TEST(TrellisTest, PostsAndBracesStandInTheRoversWayToo) {
   PhysicsWorld physics(kModels / "rover.xml", world);
   physics.refresh();
   const int post = physics.find(mjOBJ_GEOM, "post 0");
-  // Its middle is half its height up and leans out.
+  // Its middle is at half its height and leans out.
   EXPECT_NEAR(physics.state().geom_xpos[3 * post], -0.8 * std::tan(15 * 3.14159265358979 / 180),
               1e-9);
   EXPECT_NO_THROW(physics.find(mjOBJ_GEOM, "brace 1"));

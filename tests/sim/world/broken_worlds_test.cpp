@@ -21,7 +21,7 @@ using testing::Not;
 
 class BrokenWorldsTest : public testing::Test {
  protected:
-  /// The message for a world of that text; it must name the file and be of one line.
+  /// The message for a world of that text; it must name the file and be a single line.
   std::string problem(const std::string& text) const {
     const auto file = folder_.write("world.yaml", text);
     const std::string error = error_of([&] { load_world(file); });
@@ -95,7 +95,7 @@ TEST_F(BrokenWorldsTest, AnInfiniteNumberInCodeIsAnErrorToo) {
   EXPECT_THAT(error_of([&] { validate(obstacle); }), HasSubstr("found nan"));
 }
 
-/// Each is named with what it is too large in, before memory is taken for it.
+/// Each is an error that names the excessive quantity, before memory is allocated.
 TEST_F(BrokenWorldsTest, EnormousOnes) {
   EXPECT_THAT(problem("block: {rows: 500, length: 2000}\n"),
               AllOf(HasSubstr("1000000 m of rows"), HasSubstr("expected at most 20000 m")));

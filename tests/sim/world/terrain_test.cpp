@@ -19,7 +19,7 @@ namespace {
 
 const std::filesystem::path kSource = VINEBENCH_SOURCE_DIR;
 
-/// Three turned rows on bumps, ruts and a slope.
+/// Three rotated rows on bumps, ruts and a slope.
 WorldConfig bumpy() {
   WorldConfig world;
   world.ground_size = 40;
@@ -34,7 +34,7 @@ WorldConfig bumpy() {
   return world;
 }
 
-/// Places all over the grid, away from its rim, on no line of it.
+/// Points all over the grid, away from its rim and its lines.
 std::vector<Eigen::Vector2d> places(const Terrain& terrain, int count) {
   const RandomStream random(7, "places");
   const Eigen::AlignedBox2d box = terrain.box();
@@ -47,7 +47,7 @@ std::vector<Eigen::Vector2d> places(const Terrain& terrain, int count) {
   return points;
 }
 
-/// Height of the drawn mesh's finest level under a point; NaN where there is none.
+/// Height of the drawn mesh's finest level under a point; NaN if there is none.
 double drawn_height(const Scene& scene, const Eigen::Vector2d& p) {
   for (const Instance& tile : scene.instances) {
     const Model& model = scene.models[static_cast<std::size_t>(tile.model)];
@@ -65,7 +65,7 @@ double drawn_height(const Scene& scene, const Eigen::Vector2d& p) {
         Eigen::Matrix3d sides;
         sides << corner(0), corner(1), corner(2);
         sides.row(2).setOnes();
-        if (std::abs(sides.determinant()) < 1e-9) continue;  // a skirt stands upright
+        if (std::abs(sides.determinant()) < 1e-9) continue;  // a skirt is vertical
         const Eigen::Vector3d weights = sides.inverse() * Eigen::Vector3d(local.x(), local.y(), 1);
         if (weights.minCoeff() < 0) continue;
         return weights.x() * corner(0).z() + weights.y() * corner(1).z() +
@@ -89,7 +89,8 @@ TEST(TerrainTest, IsOneSurfaceInPhysicsAndImage) {
     const mjtNum down[3]{0, 0, -1};
     const double distance = mj_rayHfield(&physics.model(), &physics.state(), ground, from, down);
     ASSERT_GT(distance, 0) << p.transpose();
-    // Elevations are floats, shares of a range of about 1 m: 1e-6 m would do; the promise is 1 mm.
+    // Elevations are floats, relative to a range of about 1 m: 1e-6 m would suffice; the
+    // requirement is 1 mm.
     EXPECT_NEAR(5 - distance, terrain.height(p), 1e-5) << p.transpose();
     EXPECT_NEAR(drawn_height(scene, p), terrain.height(p), 1e-5) << p.transpose();
   }
@@ -180,7 +181,7 @@ TEST(TerrainTest, TheRoverDrivesStraightOverIt) {
     EXPECT_NEAR(body.translation.z(), ground, 0.02);
     EXPECT_GT((body.rotation * Eigen::Vector3d::UnitZ()).z(), std::cos(0.15));
   }
-  // Bumps and slip take a little of 10 s at 0.5 m/s; nothing steers, so it may drift off its line.
+  // Bumps and slip shorten 10 s at 0.5 m/s a little; without steering it may drift sideways.
   const Eigen::Vector3d end = rover.T_world_body().translation;
   EXPECT_NEAR(end.x(), 10, 0.25);
   EXPECT_NEAR(end.y(), 1.25, 0.40);

@@ -75,7 +75,7 @@ TEST(TagPoseTest, ThePrintFacesItsHeadingAndStandsUpright) {
   tag.facing_deg = 90;  // north
   const Pose pose = tag_pose(tag);
   EXPECT_EQ(pose.translation, tag.position);
-  // Who reads a print that faces north looks south: right is west, down is down.
+  // The viewer of a print that faces north looks south: right is west, down is down.
   EXPECT_LT((pose.rotation * Eigen::Vector3d::UnitX() - Eigen::Vector3d(-1, 0, 0)).norm(), 1e-12);
   EXPECT_LT((pose.rotation * Eigen::Vector3d::UnitY() - Eigen::Vector3d(0, 0, -1)).norm(), 1e-12);
   EXPECT_LT((pose.rotation * Eigen::Vector3d::UnitZ() - Eigen::Vector3d(0, -1, 0)).norm(), 1e-12);
@@ -118,7 +118,7 @@ TEST(RegisteredTagsTest, AreThoseThatTheWorldRegisters) {
   EXPECT_EQ(tags[1].T_world_tag.translation, Eigen::Vector3d(1, 2, 3));
 }
 
-// Facing along x and told to be turned by 90 degrees to the left, the tag seems to face along y:
+// The tag faces along x; with a survey error of 90 degrees to the left it seems to face along y:
 // the z axis, into the tag, is then -y.
 TEST(RegisteredTagsTest, CarryTheErrorOfTheirSurvey) {
   WorldConfig world = one_row({0, 0}, {4, 0});
@@ -129,11 +129,11 @@ TEST(RegisteredTagsTest, CarryTheErrorOfTheirSurvey) {
   EXPECT_LT((told.T_world_tag.translation - Eigen::Vector3d(1.01, 1.98, 0.53)).norm(), 1e-12);
   const Eigen::Vector3d into = told.T_world_tag.rotation * Eigen::Vector3d::UnitZ();
   EXPECT_LT((into + Eigen::Vector3d::UnitY()).norm(), 1e-12);
-  EXPECT_EQ(tag_pose(world.tags[0]).translation, Eigen::Vector3d(1, 2, 0.5));  // as it hangs
+  EXPECT_EQ(tag_pose(world.tags[0]).translation, Eigen::Vector3d(1, 2, 0.5));  // the true pose
 }
 
 TEST(TagProblemTest, KnowsEveryFamilyAndItsLastTag) {
-  // The library's own counts, as its documentation has them.
+  // Numbers of tags from the library's documentation.
   EXPECT_EQ(TagFamily("tag36h11").size(), 587);
   EXPECT_EQ(TagFamily("tag16h5").size(), 30);
   EXPECT_EQ(TagFamily("tag25h9").size(), 35);
@@ -196,13 +196,13 @@ TEST(BlockTest, BecomesRowsSideBySide) {
   world.place();
   EXPECT_FALSE(world.block);
   ASSERT_EQ(world.rows.size(), 3u);
-  // Along y, each row 2 m to the left of the one before, which is towards -x.
+  // Along y, each row 2 m to the left of the previous one, towards -x.
   for (int i = 0; i < 3; ++i) {
     const WorldConfig::Row& row = world.rows[static_cast<std::size_t>(i)];
     EXPECT_LT((row.start - Eigen::Vector2d(1 - 2 * i, 2)).norm(), 1e-12);
     EXPECT_LT((row.end - Eigen::Vector2d(1 - 2 * i, 12)).norm(), 1e-12);
   }
-  world.place();  // a second time changes nothing
+  world.place();  // idempotent
   EXPECT_EQ(world.rows.size(), 3u);
 }
 
@@ -254,7 +254,7 @@ TEST(TagOnPostTest, HangsOnTheSideThatIsNamed) {
   world.tags[0].post = WorldConfig::PostSide{0, -1, Side::kLeft, 0.7};
   world.tags[1].post = WorldConfig::PostSide{0, 1, Side::kStart, 0.4};
   world.place();
-  // The row runs north, so its left is west; 5 cm of post and 5 mm of board lie under the print.
+  // The row runs north, so its left is west; 5 cm of post and 5 mm of board are below the print.
   const Pose left = tag_pose(world.tags[0]);
   EXPECT_LT((left.translation - Eigen::Vector3d(-0.055, 6, 0.7)).norm(), 1e-9);
   EXPECT_LT((left.rotation * Eigen::Vector3d::UnitZ() - Eigen::Vector3d::UnitX()).norm(), 1e-9);
@@ -288,7 +288,7 @@ TEST(PlacingTest, ThingsStandOnUnevenGround) {
   world.place();
   // Height is 0 in the rows' middle, x = 3 m, and rises by 0.1 m a metre.
   EXPECT_NEAR(tag_pose(world.tags[0]).translation.z(), 0.2 + 0.5, 1e-9);
-  // The box stands as low as its lowest corner's ground, x = 3.8 m.
+  // The box is at the height of its lowest corner's ground, x = 3.8 m.
   EXPECT_NEAR(box_pose(world.boxes[0]).translation.z(), 0.08 + 0.2, 1e-9);
 }
 
@@ -348,7 +348,7 @@ TEST(WorldFileTest, TheAuthorsRouteFitsTheAislesOfManyRows) {
       }
     }
   }
-  EXPECT_GT(nearest, 0.10);  // m; who follows the route strays by a centimetre
+  EXPECT_GT(nearest, 0.10);  // m; the rover deviates from the route by a centimetre
 }
 
 TEST(WorldFileTest, AResolvedWorldReadsBackTheSame) {

@@ -22,8 +22,8 @@ std::vector<Pose> drive() {
   return poses;
 }
 
-/// A map whose second pair measures disparities too small by `offset` px, with landmarks where that
-/// puts them.
+/// A map whose second pair measures disparities too small by `offset` px, with landmarks at the
+/// resulting positions.
 AisleMap map_with_offset(const SyntheticAisle& aisle, double offset) {
   AisleMap made(aisle, {});
   const StereoCameraModel& camera = made.rig.left_cameras[1];
@@ -75,7 +75,7 @@ TEST(StereoCalibrationTest, ARightCalibrationStays) {
   EXPECT_FALSE(find_disparity_offsets(made.map, made.rig, {}));
 }
 
-// What was found before is where the search begins: nothing new is found.
+// The search starts from the previous result and finds no further offset.
 TEST(StereoCalibrationTest, WhatIsKnownIsNotFoundAgain) {
   const SyntheticAisle aisle(0, 1, 800);
   AisleMap made = map_with_offset(aisle, 0.8);

@@ -20,7 +20,8 @@ PinholeCamera lens(double fx, double fy, double cx, double cy) {
   return {.width = 376, .height = 240, .fx = fx, .fy = fy, .cx = cx, .cy = cy};
 }
 
-/// A pair as EuRoC's at half size: barrel distortion, different lenses, cameras some degrees off.
+/// A pair like EuRoC's at half size: barrel distortion, different lenses, cameras rotated by some
+/// degrees.
 Rig raw_rig() {
   Rig rig;
   rig.name = "raw";
@@ -34,7 +35,7 @@ Rig raw_rig() {
   return rig;
 }
 
-/// The same place, but perfect.
+/// The same pose with ideal, rectified cameras.
 Rig ideal_rig() {
   Rig rig = raw_rig();
   for (std::size_t i = 0; i < 2; ++i) {
@@ -44,7 +45,7 @@ Rig ideal_rig() {
   return rig;
 }
 
-/// The wall x = kWall of the body frame, seen by a camera: rays are shot, so that distortion and
+/// The wall x = kWall of the body frame, seen by a camera: ray-traced, so that distortion and
 /// rotation are exact. One texture cell is about as many pixels as in the other tests.
 cv::Mat view_of_wall(const RigCamera& camera) {
   const SyntheticTexture texture(5);
@@ -66,7 +67,7 @@ std::shared_ptr<FrameFeatures> features_of(const Rig& rig, const StereoRig& used
   return FrontEnd(config, used, {}, pool).process(frame, times);
 }
 
-/// How far off the wall, m, each stereo point is.
+/// Distance of each stereo point from the wall, m.
 std::vector<double> wall_errors(const Rig& rig) {
   const StereoRig used = make_stereo_rig(rig, {});
   const auto features = features_of(rig, used);
@@ -105,8 +106,8 @@ TEST(RectificationTest, PointsFallOnOneRowAtTheirDisparity) {
   EXPECT_LT((offset - Eigen::Vector3d(pair.baseline(), 0, 0)).norm(), 1e-12);
   EXPECT_FALSE(pair.lens().has_distortion());
   EXPECT_EQ(pair.lens().fx, pair.lens().fy);
-  // The centre of a white disc on black, painted where a real camera sees it, must come to where
-  // the common lens sees it: 5 px wide, centroid to 0.05 px.
+  // The centre of a white disc on black, painted at its position in a real camera, must be mapped
+  // to its position in the common camera: 5 px wide, centroid to 0.05 px.
   const Eigen::Vector3d p_body(1.2, 0.2, -0.15);
   for (int i = 0; i < 2; ++i) {
     const RigCamera& camera = rig.cameras[static_cast<std::size_t>(i)];
@@ -174,9 +175,9 @@ TEST(RectificationTest, PairsThatAreNoneAreErrors) {
       error([](Rig& rig) { std::swap(rig.stereo_pairs[0].left, rig.stereo_pairs[0].right); }),
       testing::HasSubstr("rig 'raw': stereo pair 'front': expected the right camera to the"));
   EXPECT_THAT(error([&](Rig& rig) { rig.cameras[1].T_body_cam = mount(0.055, -0.1, 0); }),
-              testing::HasSubstr("to the right of the left camera"));  // one above the other
+              testing::HasSubstr("to the right of the left camera"));  // vertical pair
   EXPECT_THAT(error([&](Rig& rig) { rig.cameras[1].T_body_cam = mount(-0.055, 0, 3); }),
-              testing::HasSubstr("expected the right camera"));  // looks back
+              testing::HasSubstr("expected the right camera"));  // looks backwards
   EXPECT_THAT(error([](Rig& rig) {
                 rig.cameras[1].T_body_cam.translation = rig.cameras[0].T_body_cam.translation;
               }),

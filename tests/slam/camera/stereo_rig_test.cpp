@@ -75,7 +75,7 @@ TEST(StereoRigTest, OtherPairsAreRectifiedFirst) {
   EXPECT_FALSE(is_rectified_first(rig, 1));
 
   rig = rover();
-  rig.cameras[3].T_body_cam.translation.z() += 1e-4;  // 0.2 px a metre before the cameras
+  rig.cameras[3].T_body_cam.translation.z() += 1e-4;  // 0.2 px at 1 m distance
   EXPECT_TRUE(is_rectified_first(rig, 1));
 
   rig = rover();
@@ -92,7 +92,7 @@ TEST(StereoRigTest, CamerasTheWrongWayRoundAreAnErrorWherePairIsUsed) {
   std::swap(rig.stereo_pairs[0].left, rig.stereo_pairs[0].right);
   EXPECT_THAT([&] { make_stereo_rig(rig, {}); },
               testing::ThrowsMessage<Error>(testing::HasSubstr("stereo pair 'front'")));
-  EXPECT_EQ(make_stereo_rig(rig, {"back"}).pairs.size(), 1u);  // the other one is not looked at
+  EXPECT_EQ(make_stereo_rig(rig, {"back"}).pairs.size(), 1u);  // the other one is not used
 }
 
 }  // namespace

@@ -211,7 +211,7 @@ TEST(OrbExtractor, AnglesTurnWithTheImage) {
   EXPECT_GT(agree, pairs * 9 / 10);
 }
 
-/// RenderedImage 2 is image 1 turned and scaled, with its own noise of 2 grey levels.
+/// Image 2 is image 1 rotated and scaled, with independent noise of 2 grey levels.
 class OrbInvariance : public testing::TestWithParam<Similarity> {};
 
 TEST_P(OrbInvariance, FeaturesMatch) {
@@ -220,13 +220,14 @@ TEST_P(OrbInvariance, FeaturesMatch) {
   const Features b = extractor.extract(GetParam().render(2)).features;
   const MatchQuality quality = match(a, b, GetParam(), extractor);
   ASSERT_GT(quality.visible, 100);
-  // A third of what is visible is found again, and four in five of those are right by their nearest
-  // descriptor alone: half of the two in five wrong ones that the estimate of motion bears.
+  // A third of the visible keypoints are matched, and four in five matches are correct by the
+  // nearest descriptor only: half of the outliers of two in five that motion estimation tolerates.
   EXPECT_GT(quality.matched, quality.visible / 3);
   EXPECT_GT(quality.correct, quality.matched * 4 / 5);
 }
 
-// Scales to one level of the pyramid either way: matching never compares features farther apart.
+// Scales up to one level of the pyramid in either direction: matching never compares features
+// farther apart.
 INSTANTIATE_TEST_SUITE_P(Warps, OrbInvariance,
                          testing::Values(Similarity{0, 1}, Similarity{0.35, 1}, Similarity{1.6, 1},
                                          Similarity{3.0, 1}, Similarity{0, 1.2},

@@ -19,7 +19,7 @@ TEST(Smoothing, IsAGaussianOfTwoPixels) {
   const cv::Mat image = render_image(201, 97, SyntheticTexture(4), 2, 1);
   cv::Mat expected;
   cv::GaussianBlur(image, expected, cv::Size(7, 7), 2, 2, cv::BORDER_REFLECT_101);
-  // Weights to 1/128 each way and rounding.
+  // Weights to 1/128 in each direction, and rounding.
   EXPECT_LE(worst(smooth(image), expected), 2);
 }
 

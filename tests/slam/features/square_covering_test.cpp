@@ -44,7 +44,7 @@ TEST(SquareCovering, KeepsNearlyTheWantedCountAndNeverMore) {
 
 TEST(SquareCovering, SpreadsEvenly) {
   // A sixteenth of the area is the crowded corner. By strength alone all 200 would come from it;
-  // spread evenly 13 of 200 would, and no quarter of the image would go without.
+  // spread evenly 13 of 200 would, and every quarter of the image would have some.
   const auto kept = suppress_square_covering(crowded_corners(), 200, kWidth, kHeight);
   const auto inside = [&](int x, int y, int width, int height) {
     return std::count_if(kept.begin(), kept.end(), [&](const Corner& c) {

@@ -67,11 +67,11 @@ TEST_F(LoopCloserTest, ALoadedMapLiesInTheWorldAsItsRegisteredTagSays) {
   map_.tags().push_back({"tag36h11", 1, 0.161, T_map_world * first.T_world_tag, true});
   LoopCloser loop = closer({first, second});
   loop.take_over(map_);
-  // Seen by a body that believes itself a decimetre off, the tag stands where the world has it.
+  // With a body pose off by 0.1 m, the tag is still at its registered pose.
   const Pose T_map_tag = T_map_world * second.T_world_tag;
-  Pose believed = T_map_tag * T_body_tag_.inverse();
-  believed.translation.x() += 0.1;
-  loop.record(*frame(0, {sighting(2, T_body_tag_)}), believed, 0, map_);
+  Pose estimated = T_map_tag * T_body_tag_.inverse();
+  estimated.translation.x() += 0.1;
+  loop.record(*frame(0, {sighting(2, T_body_tag_)}), estimated, 0, map_);
   ASSERT_EQ(map_.tags().size(), 2u);
   EXPECT_LT(distance(map_.tags()[1].T_map_tag, T_map_tag), 1e-12);
 }
@@ -85,7 +85,7 @@ TEST_F(LoopCloserTest, AnUnregisteredTagIsMappedAtFirstSight) {
   EXPECT_EQ(tag.size, settings_.tag_size);
   EXPECT_FALSE(tag.fixed);
   EXPECT_LT(distance(tag.T_map_tag, body_ * T_body_tag_), 1e-14);
-  // Seen again from a place that is a little wrong, it stays.
+  // A second sighting with a slightly wrong pose does not move it.
   loop.record(*frame(1, {sighting(3, T_body_tag_)}), Pose{}, 0, map_);
   ASSERT_EQ(map_.tags().size(), 1u);
   EXPECT_EQ(distance(map_.tags()[0].T_map_tag, tag.T_map_tag), 0);
@@ -96,7 +96,7 @@ TEST_F(LoopCloserTest, RegisteredTagsKeepTheirPlacesAgainstEachOther) {
   const Pose T_world_b{exp_so3({0.3, 0.1, 0.2}), {11, 22, 0.7}};
   LoopCloser loop = closer({{"tag36h11", 0, 0.2, T_world_a}, {"tag36h11", 1, 0.3, T_world_b}});
   loop.record(*frame(0, {sighting(0, T_body_tag_)}), body_, 0, map_);
-  // The second is seen in a wrong place: what is known beforehand counts.
+  // The second is seen at a wrong pose: the registered pose is used.
   loop.record(*frame(1, {sighting(1, T_body_tag_)}), body_, 0, map_);
   ASSERT_EQ(map_.tags().size(), 2u);
   EXPECT_TRUE(map_.tags()[0].fixed);
@@ -129,13 +129,13 @@ TEST_F(LoopCloserTest, ATagThatWasLeftAndIsSeenAgainIsALoop) {
   EXPECT_FALSE(loop.sees_loop(*first, 0));
   map_.add_keyframe(first, body_, {});
   loop.record(*first, body_, 0, map_);
-  // Three seconds are 45 frames; the way is at least a metre.
+  // Three seconds are 45 frames; the path is at least a metre.
   EXPECT_FALSE(loop.sees_loop(*frame(44, {sighting(3, T_body_tag_)}), 5.0));
   EXPECT_FALSE(loop.sees_loop(*frame(45, {sighting(3, T_body_tag_)}), 0.99));
   EXPECT_TRUE(loop.sees_loop(*frame(45, {sighting(3, T_body_tag_)}), 1.0));
   EXPECT_FALSE(loop.sees_loop(*frame(45, {sighting(4, T_body_tag_)}), 1.0));
   EXPECT_FALSE(loop.sees_loop(*frame(45, {}), 1.0));
-  // It stays one until it is closed.
+  // It remains a revisit until the loop is closed.
   loop.record(*frame(45, {sighting(3, T_body_tag_)}), body_, 1.0, map_);
   EXPECT_TRUE(loop.sees_loop(*frame(46, {sighting(3, T_body_tag_)}), 1.02));
 }
@@ -143,7 +143,7 @@ TEST_F(LoopCloserTest, ATagThatWasLeftAndIsSeenAgainIsALoop) {
 TEST_F(LoopCloserTest, OutOfViewForAMomentIsNotLeft) {
   LoopCloser loop = closer();
   map_.add_keyframe(frame(0, {sighting(3, T_body_tag_)}), body_, {});
-  // In view for every third second while 8 m are driven past it.
+  // In view during every third second while the rover passes it over 8 m.
   for (int i = 0; i < 400; i += 30) {
     const auto seen = frame(i, {sighting(3, T_body_tag_)});
     EXPECT_FALSE(loop.sees_loop(*seen, 0.02 * i)) << i;
@@ -196,7 +196,7 @@ class LoopClosureTest : public LoopCloserTest {
     return features;
   }
 
-  /// Every keyframe drifts by 1 cm and 0.3 degrees more than the one before.
+  /// Every keyframe drifts by 1 cm and 0.3 degrees more than the previous one.
   Pose drifted(int k) const {
     const auto i = static_cast<std::size_t>(k);
     return truth_[i] * Pose{exp_so3({0, 0, 0.005 * k}), {0.01 * k, 0, 0}};
@@ -235,14 +235,14 @@ TEST_F(LoopClosureTest, TiesTheTwoVisitsTogether) {
   EXPECT_LT(distance(closure.T_earlier_later, moved), 1e-12);
   EXPECT_NEAR(closure.correction, 0.05, 1e-5);  // five steps of 1 cm
   expect_true_poses();
-  // Closed, the visit goes on.
+  // After the closure the visit continues.
   EXPECT_FALSE(loop.sees_loop(*keyframe(5, false), 2.5));
 }
 
 TEST_F(LoopClosureTest, TheTagThatWasLeftClosesItWhateverElseIsInView) {
   LoopCloser loop = closer();
   const LoopClosure closure = drive_and_close(loop, true);
-  EXPECT_EQ(closure.tag_id, 0);  // tag 1 was in view at the keyframe before
+  EXPECT_EQ(closure.tag_id, 0);  // tag 1 was in view at the previous keyframe
   EXPECT_EQ(closure.earlier, 0);
   expect_true_poses();
 }
@@ -263,7 +263,7 @@ TEST_F(LoopClosureTest, ARegisteredTagThatIsNewClosesItWithTheLastOne) {
   const LoopClosure closure = loop.close(known_.add(last, drifted(5)), 2.5, known_.rig, known_.map);
   EXPECT_EQ(closure.tag_id, 7);
   EXPECT_EQ(closure.earlier, 0);
-  // By way of two tags it is the adjusted map that says so, which comes back to 1e-6.
+  // With two tags the closure is taken from the adjusted map, which is accurate to 1e-6.
   const Pose moved = truth_[0].inverse() * truth_[5];
   EXPECT_LT(distance(closure.T_earlier_later, moved), 1e-6);
   EXPECT_EQ(distance(closure.T_earlier_later, known_.map.keyframe(0).T_map_body.inverse() *

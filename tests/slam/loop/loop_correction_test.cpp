@@ -7,7 +7,7 @@
 namespace vinebench::slam {
 namespace {
 
-/// Keyframes at these x, m, each with a landmark of its own one metre to its left.
+/// Keyframes at these x, m, each with one landmark one metre to its left.
 Map straight_map(const std::vector<double>& places) {
   Map map(1.2);
   for (const double x : places) {
@@ -30,7 +30,7 @@ Pose shifted(const Map& map, int id, const Eigen::Vector3d& shift) {
   return {Eigen::Quaterniond::Identity(), place(map, id) + shift};
 }
 
-// Along the way turns do not matter: 0.3 m spread over steps of 1 and 2 m.
+// Along the path rotations have no influence: 0.3 m distributed over steps of 1 and 2 m.
 TEST(SpreadCorrectionTest, SharesTheWayByItsLengthAndTakesLandmarksAlong) {
   Map map = straight_map({0, 1, 2, 4});
   spread_correction(map, 1, 3, shifted(map, 3, {0.3, 0, 0}), Matrix6d::Zero());
@@ -42,23 +42,23 @@ TEST(SpreadCorrectionTest, SharesTheWayByItsLengthAndTakesLandmarksAlong) {
   EXPECT_LT((map.landmark(2).position - Eigen::Vector3d(2.1, 1, 0)).norm(), 1e-9);
 }
 
-// The end is 1 cm to the side, its heading unknown. Of its variance across the way, 1e-6 m^2 is the
-// first step's own, as much the second's, and (2e-4 rad)^2 (1 m)^2 = 4e-8 m^2 comes by the first
-// step's turn: those are the shares of the centimetre.
+// The end is 1 cm to the side, its heading unknown. Of its variance across the path, 1e-6 m^2 is
+// the first step's own, as much the second's, and (2e-4 rad)^2 (1 m)^2 = 4e-8 m^2 comes from the
+// first step's rotation: these are the shares of the centimetre.
 TEST(SpreadCorrectionTest, AnEarlyTurnSwingsWhatFollows) {
   Map map = straight_map({0, 1, 2});
   Matrix6d covariance = Matrix6d::Zero();
   covariance.bottomRightCorner<3, 3>() = 1e6 * Eigen::Matrix3d::Identity();
   spread_correction(map, 0, 2, shifted(map, 2, {0, 0.01, 0}), covariance);
   const double whole = 2 + 0.04;
-  // To first order: what is left out is the square of the turn, 4e-8.
+  // To first order: the neglected term is the square of the rotation, 4e-8.
   EXPECT_NEAR(place(map, 1).y(), 0.01 / whole, 1e-7);
   EXPECT_NEAR(yaw_of(map.keyframe(1).T_map_body.rotation), 0.01 * 0.04 / whole, 1e-7);
   EXPECT_NEAR(place(map, 2).y(), 0.01, 1e-7);
 }
 
-// The heading is wrong by 10 mrad, and where the end stands is right: it stays there, to the second
-// order, 4 m (10 mrad)^2 / 2, and turns.
+// The heading is wrong by 10 mrad, and the end's position is correct: it stays there, up to second
+// order, 4 m (10 mrad)^2 / 2, and rotates.
 TEST(SpreadCorrectionTest, ATurnLeavesTheEndInItsPlace) {
   Map map = straight_map({0, 1, 2, 4});
   const Eigen::Quaterniond turned(Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitZ()));
@@ -67,7 +67,7 @@ TEST(SpreadCorrectionTest, ATurnLeavesTheEndInItsPlace) {
   EXPECT_NEAR(yaw_of(map.keyframe(3).T_map_body.rotation), 0.01, 1e-4);
 }
 
-// As uncertain as the way of 4 m itself, 4e-6 m^2, the tag is believed by half.
+// As uncertain as the path of 4 m, 4e-6 m^2, the tag has half of the weight.
 TEST(SpreadCorrectionTest, AnUncertainTagIsBelievedInPart) {
   Map map = straight_map({0, 1, 2, 4});
   const Matrix6d covariance = 4e-6 * Matrix6d::Identity();
@@ -75,7 +75,7 @@ TEST(SpreadCorrectionTest, AnUncertainTagIsBelievedInPart) {
   EXPECT_NEAR(place(map, 3).x(), 4.01, 1e-9);
 }
 
-// 10 cm of standard deviation against 1.7 mm of the other 3 m: the rest of the way gets 3 parts in
+// 10 cm of standard deviation against 1.7 mm of the other 3 m: the rest of the path gets 3 parts in
 // ten thousand of the correction.
 TEST(SpreadCorrectionTest, AnOdometryGapTakesIt) {
   Map map = straight_map({0, 1, 2, 4});

@@ -14,7 +14,7 @@ using testing_support::SyntheticAisle;
 
 constexpr int kSide = 4;  // index of the rover's tag camera
 
-/// Which sightings the loop closer believes.
+/// Gating of sightings by the loop closer.
 class TagJudgementTest : public testing::Test {
  protected:
   TagSighting sighting(int id, const Pose& T_body_tag) const {
@@ -66,12 +66,12 @@ TEST_F(TagJudgementTest, ALoopNeedsTwoFramesInARow) {
   see_first();
   FrameFeatures once = frame(100, {shifted(3, 0.03)});
   EXPECT_TRUE(loop_.gate(once, body_, 5, map_).empty());
-  EXPECT_TRUE(once.tags.empty());  // held back
+  EXPECT_TRUE(once.tags.empty());  // pending
   FrameFeatures gap = frame(101, {});
   loop_.gate(gap, body_, 5, map_);
   FrameFeatures again = frame(102, {shifted(3, 0.03)});
   loop_.gate(again, body_, 5, map_);
-  EXPECT_TRUE(again.tags.empty());  // not in a row
+  EXPECT_TRUE(again.tags.empty());  // not consecutive
   FrameFeatures elsewhere = frame(103, {shifted(3, -0.05)});
   loop_.gate(elsewhere, body_, 5, map_);
   EXPECT_TRUE(elsewhere.tags.empty());  // 8 cm from where it was a frame ago
@@ -93,37 +93,37 @@ TEST_F(TagJudgementTest, AMovedTagIsRefused) {
     EXPECT_TRUE(moved.tags.empty());
     EXPECT_FALSE(loop_.sees_loop(moved, 5));
   }
-  // Nor does it say where a lost body is.
+  // It does not relocalise a lost body either.
   EXPECT_FALSE(loop_.map_pose({shifted(3, 0.25)}, map_));
 }
 
 TEST_F(TagJudgementTest, TheLongerTheWayTheMoreDriftIsAllowed) {
   see_first();
-  const auto believed = [&](double by, double way) {
+  const auto accepted = [&](double by, double travelled) {
     FrameFeatures seen = frame(100, {shifted(3, by)});
-    return loop_.gate(seen, body_, way, map_).empty();
+    return loop_.gate(seen, body_, travelled, map_).empty();
   };
-  EXPECT_TRUE(believed(0.10, 5));
-  EXPECT_FALSE(believed(0.25, 5));
-  EXPECT_TRUE(believed(0.25, 15));  // 0.35 m
-  EXPECT_FALSE(believed(0.6, 15));
+  EXPECT_TRUE(accepted(0.10, 5));
+  EXPECT_FALSE(accepted(0.25, 5));
+  EXPECT_TRUE(accepted(0.25, 15));  // 0.35 m
+  EXPECT_FALSE(accepted(0.6, 15));
 }
 
 TEST_F(TagJudgementTest, AfterAnOdometryGapMoreIsAllowed) {
   see_first();
-  const auto believed = [&](double by) {
+  const auto accepted = [&](double by) {
     FrameFeatures seen = frame(100, {shifted(3, by)});
     return loop_.gate(seen, body_, 5, map_).empty();
   };
-  EXPECT_FALSE(believed(0.25));  // 0.05 + 0.02 x 5 = 0.15 m
+  EXPECT_FALSE(accepted(0.25));  // 0.05 + 0.02 x 5 = 0.15 m
   Matrix6d covariance = Matrix6d::Zero();
   covariance.topLeftCorner<3, 3>().diagonal().setConstant(0.04 * 0.04);      // m^2
   covariance.bottomRightCorner<3, 3>().diagonal().setConstant(0.02 * 0.02);  // rad^2
   loop_.cross_gap(3, covariance);
   // In variances: 3 x 0.04^2 and 3 x 0.02^2 x 2^2 m^2 besides (0.15 m / 4.74)^2, together 0.104 m
   // squared: 4.74 of them are 0.49 m.
-  EXPECT_TRUE(believed(0.25));
-  EXPECT_FALSE(believed(0.6));
+  EXPECT_TRUE(accepted(0.25));
+  EXPECT_FALSE(accepted(0.6));
 }
 
 TEST_F(TagJudgementTest, ATagTurnedOverIsRefused) {
@@ -168,7 +168,7 @@ TEST_F(TagJudgementTest, AnAmbiguousSightingIsNotMapped) {
   ASSERT_EQ(rejected.size(), 1u);
   EXPECT_EQ(rejected[0].reason, TagRejection::kAmbiguous);
   EXPECT_TRUE(features.tags.empty());
-  // Nor does it place the body, in the world or in the map.
+  // It does not localise the body either, in the world or in the map.
   see_first();
   EXPECT_TRUE(loop_.map_pose({shifted(3, 0)}, map_));
   EXPECT_FALSE(loop_.map_pose({seen}, map_));

@@ -20,7 +20,7 @@ using testing::HasSubstr;
 using testing_support::AisleMap;
 using testing_support::SyntheticAisle;
 
-/// CRC-64/XZ bit by bit, as its definition has it.
+/// CRC-64/XZ bit by bit, by its definition.
 std::uint64_t slow_crc64(std::string_view bytes) {
   std::uint64_t crc = ~0ULL;
   for (const char byte : bytes) {
@@ -32,7 +32,7 @@ std::uint64_t slow_crc64(std::string_view bytes) {
   return ~crc;
 }
 
-/// The same bytes with a checksum that fits them.
+/// The same bytes with a correct checksum.
 std::string sealed(std::string bytes) {
   const std::size_t end = bytes.size() - 8;
   const std::uint64_t crc = slow_crc64(std::string_view(bytes).substr(0, end));
@@ -40,8 +40,8 @@ std::string sealed(std::string bytes) {
   return bytes;
 }
 
-/// A small map with one of everything: two keyframes, patches, placed features, a tag, a landmark
-/// that was removed.
+/// A small map with one element of each kind: two keyframes, patches, placed features, a tag, a
+/// landmark that was removed.
 AisleMap small_map(const SyntheticAisle& aisle) {
   AisleMap made(aisle, {Pose{}});
   const Pose second{exp_so3({0, 0, 0.05}), {0.1, 0.02, 0}};
@@ -67,7 +67,7 @@ class MapFileTest : public testing::Test {
  protected:
   Map parse(const std::string& bytes) const { return parse_map(bytes, made_.rig, "row.map"); }
 
-  /// The message of the Error that these bytes give; "" where they are a map.
+  /// The message of the Error for these bytes; "" if they are a valid map.
   std::string error_of(const std::string& bytes) const {
     try {
       parse(bytes);
@@ -161,12 +161,11 @@ TEST_F(MapFileTest, AnyAlteredByteIsAnError) {
   }
 }
 
-/// What a checksum does not tell: bytes altered before they were sealed. Either they are refused or
-/// what they make is a map that can be used.
+/// Bytes altered before the checksum was computed: they are rejected or give a usable map.
 TEST_F(MapFileTest, AlteredBeforeSealingItIsAnErrorOrAMap) {
   int refused = 0;
   int accepted = 0;
-  for (std::size_t i = 20; i < bytes_.size() - 8; i += 3) {  // fields begin at any remainder
+  for (std::size_t i = 20; i < bytes_.size() - 8; i += 3) {  // covers fields at any alignment
     std::string altered = bytes_;
     altered[i] = static_cast<char>(altered[i] ^ (i % 2 == 0 ? 0xff : 1 << (i % 8)));
     altered = sealed(altered);
@@ -180,7 +179,7 @@ TEST_F(MapFileTest, AlteredBeforeSealingItIsAnErrorOrAMap) {
       ++refused;
     }
   }
-  EXPECT_GT(refused, 200);   // lengths, ties, levels, poses and all of the rig
+  EXPECT_GT(refused, 200);   // lengths, associations, levels, poses and all of the rig
   EXPECT_GT(accepted, 200);  // descriptors, low bits of numbers
 }
 

@@ -33,8 +33,8 @@ class MapTest : public testing::Test {
     for (int i = 0; i < 3; ++i) map_.add_keyframe(frame(), Pose{}, {});
   }
 
-  /// Both sides tell the same: each observation stands at its feature and each tied feature among
-  /// its landmark's observations; covisibility counts are those of a recount.
+  /// Consistency: each observation is stored at its feature and each associated feature in its
+  /// landmark's observations; covisibility counts equal a recount.
   void expect_consistent() const {
     std::size_t tied = 0;
     for (const Keyframe& k : map_.keyframes()) {
@@ -115,7 +115,7 @@ TEST_F(MapTest, CovisibilityCountsLandmarksNotObservations) {
   EXPECT_EQ(map_.keyframe(0).covisible, (std::map<int, int>{{1, 2}, {2, 1}}));
   EXPECT_EQ(map_.keyframe(2).covisible, (std::map<int, int>{{0, 1}, {1, 1}}));
   EXPECT_EQ(map_.covisible(0, 10), (std::vector<int>{1, 2}));
-  EXPECT_EQ(map_.covisible(2, 10), (std::vector<int>{0, 1}));  // equal ones by their id
+  EXPECT_EQ(map_.covisible(2, 10), (std::vector<int>{0, 1}));  // ties in order of id
   EXPECT_EQ(map_.covisible(0, 1), (std::vector<int>{1}));
   EXPECT_EQ(map_.count_landmarks(2), 2u);
   EXPECT_EQ(map_.count_landmarks(3), 1u);
@@ -133,7 +133,7 @@ TEST_F(MapTest, RemovalLeavesNoTrace) {
   EXPECT_TRUE(map_.keyframe(0).covisible.empty());
   EXPECT_FALSE(map_.landmark(a).removed);
   map_.remove_observation(a, {0, 0, 1});
-  EXPECT_TRUE(map_.landmark(a).removed);  // nobody sees it any more
+  EXPECT_TRUE(map_.landmark(a).removed);  // no observation is left
   expect_consistent();
 
   const int b = map_.add_landmark({1, 0, 0}, {0, 0, 1});
@@ -188,7 +188,7 @@ TEST_F(MapTest, RefreshTakesTheMedianDescriptorTheMeanDirectionAndTheReach) {
   map_.refresh(id, {Pose{}, Pose{}});
   const Landmark& landmark = map_.landmark(id);
   EXPECT_LT((landmark.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-14);
-  // Two of the three descriptors are the same, the odd one is not taken.
+  // Two of the three descriptors are the same, the different one is not chosen.
   EXPECT_EQ(landmark.descriptor, frame()->views[0].features.descriptors[1]);
   // The last one sees it 2 m away on level 2: on level 0 it would be seen 1.44 times as far.
   EXPECT_NEAR(landmark.max_distance, 2 * 1.44, 1e-12);

@@ -37,7 +37,7 @@ TEST(TriangulationTest, NearlyParallelRaysAndRaysThatPartAreRefused) {
   EXPECT_FALSE(meet(0.9));
   EXPECT_TRUE(meet(1.1));
   EXPECT_FALSE(meet(-5));  // they meet behind both cameras
-  // Ahead of the first, behind the second.
+  // In front of the first, behind the second.
   EXPECT_FALSE(intersect_rays({0, 0, 0}, {0, 0, 1}, {-1, 0, 2}, {-1, 0, 0}));
 }
 
@@ -95,7 +95,7 @@ TEST(TriangulationTest, WhatHasALandmarkOrADepthIsLeftAlone) {
 
 TEST(TriangulationTest, FeaturesThatLookDifferentOrWithoutABaselineAreNotMatched) {
   const SyntheticAisle aisle(0, 1, 1500);
-  const SyntheticAisle other(0, 2, 1500);  // other places, other descriptors
+  const SyntheticAisle other(0, 2, 1500);  // other points, other descriptors
   const EstimatorRig rig(aisle.rig, OrbConfig{});
   const Keyframe a = keyframe(aisle, 0, Pose{});
   EXPECT_TRUE(match_epipolar(a,

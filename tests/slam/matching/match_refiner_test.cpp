@@ -43,9 +43,9 @@ TEST_F(MatchRefinerTest, MovesMatchesToWhereTheLandmarkIs) {
     squares += (Eigen::Vector2d(keypoint.x, keypoint.y) - truth[f]).squaredNorm();
   }
   EXPECT_GT(placed, static_cast<int>(truth.size()) * 2 / 3);  // others have too little texture
-  // Begun 0.8 px off; noise and interpolation leave less than a tenth of a pixel.
+  // Started 0.8 px off; noise and interpolation leave less than a tenth of a pixel.
   EXPECT_LT(std::sqrt(squares / placed), 0.1);
-  // The stereo partner has moved along.
+  // The stereo match has moved too.
   EXPECT_NEAR(frame->views[0].features.keypoints[0].x - frame->views[0].stereo[0].x_right,
               disparity, 1e-4);
 }
@@ -53,7 +53,7 @@ TEST_F(MatchRefinerTest, MovesMatchesToWhereTheLandmarkIs) {
 TEST_F(MatchRefinerTest, UntiesWhatThePatchContradicts) {
   auto frame = image(Pose{});
   Associations associations(1);
-  // Every feature is tied to the landmark one row further down: the same level, another place.
+  // Every feature is associated with the landmark one row below: same level, different position.
   const auto row = static_cast<std::size_t>(
       std::ranges::count(places, places[0].y(), [](const Eigen::Vector2d& p) { return p.y(); }));
   for (std::size_t i = 0; i + row < places.size(); ++i) {

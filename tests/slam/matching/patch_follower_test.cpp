@@ -77,12 +77,12 @@ TEST_F(PatchFollowerTest, LeavesWhatIsTiedAndWhatIsNotAskedFor) {
   follow_patches(map, asked, pose_, rig, settings_, *frame, associations_);
   ASSERT_GT(associations_[0].size(), 4u);
   EXPECT_EQ(associations_[0][0], 0);
-  EXPECT_EQ(associations_[0][1], -1);  // a corner of nothing stays one
+  EXPECT_EQ(associations_[0][1], -1);  // a spurious corner remains without landmark
   EXPECT_EQ(frame->views[0].detected(), 2u);
   EXPECT_FALSE(frame->views[0].is_placed(0));
   std::vector<int> found(associations_[0].begin() + 2, associations_[0].end());
   std::sort(found.begin(), found.end());
-  EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end());  // each once
+  EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end());  // unique
   for (const int id : found) {
     EXPECT_NE(id, 0);
     EXPECT_NE(id, 2);

@@ -15,8 +15,8 @@ class PatchProjectorTest : public testing::Test, protected testing_support::Slan
  protected:
   static Observation seen(std::size_t landmark) { return {0, 0, static_cast<int>(landmark)}; }
 
-  /// How far off (px, root mean square) a window is found that is looked for at its true place in
-  /// the image from a pose; `found` counts those that fit.
+  /// RMS error (px) of windows that are searched at their true positions in the image from a pose;
+  /// `found` counts those that fit.
   template <class Predict>
   double fit_error(const Pose& pose, const Predict& predict, int& found) const {
     const auto frame = image(pose);
@@ -47,7 +47,7 @@ TEST_F(PatchProjectorTest, FromTheSamePlaceAPatchIsItself) {
     EXPECT_EQ(view->level, level_of(places[i])) << i;
     const auto itself =
         warp_patch(*map.keyframe(0).patches[0].find(i), Eigen::Matrix3d::Identity());
-    // Grey levels; the depth is a float, which moves what is looked up by 1e-5 px.
+    // Grey levels; the depth is a float, which shifts the sampled positions by 1e-5 px.
     for (std::size_t k = 0; k < itself->grey.size(); ++k) {
       EXPECT_NEAR(view->window.grey[k], itself->grey[k], 0.01);
     }
@@ -55,7 +55,7 @@ TEST_F(PatchProjectorTest, FromTheSamePlaceAPatchIsItself) {
 }
 
 TEST_F(PatchProjectorTest, ForetellsWhatAnotherPoseSees) {
-  // 0.15 m nearer of some 1.2, aside, and 6 degrees turned about the line of sight.
+  // 0.15 m nearer (of about 1.2 m), sideways, and rotated by 6 degrees about the line of sight.
   const Pose pose{exp_so3({0.02, -0.03, 0.1}), {0.05, -0.03, 0.15}};
   PatchProjector projector(map, pose, rig);
   int found = 0;
@@ -67,7 +67,7 @@ TEST_F(PatchProjectorTest, ForetellsWhatAnotherPoseSees) {
       found);
   EXPECT_GT(found, static_cast<int>(places.size()) / 2);  // others leave, or have little texture
   EXPECT_LT(foretold, 0.1);  // px; noise and interpolation, as in patch_test
-  // The patch as it was cut fits fewer, or worse.
+  // The unwarped patch fits fewer, or worse.
   int found_plain = 0;
   const double plain = fit_error(
       pose,
@@ -83,7 +83,7 @@ TEST_F(PatchProjectorTest, ForetellsWhatAnotherPoseSees) {
 
 TEST_F(PatchProjectorTest, NearerIsALevelUp) {
   // A fifth larger is one level up, whose pixels are a fifth larger; along the ray of a landmark in
-  // the middle of each half, 1 - 1 / 1.2 of the way to it.
+  // the middle of each half, 1 - 1 / 1.2 of the distance to it.
   for (const std::size_t i : {places.size() / 2, places.size() / 2 + 3}) {
     const Landmark& landmark = map.landmark(static_cast<int>(i));
     const Pose nearer{Eigen::Quaterniond::Identity(), (1 - 1 / 1.2) * landmark.position};
@@ -104,7 +104,7 @@ TEST_F(PatchProjectorTest, SaysNothingOfWhatItCannotKnow) {
   EXPECT_FALSE(here.on_level({0, 1, 0}, 0, landmark, 0));  // of another view
 
   map.keyframe(0).patches[0] = PatchList(map.keyframe(0).patches[0].size());
-  EXPECT_FALSE(here.on_level(seen(0), 0, landmark, 0));  // cut from too near the border
+  EXPECT_FALSE(here.on_level(seen(0), 0, landmark, 0));  // cut too near the border
   map.keyframe(0).patches.clear();
   EXPECT_FALSE(here.on_level(seen(1), 0, map.landmark(1), 0));  // a keyframe without images
 }

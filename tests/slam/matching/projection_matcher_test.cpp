@@ -24,7 +24,7 @@ class ProjectionMatcherTest : public testing::Test {
                                found);
   }
 
-  /// How many of `found` are what they should be, and whether any is not.
+  /// Number of correct matches in `found`, and whether any is wrong.
   int count_right(const FrameFeatures& frame, const Associations& found, int view) const {
     const Associations truth = truth_.associate(frame);
     int right = 0;
@@ -62,7 +62,7 @@ TEST_F(ProjectionMatcherTest, FindsLandmarksInBothPairs) {
 }
 
 TEST_F(ProjectionMatcherTest, ALandmarkOfTheFrontPairIsFoundByTheBackPair) {
-  // Turned about, the back pair sees what the front pair saw; the mapped descriptors are theirs.
+  // After turning round, the back pair sees what the front pair saw, with the same descriptors.
   const Pose turned{exp_so3({0, 0, 3.14159265}), {0.0, 0, 0}};
   const auto frame = aisle_.frame(1, turned);
   Associations found = no_associations(*frame);
@@ -78,7 +78,7 @@ TEST_F(ProjectionMatcherTest, ALandmarkOfTheFrontPairIsFoundByTheBackPair) {
 TEST_F(ProjectionMatcherTest, LooksWithinItsRadiusOnly) {
   const Pose pose{Eigen::Quaterniond::Identity(), {0.05, 0, 0}};
   const auto frame = aisle_.frame(1, pose);
-  // Turned by 6 degrees every projection is off by 28 px and more: 263 px * tan(6 degrees).
+  // Rotated by 6 degrees, every projection is off by 28 px and more: 263 px * tan(6 degrees).
   const Pose off = pose * Pose{exp_so3({0, 0, 0.105}), Eigen::Vector3d::Zero()};
   ProjectionSearch near;
   near.radius = 5;  // at the top level of 3.6 px this is 18 px
@@ -120,7 +120,7 @@ TEST_F(ProjectionMatcherTest, LooksAtTheDescriptorAndTheNextBest) {
   found = no_associations(*frame);
   EXPECT_EQ(match(*flip(65), Pose{}, found), 0);
 
-  // Each feature twice: the second best is as good, and nothing is taken.
+  // Every feature is duplicated: the second best is as good, and no match is accepted.
   auto doubled = std::make_shared<FrameFeatures>(*frame);
   for (StereoView& view : doubled->views) {
     const StereoView once = view;
@@ -147,7 +147,7 @@ TEST_F(ProjectionMatcherTest, ADepthThatDoesNotFitIsNotTaken) {
 TEST_F(ProjectionMatcherTest, OfTwoLandmarksThatAskForOneFeatureTheMoreAlikeHasIt) {
   const auto frame = aisle_.frame(0, Pose{});
   Map& map = truth_.map;
-  // A double of landmark 0 whose descriptor is 20 bits off.
+  // A duplicate of landmark 0 with a descriptor that differs by 20 bits.
   const Landmark original = map.landmark(0);
   const Observation seen = original.observations.front();
   Landmark copy = original;
@@ -177,7 +177,8 @@ TEST_F(ProjectionMatcherTest, WhatIsTiedStaysSoAndRemovedLandmarksAreNotLookedFo
 }
 
 TEST_F(ProjectionMatcherTest, LandmarksSeenFromElsewhereAreNotExpected) {
-  // The mean direction to a landmark turned by more than 60 degrees: it shows another side.
+  // The mean viewing direction rotated by more than 60 degrees: another side of the landmark is
+  // visible.
   const auto frame = aisle_.frame(0, Pose{});
   Associations found = no_associations(*frame);
   for (Landmark& landmark : truth_.map.landmarks()) {

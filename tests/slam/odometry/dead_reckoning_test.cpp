@@ -8,33 +8,33 @@ namespace vinebench::slam {
 namespace {
 
 TEST(DeadReckoningTest, KeepsTheVelocityAndDoubtsItMoreAndMore) {
-  DeadReckoning dark{DeadReckoningConfig{}};
-  EXPECT_FALSE(dark.active());
+  DeadReckoning reckoning{DeadReckoningConfig{}};
+  EXPECT_FALSE(reckoning.active());
   Vector6d velocity = Vector6d::Zero();
   velocity[0] = 0.4;  // m/s
-  Pose way;
-  for (int i = 0; i < 10; ++i) way = way * dark.advance(std::nullopt, velocity, 0.1);
-  EXPECT_NEAR(way.translation.x(), 0.4, 1e-12);
+  Pose moved;
+  for (int i = 0; i < 10; ++i) moved = moved * reckoning.advance(std::nullopt, velocity, 0.1);
+  EXPECT_NEAR(moved.translation.x(), 0.4, 1e-12);
   // Half of 0.5 m/s^2 times a second squared, and likewise in rad.
-  EXPECT_NEAR(dark.sigma_position(), 0.25, 1e-12);
-  EXPECT_NEAR(dark.sigma_rotation(), 0.25, 1e-12);
-  EXPECT_FALSE(dark.is_lost());
-  for (int i = 0; i < 11; ++i) dark.advance(std::nullopt, velocity, 0.1);
-  EXPECT_TRUE(dark.is_lost());  // 0.25 * 2.1^2 = 1.1 m
-  dark.reset();
-  EXPECT_FALSE(dark.active());
-  EXPECT_EQ(dark.sigma_position(), 0);
+  EXPECT_NEAR(reckoning.sigma_position(), 0.25, 1e-12);
+  EXPECT_NEAR(reckoning.sigma_rotation(), 0.25, 1e-12);
+  EXPECT_FALSE(reckoning.is_lost());
+  for (int i = 0; i < 11; ++i) reckoning.advance(std::nullopt, velocity, 0.1);
+  EXPECT_TRUE(reckoning.is_lost());  // 0.25 * 2.1^2 = 1.1 m
+  reckoning.reset();
+  EXPECT_FALSE(reckoning.active());
+  EXPECT_EQ(reckoning.sigma_position(), 0);
 }
 
 TEST(DeadReckoningTest, DoubtsWheelsByTheWayTheyWent) {
-  DeadReckoning dark{DeadReckoningConfig{}};
+  DeadReckoning reckoning{DeadReckoningConfig{}};
   const Pose step{Eigen::Quaterniond::Identity(), {0.1, 0, 0}};
-  for (int i = 0; i < 20; ++i) dark.advance(step, Vector6d::Zero(), 0.1);
-  // 2 m: 5 % is 0.1 m of slip; 0.05 rad a metre is 0.1 rad, half of it over 2 m is 0.1 m aside.
-  EXPECT_NEAR(dark.sigma_position(), std::hypot(0.1, 0.1), 1e-9);
-  EXPECT_NEAR(dark.sigma_rotation(), 0.1, 1e-9);
-  // The same time on a kept velocity would leave 1 m.
-  EXPECT_FALSE(dark.is_lost());
+  for (int i = 0; i < 20; ++i) reckoning.advance(step, Vector6d::Zero(), 0.1);
+  // 2 m: 5 % is 0.1 m of slip; 0.05 rad a metre is 0.1 rad, half of it over 2 m is 0.1 m sideways.
+  EXPECT_NEAR(reckoning.sigma_position(), std::hypot(0.1, 0.1), 1e-9);
+  EXPECT_NEAR(reckoning.sigma_rotation(), 0.1, 1e-9);
+  // The same time with a constant velocity would give 1 m.
+  EXPECT_FALSE(reckoning.is_lost());
 }
 
 }  // namespace

@@ -17,12 +17,12 @@ TEST(WheelOdometryTest, TellsForwardSidewaysAndTurning) {
   const MecanumWheels wheels{0.1, 0.2, 0.15};
   const auto step = [&](std::array<double, 4> angle) {
     WheelOdometry odometry(wheels);
-    EXPECT_FALSE(odometry.step({reading({})}));  // nothing to compare the first with
+    EXPECT_FALSE(odometry.step({reading({})}));  // the first has no predecessor
     return *odometry.step({reading(angle)});
   };
-  // All wheels by 2 rad of 0.1 m: 0.2 m ahead.
+  // All wheels by 2 rad at 0.1 m: 0.2 m forward.
   EXPECT_LT((step({2, 2, 2, 2}).translation - Eigen::Vector3d(0.2, 0, 0)).norm(), 1e-12);
-  // To the left the front left and rear right wheels run back.
+  // For motion to the left the front left and rear right wheels turn backwards.
   EXPECT_LT((step({-2, 2, 2, -2}).translation - Eigen::Vector3d(0, 0.2, 0)).norm(), 1e-12);
   // Turning left by a: each wheel rolls a (0.2 + 0.15) m; 0.7 rad of angle is 0.07 m: a = 0.2 rad.
   const Pose turned = step({-0.7, 0.7, -0.7, 0.7});
@@ -44,7 +44,7 @@ TEST(WheelOdometryTest, ChainsReadingsIntoAnArc) {
   }
   const Pose arc = *odometry.step(readings);
   EXPECT_NEAR(log_so3(arc.rotation).z(), 3.14159265358979 / 2, 1e-9);
-  // Chords for arcs: part^2 / 24 = 1e-5 of the way too long.
+  // Chords instead of arcs: part^2 / 24 = 1e-5 of the path too long.
   EXPECT_LT((arc.translation - Eigen::Vector3d(1, 1, 0)).norm(), 3e-5);
   EXPECT_FALSE(odometry.step({}));
 }

@@ -14,7 +14,7 @@ using testing_support::angle;
 using testing_support::distance;
 using testing_support::SyntheticAisle;
 
-std::vector<Pose> way() {
+std::vector<Pose> true_poses() {
   std::vector<Pose> poses;
   for (int i = 0; i < 5; ++i) {
     poses.push_back({exp_so3({0, 0.01 * i, 0.03 * i}), {0.12 * i, 0.02 * i, 0}});
@@ -22,7 +22,7 @@ std::vector<Pose> way() {
   return poses;
 }
 
-/// Moves keyframes by 1 cm and 0.6 degrees and landmarks by 1 cm, each its own way.
+/// Perturbs keyframes by 1 cm and 0.6 degrees and landmarks by 1 cm, in random directions.
 void perturb(Map& map, const std::vector<int>& keyframes) {
   RandomSequence random(RandomStream(1, "perturb"));
   const auto draw = [&]() -> Eigen::Vector3d {
@@ -36,7 +36,7 @@ void perturb(Map& map, const std::vector<int>& keyframes) {
   for (Landmark& landmark : map.landmarks()) landmark.position += 0.01 * draw();
 }
 
-/// A tag 0.6 m before the side camera of the first keyframe, in view of all of them.
+/// A tag 0.6 m in front of the side camera of the first keyframe, in view of all of them.
 Pose tag_pose(const SyntheticAisle& aisle) {
   return aisle.rig.cameras[4].T_body_cam * Pose{exp_so3({0.2, 0.3, 0}), {0.1, 0.02, 0.6}};
 }
@@ -83,20 +83,20 @@ class BundleAdjustmentTest : public testing::TestWithParam<bool> {};
 
 TEST_P(BundleAdjustmentTest, PerturbedKeyframesAndLandmarksReturn) {
   const SyntheticAisle aisle(0, 1, 800);
-  AisleMap known(aisle, way());
+  AisleMap known(aisle, true_poses());
   const std::size_t observations = count_observations(known.map);
   perturb(known.map, {1, 2, 3, 4});
   const Pose first = known.map.keyframe(0).T_map_body;
   adjust(known.map, global_window(known.map), known.rig, thorough(GetParam()));
   for (std::size_t k = 0; k < 5; ++k) {
-    EXPECT_LT(distance(known.map.keyframes()[k].T_map_body, way()[k]), 1e-6) << k;
-    EXPECT_LT(angle(known.map.keyframes()[k].T_map_body, way()[k]), 1e-6) << k;
+    EXPECT_LT(distance(known.map.keyframes()[k].T_map_body, true_poses()[k]), 1e-6) << k;
+    EXPECT_LT(angle(known.map.keyframes()[k].T_map_body, true_poses()[k]), 1e-6) << k;
   }
   EXPECT_EQ(distance(known.map.keyframe(0).T_map_body, first), 0);
   // Pixels are floats, good to 1.5e-5 px: a point 1 m away stands within 1e-6 m along its ray (its
   // disparity is 32 px), and with the square of its distance less so.
   for (const auto& [point, landmark] : known.landmark_of) {
-    // What only the fixed keyframe sees takes no part.
+    // Landmarks seen by the fixed keyframe only are not adjusted.
     if (known.map.landmark(landmark).observations.back().keyframe == 0) continue;
     const Eigen::Vector3d& truth = aisle.point(point);
     const double range = std::max(1.0, (truth - Eigen::Vector3d(0.2, 0, 0.5)).norm());
@@ -107,7 +107,7 @@ TEST_P(BundleAdjustmentTest, PerturbedKeyframesAndLandmarksReturn) {
 
 TEST_P(BundleAdjustmentTest, OutliersAreRemovedAndHarmLittle) {
   const SyntheticAisle aisle(0.3, 2, 800);
-  AisleMap known(aisle, way());
+  AisleMap known(aisle, true_poses());
   // Feature 7, 27, 47, ... of keyframe 2's front pair is seen 25 px off.
   auto spoilt = std::make_shared<FrameFeatures>(*known.map.keyframe(2).frame);
   std::vector<int> hurt;
@@ -124,18 +124,18 @@ TEST_P(BundleAdjustmentTest, OutliersAreRemovedAndHarmLittle) {
   for (const int f : hurt) {
     EXPECT_EQ(known.map.keyframe(2).landmarks[0][static_cast<std::size_t>(f)], -1) << f;
   }
-  // The noise is a third of what the limit assumes: next to nothing else goes.
+  // The noise is a third of what the limit assumes: almost nothing else is removed.
   EXPECT_GT(count_observations(known.map), before - hurt.size() - before / 100);
   // They pulled a little until they were removed; the next adjustment is without them, and as good
   // as one that never had them but for a few observations less: a tenth of 0.3 px or 1 mm.
   adjust(known.map, global_window(known.map), known.rig, thorough(GetParam()));
-  AisleMap clean(aisle, way());
+  AisleMap clean(aisle, true_poses());
   adjust(clean.map, global_window(clean.map), clean.rig, thorough(GetParam()));
   for (std::size_t k = 0; k < 5; ++k) {
     EXPECT_LT(distance(known.map.keyframes()[k].T_map_body, clean.map.keyframes()[k].T_map_body),
               3e-4)
         << k;
-    EXPECT_LT(distance(clean.map.keyframes()[k].T_map_body, way()[k]), 1.5e-3) << k;
+    EXPECT_LT(distance(clean.map.keyframes()[k].T_map_body, true_poses()[k]), 1.5e-3) << k;
   }
 }
 
@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(DenseAndSparse, BundleAdjustmentTest, testing::Bool());
 
 TEST(AdjustmentTest, FixedKeyframesDoNotMove) {
   const SyntheticAisle aisle(0.3, 3, 600);
-  AisleMap known(aisle, way());
+  AisleMap known(aisle, true_poses());
   perturb(known.map, {1, 2, 3, 4});
   std::vector<Pose> before;
   for (const Keyframe& k : known.map.keyframes()) before.push_back(k.T_map_body);
@@ -164,10 +164,11 @@ TEST(AdjustmentTest, ATagOfKnownPoseHoldsTheMap) {
   const Pose T_world_tag = tag_pose(aisle);
   AisleMap known(aisle, {});
   for (std::size_t k = 0; k < 5; ++k) {
-    known.add(aisle.frame_with_tag(static_cast<std::int64_t>(k), way()[k], T_world_tag), way()[k]);
+    known.add(aisle.frame_with_tag(static_cast<std::int64_t>(k), true_poses()[k], T_world_tag),
+              true_poses()[k]);
   }
   known.map.tags().push_back({"tag36h11", 0, 0.161, T_world_tag, true});
-  // The whole map is off by 5 cm and 1 degree, all in agreement with itself but for the tag.
+  // The whole map is off by 5 cm and 1 degree, consistent except for the tag.
   const Pose off{exp_so3({0.01, 0, 0.015}), {0.03, -0.04, 0.01}};
   for (Keyframe& k : known.map.keyframes()) k.T_map_body = off * k.T_map_body;
   for (Landmark& landmark : known.map.landmarks()) landmark.position = off * landmark.position;
@@ -175,8 +176,8 @@ TEST(AdjustmentTest, ATagOfKnownPoseHoldsTheMap) {
   EXPECT_TRUE(window.fixed.empty());
   adjust(known.map, window, known.rig, thorough(true));
   for (std::size_t k = 0; k < 5; ++k) {
-    EXPECT_LT(distance(known.map.keyframes()[k].T_map_body, way()[k]), 1e-6) << k;
-    EXPECT_LT(angle(known.map.keyframes()[k].T_map_body, way()[k]), 1e-6) << k;
+    EXPECT_LT(distance(known.map.keyframes()[k].T_map_body, true_poses()[k]), 1e-6) << k;
+    EXPECT_LT(angle(known.map.keyframes()[k].T_map_body, true_poses()[k]), 1e-6) << k;
   }
   EXPECT_EQ(distance(known.map.tags()[0].T_map_tag, T_world_tag), 0);
 }
@@ -188,7 +189,8 @@ TEST(AdjustmentTest, AMappedTagMovesInAGlobalAdjustmentOnly) {
   for (const bool global : {false, true}) {
     AisleMap known(aisle, {});
     for (std::size_t k = 0; k < 3; ++k) {
-      known.add(aisle.frame_with_tag(static_cast<std::int64_t>(k), way()[k], truth), way()[k]);
+      known.add(aisle.frame_with_tag(static_cast<std::int64_t>(k), true_poses()[k], truth),
+                true_poses()[k]);
     }
     known.map.tags().push_back({"tag36h11", 0, 0.161, off, false});
     const AdjustmentWindow window = global_window(known.map);
@@ -207,7 +209,7 @@ TEST(AdjustmentTest, SameMapSameBits) {
   const SyntheticAisle aisle(0.5, 6, 600);
   Eigen::Vector3d ends[2];
   for (Eigen::Vector3d& end : ends) {
-    AisleMap known(aisle, way());
+    AisleMap known(aisle, true_poses());
     perturb(known.map, {1, 2, 3, 4});
     adjust(known.map, global_window(known.map), known.rig, {});
     end = known.map.keyframe(4).T_map_body.translation;
@@ -215,7 +217,7 @@ TEST(AdjustmentTest, SameMapSameBits) {
   EXPECT_EQ(ends[0], ends[1]);
 }
 
-/// Frames whose feature i has no meaning but its number.
+/// Frames whose features are only indices.
 Map chain() {
   Map map(1.2);
   auto frame = std::make_shared<FrameFeatures>();

@@ -31,7 +31,7 @@ int count(const Associations& associations, std::size_t view) {
   return tied;
 }
 
-/// Ties the chosen features of a view to some other landmark of theirs.
+/// Associates the chosen features of a view with wrong landmarks.
 template <class Choice>
 void spoil(std::vector<int>& view, const Choice& choose) {
   const std::vector<int> before = view;
@@ -85,9 +85,9 @@ TEST(MotionOnlyBaTest, BearsFortyPercentOutliers) {
     }
   }
   EXPECT_EQ(estimate.inliers, inliers);
-  // The noise here is half of what the chi-square limit assumes: no right one goes.
+  // The noise here is half of what the chi-square limit assumes: no correct one is removed.
   EXPECT_GT(kept_right, were_right * 97 / 100);
-  // A wrong one may lie right by chance.
+  // A wrong one may fit by chance.
   EXPECT_LT(kept_wrong, were_right * 2 / 100);
 }
 

@@ -40,7 +40,7 @@ TEST(PoseUncertaintyTest, GrowsFromKeyframeToKeyframe) {
   uncertainty.keyframe(sample_step(), information);
   uncertainty.keyframe({}, information);
   EXPECT_LT((uncertainty.at({}, Matrix6d::Zero()) - 2 * one).norm(), 1e-18);
-  // A heading's error of variance v moves what is 2 m ahead by 4 v aside.
+  // A heading's error of variance v gives a point 2 m ahead the lateral variance 4 v.
   const Matrix6d ahead =
       uncertainty.at({Eigen::Quaterniond::Identity(), {2, 0, 0}}, Matrix6d::Zero());
   EXPECT_NEAR(ahead(1, 1), (1 + 4) * 2 * one(0, 0), 1e-18);

@@ -93,7 +93,7 @@ TEST_F(TagFixTest, CovariancesAreCarriedAsPosesMove) {
     const Pose moved = body_ * step_of(step) * a_;
     Matrix6d covariance = 1e-14 * Matrix6d::Identity();
     covariance(axis, axis) = 1e-10;
-    // One standard deviation, whichever way it shows in the carried pose.
+    // One standard deviation, in any direction of the resulting pose.
     EXPECT_NEAR(pose_chi_squared(body_ * a_, moved, carry_covariance(covariance, a_)), 1, 1e-3)
         << axis;
   }

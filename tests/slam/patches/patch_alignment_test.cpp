@@ -65,7 +65,7 @@ TEST(PatchAlignmentTest, BearsTheNoiseOfASensor) {
   const Alignments found = align_all(p, p.left(1.5), p.right(1.5));
   EXPECT_GT(found.found, found.tried * 95 / 100);
   EXPECT_LT(found.rms, 0.1);
-  // What is left is the noise of both: 0.8 * 1.5 * sqrt(2) = 1.7 grey levels.
+  // The remaining difference is the noise of both: 0.8 * 1.5 * sqrt(2) = 1.7 grey levels.
   EXPECT_NEAR(found.difference, 1.7, 0.4);
 }
 
@@ -83,14 +83,14 @@ TEST(PatchAlignmentTest, ABrighterCameraChangesNothing) {
   const cv::Mat left = p.left(0);
   const cv::Mat right = p.right(0);
   const Alignments same = align_all(p, left, right);
-  // The texture lies in (40, 215): 30 more saturates nothing.
+  // The texture is within (40, 215): 30 more saturates nothing.
   const Alignments brighter = align_all(p, left, right + cv::Scalar(30));
   EXPECT_NEAR(brighter.found, same.found, 2);
   EXPECT_LT(brighter.rms, 0.03);
 }
 
 TEST(PatchAlignmentTest, TellsContrastAndDifference) {
-  // A black and a white half: every pixel is 50 from the mean but for the odd column, 11 of 121.
+  // A black and a white half: every pixel is 50 from the mean, except the middle column, 11 of 121.
   cv::Mat left(60, 100, CV_8UC1, cv::Scalar(100));
   left.colRange(0, 50) = 0;
   const auto aligned = align_patch(left, left, 50, 30, 0);

@@ -36,8 +36,8 @@ cv::Mat warped_image(const Eigen::Matrix3d& H) {
   return render_image(kWidth, kHeight, grey, kNoise, 2);
 }
 
-/// Root mean square distance (px) of the fits from where the homography puts the patches, each
-/// begun a pixel off; `found` counts them.
+/// RMS distance (px) of the fits from the patches' positions by the homography, each started a
+/// pixel off; `found` counts them.
 double fit_error(const Eigen::Matrix3d& H, bool plain, int& found) {
   const cv::Mat then = texture_image();
   const cv::Mat now = warped_image(H);
@@ -86,7 +86,7 @@ TEST(PatchTest, FollowsAWarpThatAPlainShiftCannot) {
   EXPECT_GT(fit_error(H, true, found), 2 * warped);
 }
 
-/// The patch about (x, y) as it is.
+/// The unwarped patch around (x, y).
 std::optional<PatchWindow> plain_window(const cv::Mat& image, double x, double y) {
   return warp_patch(*cut_patch(image, x, y), Eigen::Matrix3d::Identity());
 }

@@ -18,7 +18,7 @@ using testing_support::angle;
 using testing_support::distance;
 using testing_support::SyntheticAisle;
 
-/// Begins a frame when the test allows it, and notes what it was given.
+/// Processes a frame when the test allows it, and records its input.
 class HeldSystem : public SlamSystem {
  public:
   Estimate process(const Frame& frame) override {
@@ -53,21 +53,21 @@ Frame frame(std::int64_t index) {
 
 TEST(LiveSlamTest, TheNewestFrameIsWorkedOnAndOthersAreCounted) {
   HeldSystem system;
-  std::vector<Stamp> told;
-  LiveSlam live(system, [&](const Estimate& estimate) { told.push_back(estimate.stamp); });
+  std::vector<Stamp> answered;
+  LiveSlam live(system, [&](const Estimate& estimate) { answered.push_back(estimate.stamp); });
   live.push(frame(0));
-  system.begun.acquire();  // frame 0 is in work
+  system.begun.acquire();  // frame 0 is being processed
   for (std::int64_t i = 1; i <= 4; ++i) live.push(frame(i));
   EXPECT_EQ(live.dropped(), 3);  // 1, 2 and 3 in favour of 4
   system.allowed.release(2);
-  system.begun.acquire();  // frame 4 is in work
+  system.begun.acquire();  // frame 4 is being processed
   system.allowed.release(1);
   live.push(frame(5));
   const SlamSummary summary = live.finish();
   EXPECT_EQ(live.dropped(), 3);
   EXPECT_EQ(summary.landmarks, 3u);
-  EXPECT_THAT(told, testing::ElementsAre(frame(0).stamp, frame(4).stamp, frame(5).stamp));
-  // What the inertial unit said during dropped frames is not lost.
+  EXPECT_THAT(answered, testing::ElementsAre(frame(0).stamp, frame(4).stamp, frame(5).stamp));
+  // Inertial samples of dropped frames are not lost.
   ASSERT_EQ(system.frames[1].imu.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(system.frames[1].imu[i].stamp, frame(static_cast<std::int64_t>(i) + 1).stamp);
@@ -130,14 +130,14 @@ TEST(LiveSlamTest, EndsWithoutFinish) {
     live.push(frame(0));
     system.begun.acquire();
     live.push(frame(1));
-    system.allowed.release(2);  // the thread may have taken up frame 1 before it is told to end
+    system.allowed.release(2);  // the thread may have taken up frame 1 before it is asked to end
   }
   EXPECT_LE(system.frames.size(), 2u);
   EXPECT_EQ(system.frames.at(0).index, 0);
 }
 
-/// The core from features on as a SlamSystem that looks at the aisle. Each frame needs a permit, so
-/// that the test decides how many frames come meanwhile.
+/// The core without feature extraction as a SlamSystem in the aisle. Each frame needs a permit, so
+/// that the test controls how many frames arrive meanwhile.
 class AisleSystem : public SlamSystem {
  public:
   AisleSystem(const SlamConfig& config, const SyntheticAisle& aisle)
@@ -167,7 +167,7 @@ class AisleSystem : public SlamSystem {
 
 constexpr std::int64_t kFrames = 150;
 
-/// Every third frame takes so long that the three after it find one in work: two are dropped.
+/// Every third frame takes so long that of the three that arrive meanwhile two are dropped.
 SlamSummary drive_live(const SyntheticAisle& aisle, std::int64_t& dropped) {
   SlamConfig config;
   config.mapping.schedule = MappingSchedule::kLive;
@@ -206,8 +206,8 @@ TEST(LiveSlamTest, StaysNearTheLockstepResult) {
   EXPECT_NEAR(static_cast<double>(dropped), 2.0 / 5 * kFrames, 2);
   ASSERT_EQ(live.trajectory.size(), static_cast<std::size_t>(kFrames - dropped));
   ASSERT_EQ(lockstep.trajectory.size(), static_cast<std::size_t>(kFrames));
-  // Each drifts from the truth by about 0.1 % of 3 m of way, 3 mm, in a direction of its own: when
-  // mapping joins and which frames become keyframes differs.
+  // Each drifts from the truth by about 0.1 % of 3 m, 3 mm, in its own direction: when mapping
+  // joins and which frames become keyframes differs.
   std::size_t i = 0;
   for (const StampedPose& pose : live.trajectory) {
     while (lockstep.trajectory.at(i).stamp < pose.stamp) ++i;

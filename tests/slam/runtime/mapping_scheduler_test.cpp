@@ -25,7 +25,7 @@ MappingConfig config(MappingSchedule schedule, int delay = 0) {
   return result;
 }
 
-/// A map whose last keyframe is 1 cm off, which the job mends.
+/// A map whose last keyframe is 1 cm off, which the job corrects.
 class MappingSchedulerTest : public testing::Test {
  protected:
   MappingSchedulerTest() { known_.map.keyframe(2).T_map_body.translation.x() += 0.01; }
@@ -75,7 +75,7 @@ TEST_F(MappingSchedulerTest, InLockstepIsDueAfterTheDelayHoweverSoonItIsSolved) 
     scheduler.tick();  // ticks before the start do not count
     scheduler.start(job(), 2);
     for (int frame = 0; frame < delay; ++frame) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));  // it may well be solved by now
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));  // it is probably solved by now
       EXPECT_FALSE(scheduler.due()) << delay;
       scheduler.tick();
     }
@@ -113,8 +113,8 @@ TEST_F(MappingSchedulerTest, LiveIsDueWhenItIsSolved) {
   EXPECT_LT(distance(known_.map.keyframe(2).T_map_body, truth(2)), 1e-5);
 }
 
-/// Poses of a drive as they were told, and as they are in the end, byte for byte. `pause` lies
-/// between two frames, so that a job has more or less time.
+/// Live and final poses of a drive, byte by byte. `pause` between two frames gives a job more or
+/// less time.
 std::string drive(const SyntheticAisle& aisle, int delay, std::chrono::milliseconds pause) {
   SlamConfig slam;
   slam.mapping = config(MappingSchedule::kLockstep, delay);
@@ -143,7 +143,8 @@ TEST(LockstepTest, TheResultIsTheSameWhateverTheThreadsDo) {
 }
 
 TEST(LockstepTest, TheDelayIsPartOfTheConfiguration) {
-  // It changes what tracking knows when, and so the bytes: else the test above would prove nothing.
+  // The delay changes when tracking gets the result, and therefore the bytes; otherwise the test
+  // above would prove nothing.
   const SyntheticAisle aisle(0.5, 7, 1500);
   EXPECT_NE(drive(aisle, 0, std::chrono::milliseconds(0)),
             drive(aisle, 5, std::chrono::milliseconds(0)));

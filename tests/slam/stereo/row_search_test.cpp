@@ -32,7 +32,7 @@ TEST(RowSearchTest, FindsAWholeShiftExactly) {
 }
 
 TEST(RowSearchTest, NeighboursOfTheBestAreNotItsRivals) {
-  // Half way between two columns both fit alike; they are one minimum.
+  // Halfway between two columns both fit equally; they are one minimum.
   const RowSearch found =
       search_row(plane(20.5).left(0), kX, kY, plane(20.5).right(0), kX - 60, kX);
   EXPECT_NEAR(found.column, kX - 20.5, 0.6);
@@ -75,7 +75,7 @@ TEST(RowSearchTest, RivalsThatDoNotMatterAreLeftOut) {
 }
 
 TEST(RowSearchTest, ReadsTheWholeWindow) {
-  // Black images but for one grey pixel of the left: it counts wherever it is in the window.
+  // Black images except for one grey pixel in the left: it counts anywhere in the window.
   for (const cv::Point at : {cv::Point(-8, -5), cv::Point(7, 5), cv::Point(0, 0)}) {
     cv::Mat left = cv::Mat::zeros(60, 300, CV_8UC1);
     const cv::Mat right = cv::Mat::zeros(60, 300, CV_8UC1);

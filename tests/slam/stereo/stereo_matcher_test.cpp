@@ -75,13 +75,13 @@ class StereoPlaneTest : public testing::TestWithParam<SyntheticPlane> {};
 TEST_P(StereoPlaneTest, KeypointsAreMatchedAndRight) {
   const Quality quality = judge(GetParam());
   ASSERT_GT(quality.visible, 200);
-  // A whole surface that both cameras see: next to all of it.
+  // A surface visible in both cameras: almost all of it.
   EXPECT_GT(quality.matched, quality.visible * 95 / 100);
   EXPECT_GT(quality.right, quality.matched * 99 / 100);
   EXPECT_LT(quality.rms, 0.06);
 }
 
-// From 31 m to 0.16 m before the cameras; planes slanted about the upright and about the level
+// From 31 m to 0.16 m in front of the cameras; planes slanted about the vertical and the horizontal
 // axis.
 INSTANTIATE_TEST_SUITE_P(Planes, StereoPlaneTest,
                          testing::Values(SyntheticPlane{1.3}, SyntheticPlane{6.0},
@@ -125,10 +125,10 @@ TEST(StereoMatcherTest, NothingIsNearerThanTheNearestDepth) {
   config.min_depth = 0.8;  // 39.5 px
   const Quality beyond = judge(SyntheticPlane{36}, config);
   EXPECT_GT(beyond.right, beyond.visible * 85 / 100);
-  // The last step, the alignment, may go on by 5 px of the topmost level, 18 px.
+  // The last step, the alignment, may move by 5 px of the topmost level, 18 px.
   const Quality before = judge(SyntheticPlane{65}, config);
   EXPECT_EQ(before.right, 0);
-  // The texture does not repeat: few windows have a double by chance.
+  // The texture does not repeat: few windows have a duplicate by chance.
   EXPECT_LT(before.matched, before.visible * 3 / 100);
 }
 
@@ -163,7 +163,7 @@ TEST(StereoMatcherTest, ImagesThatShareNothingAreNotMatched) {
   EXPECT_LT(taken, static_cast<int>(matched.matches.size()) * 2 / 100);
 }
 
-/// Upright stems, 14 px wide and 90 px apart, before a textured background.
+/// Vertical stems, 14 px wide and 90 px apart, in front of a textured background.
 struct Stems {
   static constexpr double kStem = 40;  ///< px of disparity
   static constexpr double kBackground = 12;
@@ -227,7 +227,7 @@ TEST(ReachFartherTest, GivesWhatLiesBeyondADepthWhereLittleIsNear) {
   StereoConfig config;                       // no match at all: the fourth
   config.few = 1;
   reach_farther(left, camera, 0.1, config, matches);
-  EXPECT_EQ(matches[1].depth, -1);  // one is near, and enough
+  EXPECT_EQ(matches[1].depth, -1);  // one near point is enough
   config.few = 2;
   reach_farther(left, camera, 0.1, config, matches);
   EXPECT_FLOAT_EQ(matches[0].depth, 1);

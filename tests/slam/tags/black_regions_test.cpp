@@ -85,7 +85,7 @@ TEST(BlackRegions, AgreeWithTheDefinition) {
 TEST(BlackRegions, FlatAndTinyImagesHaveNone) {
   EXPECT_TRUE(find_black_regions(cv::Mat(40, 40, CV_8UC1, cv::Scalar(0)), 5).runs.empty());
   EXPECT_TRUE(find_black_regions(drawn({"#.", ".#"}), 5).runs.empty());
-  // 160 grey levels of contrast, one less than asked for.
+  // 160 grey levels of contrast, one less than required.
   EXPECT_TRUE(find_black_regions(drawn({"####....", "####....", "####....", "####...."}), 161)
                   .regions.empty());
 }

@@ -18,12 +18,12 @@ PinholeCamera camera(const std::array<double, 4>& distortion = {}) {
   return {640, 480, 400, 400, 319.5, 239.5, distortion};
 }
 
-/// A tag 0.6 m ahead, turned as `rpy` rad about the camera's axes.
+/// A tag 0.6 m ahead, rotated by `rpy` rad about the camera's axes.
 Pose before_camera(const Eigen::Vector3d& turn, const Eigen::Vector3d& at = {0.05, -0.03, 0.6}) {
   return {exp_so3(turn), at};
 }
 
-/// Greatest distance of a corner from where it is, px.
+/// Largest error of a corner, px.
 double worst_corner(const TagSighting& sighting, const SyntheticTag& tag, const PinholeCamera& lens,
                     const Pose& T_cam_tag) {
   double worst = 0;
@@ -49,17 +49,17 @@ TEST(TagDetectorTest, FindsCornersToATenthOfAPixelAndThePose) {
     // The image itself puts edges on twelfths of a pixel: 0.06 px at a corner.
     EXPECT_LT(worst_corner(seen, tag, camera(), truth), 0.1);
     // On a tag of 107 px that is a thousandth of its distance, and of its direction two hundredths
-    // seen square-on, where it shows least.
+    // in a frontal view, where it is least observable.
     EXPECT_LT((seen.T_cam_tag.translation - truth.translation).norm(), 0.001);
     EXPECT_LT(angle_of(seen.T_cam_tag.rotation.conjugate() * truth.rotation), 0.02);
   }
 }
 
 TEST(TagDetectorTest, CornersAreAsGoodAsTheySay) {
-  // Near, far and aslant, with little and much noise: the mean squared error in x and y is one in
+  // Near, far and oblique, with little and much noise: the mean squared error in x and y is one in
   // variances. Eight errors an image, in pairs that share a side, are good to a factor of two; six
-  // images together to a half. No corner is said to be better than 0.02 px, though on a clean
-  // image it is.
+  // images together to a half. The reported sigma is at least 0.02 px, although the error on a
+  // clean image is smaller.
   const SyntheticTag tag(7, kSize);
   TagDetector detector({}, {});
   std::vector<double> sigmas;
@@ -79,13 +79,13 @@ TEST(TagDetectorTest, CornersAreAsGoodAsTheySay) {
   EXPECT_GT(mean, 0.5);
   EXPECT_LT(mean, 1.5);
   for (const std::size_t near : {0, 3}) {
-    EXPECT_GT(sigmas[near + 1], sigmas[near]);  // aslant
+    EXPECT_GT(sigmas[near + 1], sigmas[near]);  // oblique
     EXPECT_GT(sigmas[near + 2], sigmas[near]);  // far
   }
 }
 
 TEST(TagDetectorTest, TheTagsFrameHasXRightYDownAndZIntoIt) {
-  // Square before the camera its axes are the camera's.
+  // In a frontal view its axes are the camera's.
   const Pose truth = before_camera({0, 0, 0}, {0, 0, 0.5});
   TagDetector detector({}, {});
   const auto sightings =
@@ -97,7 +97,7 @@ TEST(TagDetectorTest, TheTagsFrameHasXRightYDownAndZIntoIt) {
   EXPECT_LT(corners[0].x(), corners[1].x() - 100);
   EXPECT_GT(corners[0].y(), corners[3].y() + 100);
   EXPECT_GT(corners[2].x(), corners[3].x() + 100);
-  // Bundle adjustment counts them alike.
+  // Bundle adjustment uses the same order.
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(tag_corners(kSize)[i], SyntheticTag(0, kSize).corner(i));
   }
@@ -143,7 +143,7 @@ TEST(TagDetectorTest, TwoOfOneIdNearEachOtherAreBothSeenAndOnce) {
   const SyntheticTag tag(9, 0.06);
   cv::Mat image = tag.render(camera(), before_camera({0, 0, 0}, {-0.045, 0, 0.6}));
   const cv::Mat other = tag.render(camera(), before_camera({0, 0, 0}, {0.045, 0, 0.6}));
-  other.copyTo(image, other != 110);  // but the background
+  other.copyTo(image, other != 110);  // except the background
   TagDetector detector({}, {});
   const auto sightings = detector.detect(image, camera(), 0);
   ASSERT_EQ(sightings.size(), 2u);

@@ -21,8 +21,8 @@ std::array<Eigen::Vector2d, 4> corners_of(const Pose& T_cam_tag, const PinholeCa
   return pixels;
 }
 
-/// Poses all about, 0.3 to 2.5 m ahead, turned by up to 60 degrees against the view and any way
-/// about it.
+/// Random poses, 0.3 to 2.5 m ahead, tilted by up to 60 degrees against the view and rotated
+/// arbitrarily about it.
 Pose draw_pose(RandomSequence& random) {
   const double z = random.uniform(0.3, 2.5);
   const double x = z * random.uniform(-0.8, 0.8);
@@ -53,7 +53,7 @@ TEST(TagPoseTest, ScalesWithTheSizeOfTheTag) {
 }
 
 TEST(TagPoseTest, OfTheTwoPosesThatASquareHasTheBetterIsTaken) {
-  // 0.1 px of noise on a tag seen 59 px wide, 40 degrees aslant: the mirrored pose is 80 degrees
+  // 0.1 px of noise on a tag seen 59 px wide, tilted by 40 degrees: the mirrored pose is 80 degrees
   // away and off by a few tenths of a pixel.
   RandomSequence random(RandomStream(2, "tag-noise"));
   const Pose truth{exp_so3({0, 0.7, 0}), {0.1, 0.05, 2.0}};
@@ -79,7 +79,7 @@ TEST(TagPoseTest, FarAwayTheTwoPosesCannotBeToldApart) {
   EXPECT_FALSE(seen(2, 0.1).ambiguous);
   EXPECT_TRUE(seen(10, 0.1).ambiguous);
   EXPECT_TRUE(seen(2, 1).ambiguous);
-  // Near and square before the camera the two are one pose.
+  // Near and in a frontal view the two are one pose.
   const Pose frontal{{1, 0, 0, 0}, {0, 0, 0.5}};
   EXPECT_FALSE(
       estimate_tag_pose(corners_of(frontal, camera(), 0.161), camera(), 0.161, 0.1).ambiguous);

@@ -23,7 +23,7 @@ bool in_a_candidate(const std::vector<cv::Rect>& candidates, const SyntheticTag&
                     const Pose& T_cam_tag) {
   return std::ranges::any_of(candidates, [&](const cv::Rect& part) {
     for (std::size_t i = 0; i < 4; ++i) {
-      // The corner, and as much beyond it as the print's white margin: a module, 1/8 of the side.
+      // The corner plus the width of the print's white margin: a module, 1/8 of the side.
       const Eigen::Vector2d pixel = kCamera.project(T_cam_tag * (1.25 * tag.corner(i)));
       if (!part.contains(cv::Point2d(pixel.x(), pixel.y()))) return false;
     }
@@ -31,7 +31,7 @@ bool in_a_candidate(const std::vector<cv::Rect>& candidates, const SyntheticTag&
   });
 }
 
-/// Degrees that a tag is turned about the vertical, metres away.
+/// Rotation of a tag about the vertical, degrees, and its distance, m.
 class TagSearchTest : public testing::TestWithParam<std::pair<double, double>> {};
 
 TEST_P(TagSearchTest, ATagLiesInACandidateSharpBlurredOrDim) {
@@ -89,7 +89,8 @@ TEST(TagSearch, WhatIsNoFrameIsNoCandidate) {
   for (const cv::Mat& image : {ring, angle, cut, white()}) {
     EXPECT_TRUE(find_tag_candidates(image, 2).empty());
   }
-  // Where contrast ends a large square's inside is neither black nor white: it looks like a frame.
+  // The inside of a large square without contrast is neither black nor white: it looks like a
+  // frame.
   EXPECT_EQ(find_tag_candidates(solid, 2).size(), 1u);
   EXPECT_TRUE(find_tag_candidates(solid, 8).empty());
 }

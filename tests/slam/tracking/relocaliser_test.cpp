@@ -23,7 +23,7 @@ std::vector<Pose> along_the_aisle() {
   return poses;
 }
 
-/// Of a frame, this share of the descriptors become those of drawn landmarks: wrong matches.
+/// Replaces this share of a frame's descriptors by those of random landmarks: wrong matches.
 void mislead(FrameFeatures& frame, const Map& map, int percent) {
   const RandomStream random(9, "mislead");
   std::uint64_t draw = 0;
@@ -36,7 +36,7 @@ void mislead(FrameFeatures& frame, const Map& map, int percent) {
   }
 }
 
-/// Every descriptor differs from the landmark's in `bits` drawn bits, as real ones do.
+/// Every descriptor differs from the landmark's in `bits` random bits, like real ones.
 void blur(FrameFeatures& frame, int bits) {
   const RandomStream random(10, "blur");
   std::uint64_t draw = 0;
@@ -81,7 +81,7 @@ TEST_F(RelocaliserTest, FindsItAmongWrongMatchesAndChangedLooks) {
 }
 
 TEST_F(RelocaliserTest, FindsItTurnedAbout) {
-  // What the front pair mapped the back pair sees.
+  // The back pair sees what the front pair mapped.
   const Pose turned = truth_ * Pose{exp_so3({0, 0, 3.0}), Eigen::Vector3d::Zero()};
   const auto found = find(*aisle_.frame(100, turned));
   ASSERT_TRUE(found);
@@ -110,7 +110,7 @@ TEST_F(RelocaliserTest, FindsNothingWithoutFeaturesOrWithoutAMap) {
   EXPECT_FALSE(relocate(Map(1.2), made_.rig, *aisle_.frame(100, truth_), {}));
 }
 
-/// Two segments of a row that are the same to the last leaf: neither may be chosen.
+/// Two identical segments of a row: neither may be chosen.
 TEST_F(RelocaliserTest, FindsNothingWhereTwoPlacesLookTheSame) {
   Map map(OrbConfig{}.scale);
   for (const double shift : {0.0, 20.0}) {
@@ -152,7 +152,7 @@ TEST_F(RelocaliserTest, FramesThatDisagreeAreNotBelieved) {
   EXPECT_FALSE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(100, truth_)));
   // 1.1 m within 67 ms.
   EXPECT_FALSE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(101, along_the_aisle()[2])));
-  // A gap of a blind frame begins anew.
+  // A gap of a blind frame restarts the confirmation.
   EXPECT_FALSE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(102, truth_, {0, 1})));
   EXPECT_FALSE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(103, truth_)));
   EXPECT_TRUE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(104, truth_)));

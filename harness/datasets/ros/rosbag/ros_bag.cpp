@@ -84,7 +84,7 @@ boost::array<double, 9> diagonal(double variance) {
   return {{variance, 0, 0, 0, variance, 0, 0, 0, variance}};
 }
 
-/// What makes rosbag play keep a topic's last message for who comes later.
+/// Makes rosbag play latch a topic's last message.
 template <class Message>
 boost::shared_ptr<ros::M_string> latched_connection() {
   auto header = boost::make_shared<ros::M_string>();
@@ -101,10 +101,10 @@ boost::shared_ptr<ros::M_string> latched_connection() {
 struct RosBag::Impl {
   fs::path file;
   fs::path active;
-  std::unique_ptr<rosbag::Bag> bag;  ///< none once it is closed or has failed
+  std::unique_ptr<rosbag::Bag> bag;  ///< null after closing or a failure
   std::set<std::string> topics;
   std::uint64_t chunks = 0;
-  bool begun = false;  ///< the chunk that the next message goes into
+  bool begun = false;  ///< whether the current chunk has messages
 
   explicit Impl(const fs::path& name) : file(name), active(name.string() + ".active") {
     expect_room(0);
@@ -118,12 +118,12 @@ struct RosBag::Impl {
   ~Impl() {
     try {
       close();
-    } catch (const Error&) {  // what was wrong before was told; rosbag reindex reads what there is
+    } catch (const Error&) {  // the error was reported before; rosbag reindex recovers the file
     }
   }
 
-  /// What the library cannot write it cannot close: its destructor would throw, and with that end
-  /// the program. So it is left alone.
+  /// After a write error the library cannot close the bag: its destructor would throw and terminate
+  /// the program. So it is not destroyed.
   template <class Action>
   void attempt(const Action& action) {
     errno = 0;
@@ -137,7 +137,7 @@ struct RosBag::Impl {
     }
   }
 
-  /// The library would find out only when there is no room for an index any more.
+  /// The library would detect it only when there is no space for the index.
   void expect_room(std::uint64_t bytes) const {
     const std::uint64_t index = (topics.size() + 1) * kIndexOfConnection + chunks * kIndexOfChunk;
     const std::uint64_t more = bytes + kIndexOfMessage + index;
@@ -163,8 +163,8 @@ struct RosBag::Impl {
     expect_room(ros::serialization::serializationLength(m));
     attempt([&] {
       bag->write(topic, time_of(time), m, connection);
-      // The library empties its copy of a chunk only where a message crosses the threshold. So the
-      // first one of each frame does, in a chunk of its own.
+      // The library releases its copy of a chunk only if a message exceeds the threshold. So the
+      // first one of each frame does, in a separate chunk.
       if (!begun) bag->setChunkThreshold(kNoMessage);
     });
     begun = true;
@@ -173,7 +173,7 @@ struct RosBag::Impl {
   void end_chunk() {
     if (!begun) return;
     attempt([&] { bag->setChunkThreshold(kEveryMessage); });
-    // The library has no call that sends the chunk's index on its way; this is for all files.
+    // The library cannot flush the chunk's index; this flushes all files.
     std::fflush(nullptr);
     begun = false;
     chunks += 2;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Compiled as C++17 too, as ROS's headers have to be: nothing of ours that is C++20 goes in here.
+// Also compiled as C++17, as required by ROS's headers: no C++20 here.
 
 #include <array>
 #include <cstdint>
@@ -60,7 +60,7 @@ struct RosCameraInfo {
   std::array<double, 12> P{};
 };
 
-/// sensor_msgs/Imu without orientation. The variances hold for each axis.
+/// sensor_msgs/Imu without orientation. The variances apply to each axis.
 struct RosImu {
   RosHeader header;
   RosVector angular_velocity{};
@@ -86,23 +86,23 @@ struct RosOdometry {
   RosVector angular_velocity{};
 };
 
-/// A bag of ROS 1 that is written message after message, in the order of their times. It has
-/// ".active" at the end of its name until it is closed. What goes wrong throws Error; before a
-/// message that the disk has no room for, so that the bag can be closed nevertheless.
+/// A ROS 1 bag, written message by message in order of time. Its name ends with ".active" until it
+/// is closed. Throws Error; for a full disk before the message is written, so that the bag can
+/// still be closed.
 class RosBag {
  public:
-  /// Throws Error where the file cannot be written, and where the program was built without ROS's
+  /// Throws Error if the file cannot be written, and if the program was built without ROS's
   /// libraries.
   explicit RosBag(const std::filesystem::path& file);
-  /// Closes it, where that goes.
+  /// Closes it if possible.
   ~RosBag();
   RosBag(const RosBag&) = delete;
   RosBag& operator=(const RosBag&) = delete;
 
   void write_clock(const std::string& topic, std::int64_t time);
-  /// All of one time.
+  /// All transforms have the same time.
   void write_transforms(const std::string& topic, const std::vector<RosTransform>& transforms);
-  /// The same, for who comes later too: rosbag play latches it.
+  /// The same, latched by rosbag play.
   void write_latched(const std::string& topic, const std::vector<RosTransform>& transforms);
   void write(const std::string& topic, const RosImage& image);
   void write(const std::string& topic, const RosCompressedImage& image);
@@ -111,11 +111,11 @@ class RosBag {
   void write(const std::string& topic, const RosJointState& reading);
   void write(const std::string& topic, const RosOdometry& odometry);
 
-  /// What was written since is whole on its way to the disk: a chunk that `rosbag reindex` finds
-  /// even where the bag is never closed.
+  /// Completes and flushes the current chunk, so that `rosbag reindex` finds it even if the bag is
+  /// never closed.
   void end_chunk();
 
-  /// Writes the index and gives the bag its name.
+  /// Writes the index and renames the bag.
   void close();
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 
-// In the place of ros_bag.cpp where ROS's libraries are not installed.
+// Replaces ros_bag.cpp if ROS's libraries are not installed.
 
 #include "core/util/error.h"
 #include "harness/datasets/ros/rosbag/ros_bag.h"

@@ -13,7 +13,7 @@
 namespace vinebench::sim {
 namespace {
 
-/// Opened once a process; EGL counts its users itself and is safe across threads.
+/// Opened once per process; EGL is reference-counted and thread-safe.
 EGLDisplay open_display() {
   const EGLDisplay display =
       eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);

@@ -14,7 +14,7 @@
 namespace vinebench::sim {
 namespace {
 
-/// OSMesa's contexts share one screen, whose book-keeping is not safe across threads.
+/// OSMesa's contexts share one screen, which is not thread-safe.
 std::mutex& osmesa_mutex() {
   static std::mutex mutex;
   return mutex;

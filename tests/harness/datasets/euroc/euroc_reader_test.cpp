@@ -57,7 +57,7 @@ TEST_F(EurocReaderTest, GivesImagesReadingsAndInterpolatedTruth) {
     // 10 readings a frame; the first frame gets the one at its own stamp.
     EXPECT_EQ(samples[i].frame.imu.size(), i == 0 ? 1u : 10u);
     EXPECT_TRUE(samples[i].events.empty());
-    // 1 m/s: true poses lie 3 ms after and 7 ms before the frame's stamp.
+    // 1 m/s: true poses are 3 ms after and 7 ms before the frame's stamp.
     ASSERT_TRUE(samples[i].truth.known);
     const Eigen::Vector3d expected(0.05 * double(i), 2, 3);
     EXPECT_LT((samples[i].truth.T_world_body.translation - expected).norm(), 1e-6);
@@ -97,7 +97,7 @@ TEST_F(EurocReaderTest, StampsOutOfOrderAndTwiceAreMendedAndTold) {
   const std::vector<Sample> samples = test::play_all(root_);
   ASSERT_EQ(samples.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(test::grey_of(samples[i].frame.images[0]), int(i));
-  // cam1's fifth image has no frame any more.
+  // cam1's fifth image no longer has a frame.
   EXPECT_EQ(test::count_events(samples),
             (Counts{{"stamp_out_of_order", 1}, {"stamp_repeated", 1}, {"picture_unmatched", 1}}));
 }
@@ -106,7 +106,7 @@ TEST_F(EurocReaderTest, CamerasWithStampsOfTheirOwnAreAssociated) {
   std::vector<std::int64_t> stamps = test::regular_stamps(5);
   for (std::int64_t& stamp : stamps) stamp += kPeriod / 5;
   stamps.erase(stamps.begin() + 2);
-  stamps.insert(stamps.begin() + 1, stamps[0] + kPeriod / 5);  // a further one between 0 and 1
+  stamps.insert(stamps.begin() + 1, stamps[0] + kPeriod / 5);  // an additional one between 0 and 1
   test::write_euroc_camera(root_, 1, stamps);
   const std::vector<Sample> samples = test::play_all(root_);
   ASSERT_EQ(samples.size(), 5u);
@@ -215,15 +215,15 @@ TEST(PoseAtTest, LiesBetweenItsNeighbours) {
   const auto at = [](Stamp stamp, double x) {
     return StampedPose{stamp, {Eigen::Quaterniond::Identity(), {x, 0, 0}}};
   };
-  const Trajectory way{at(1'000'000'000, 0), at(1'200'000'000, 2), at(3'000'000'000, 9)};
+  const Trajectory trajectory{at(1'000'000'000, 0), at(1'200'000'000, 2), at(3'000'000'000, 9)};
   const Stamp gap = kNanosecondsPerSecond / 4;
-  EXPECT_NEAR(pose_at(way, 1'050'000'000, gap)->translation.x(), 0.5, 1e-12);
-  EXPECT_EQ(pose_at(way, 1'200'000'000, gap)->translation.x(), 2);
-  EXPECT_EQ(pose_at(way, 1'200'000'800, gap)->translation.x(), 2);  // within a microsecond
-  EXPECT_EQ(pose_at(way, 3'000'000'000, gap)->translation.x(), 9);
-  EXPECT_FALSE(pose_at(way, 2'000'000'000, gap));  // a gap of 1.8 s
-  EXPECT_FALSE(pose_at(way, 900'000'000, gap));
-  EXPECT_FALSE(pose_at(way, 3'100'000'000, gap));
+  EXPECT_NEAR(pose_at(trajectory, 1'050'000'000, gap)->translation.x(), 0.5, 1e-12);
+  EXPECT_EQ(pose_at(trajectory, 1'200'000'000, gap)->translation.x(), 2);
+  EXPECT_EQ(pose_at(trajectory, 1'200'000'800, gap)->translation.x(), 2);  // within a microsecond
+  EXPECT_EQ(pose_at(trajectory, 3'000'000'000, gap)->translation.x(), 9);
+  EXPECT_FALSE(pose_at(trajectory, 2'000'000'000, gap));  // a gap of 1.8 s
+  EXPECT_FALSE(pose_at(trajectory, 900'000'000, gap));
+  EXPECT_FALSE(pose_at(trajectory, 3'100'000'000, gap));
   EXPECT_FALSE(pose_at({}, 0, gap));
 }
 

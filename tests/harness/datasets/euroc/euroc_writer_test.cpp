@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 constexpr std::int64_t kFrames = 6;
 
-/// A pair and a camera for tags, at odd angles.
+/// A pair and a tag camera, at arbitrary angles.
 RecordingNotes notes() {
   RecordingNotes notes;
   for (const char* name : {"left", "right", "side"}) {
@@ -153,7 +153,7 @@ TEST_F(EurocWriterTest, OthersReadItWithoutWhatIsOurs) {
     std::filesystem::remove(root_ / ours);
   }
   const Recording recording = open_recording(root_);
-  // cam0 misses a frame, and so does the recording then; it is told as a gap.
+  // cam0 lacks a frame, which is reported as a gap.
   EXPECT_EQ(recording.frames.size(), static_cast<std::size_t>(kFrames - 1));
   EXPECT_EQ(recording.frames[2].events.at(0).event, "frames_missing");
   const Pose difference =
@@ -200,7 +200,7 @@ TEST_F(EurocWriterTest, AFolderThatHasSomethingIsAnError) {
 TEST_F(EurocWriterTest, ADiskThatTakesNoMoreIsOneError) {
   EurocWriter writer(root_, notes());
   writer.on_tick(sample(0), {});
-  // The images' folder goes away: what a full disk or a pulled one does to the next image.
+  // The images' folder is removed, as if the disk were full or unplugged.
   const std::string error = error_of([&] {
     for (std::int64_t i = 1; i < 1000; ++i) {
       if (i == 3) std::filesystem::remove_all(root_ / "mav0/cam1");

@@ -61,7 +61,7 @@ TEST_F(KittiReaderTest, LabelsSayWhichMatrixIsWhose) {
                    "P2: 20 0 15 1 0 20 11 0 0 0 1 0\nP3: 20 0 15 -9 0 20 11 0 0 0 1 0\n"
                    "Tr: 1 0 0 0 0 1 0 0 0 0 1 0\n");
   const Recording recording = open_recording(root_);
-  // Camera 2 is 1/20 m to the left of camera 0, whose pose the truth tells.
+  // Camera 2 is 1/20 m to the left of camera 0, whose pose the truth contains.
   EXPECT_NEAR(recording.rig.cameras[0].T_body_cam.translation.y(), 0.05, 1e-15);
   EXPECT_NEAR(recording.rig.baseline(recording.rig.stereo_pairs[0]), 0.5, 1e-15);
   EXPECT_NEAR(recording.truth[2].pose.translation.norm(), 2, 1e-12);  // of the body: camera 0
@@ -81,7 +81,7 @@ TEST_F(KittiReaderTest, TimesAreThoseOfTheFile) {
 TEST_F(KittiReaderTest, AMissingImageIsABlindCamera) {
   std::filesystem::remove(root_ / "image_r/000004.png");  // fewer on the right
   std::filesystem::remove(root_ / "image_l/000001.png");
-  std::filesystem::remove(root_ / "image_r/000001.png");  // no trace of frame 1
+  std::filesystem::remove(root_ / "image_r/000001.png");  // frame 1 is missing completely
   test::write_text(root_ / "image_l/000002.png", "no image");
   const std::vector<Sample> samples = test::play_all(root_);
   ASSERT_EQ(samples.size(), 5u);

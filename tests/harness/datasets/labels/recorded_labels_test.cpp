@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 
-// That the labels of a recording agree with each other, read back from its files.
+// Consistency of the labels of a recording, read back from its files.
 
 #include <gmock/gmock.h>
 
@@ -84,7 +84,7 @@ TEST_F(RecordedLabelsTest, DepthReprojectsIntoTheOtherCameraAtTheDisparity) {
         const int column = static_cast<int>(std::lround(at.x()));
         if (column < 0) continue;
         ++seen;
-        // The other camera sees the same thing unless something hides it: most are seen.
+        // The other camera sees the same point unless it is hidden: most are visible.
         same += std::abs(z_right.at<float>(y, column) - metres) < 0.03 * metres ? 1 : 0;
       }
     }
@@ -113,9 +113,9 @@ TEST_F(RecordedLabelsTest, FlowLeadsToThePointInTheNextFrame) {
         const Eigen::Vector3d p = T_next_now * (z.at<float>(y, x) * model.unproject({x, y}));
         const auto& steps = code.at<cv::Vec3w>(y, x);  // valid, v, u
         ASSERT_EQ(steps[0], 1);
-        const Eigen::Vector2d told((steps[2] - 32768) / 64.0, (steps[1] - 32768) / 64.0);
+        const Eigen::Vector2d recorded((steps[2] - 32768) / 64.0, (steps[1] - 32768) / 64.0);
         const Eigen::Vector2d expected = model.project(p) - Eigen::Vector2d(x, y);
-        ASSERT_LT((told - expected).norm(), 0.1) << camera << " " << x << " " << y;  // px
+        ASSERT_LT((recorded - expected).norm(), 0.1) << camera << " " << x << " " << y;  // px
         std::array<float, 2> raw{};
         std::memcpy(raw.data(), flo.data() + 12 + 8 * (y * z.cols + x), 8);
         ASSERT_NEAR(raw[0], expected.x(), 0.02);
@@ -123,11 +123,12 @@ TEST_F(RecordedLabelsTest, FlowLeadsToThePointInTheNextFrame) {
       }
     }
   }
-  EXPECT_GT(moved, 500);  // it says nothing of a camera that stands still
+  EXPECT_GT(moved, 500);  // otherwise the test says nothing
   EXPECT_FALSE(std::filesystem::exists(request_.out / "flow/left/000005.png"));
 }
 
-// Small images show plants as from afar, without bunches of their own, unless asked for detail.
+// Small images use distant levels of plants, without individual bunches, unless detail is
+// requested.
 TEST_F(RecordedLabelsTest, CocoCountsEveryPixelOnce) {
   request_.overrides.emplace_back("renderer.lod_scale", "20");
   record({"coco", "semantic", "instances"});
@@ -152,7 +153,7 @@ TEST_F(RecordedLabelsTest, CocoCountsEveryPixelOnce) {
     ++bunches;
     EXPECT_GE(annotation["visibility"], 0);
     EXPECT_LE(annotation["truncation"], 1);
-    // Its pixels are its own in the instance image.
+    // Its pixels have its number in the instance image.
     const std::string camera = image["camera"];
     const cv::Mat ids = read_image("instances", camera, image["frame"]);
     const cv::Mat mine = mask_of(runs, ids.size());

@@ -30,7 +30,7 @@ TEST(TruthColoursTest, FlowIsAColourWheel) {
   ASSERT_EQ(colours.type(), CV_8UC3);
   const auto at = [&](int x) { return colours.at<cv::Vec3b>(0, x); };
   EXPECT_EQ(at(0), cv::Vec3b(255, 0, 0));  // hue 0
-  // Hues of 90, 180 and 270 degrees: half way to green from yellow, cyan, half way to blue.
+  // Hues of 90, 180 and 270 degrees: yellow-green, cyan, blue-violet.
   EXPECT_LE(cv::norm(at(1), cv::Vec3b(128, 255, 0), cv::NORM_INF), 1);
   EXPECT_LE(cv::norm(at(2), cv::Vec3b(0, 255, 255), cv::NORM_INF), 1);
   EXPECT_LE(cv::norm(at(3), cv::Vec3b(128, 0, 255), cv::NORM_INF), 1);
@@ -87,7 +87,7 @@ TEST(TruthColoursTest, EachInstanceHasOneColour) {
   EXPECT_EQ(at(0), cv::Vec3b(0, 0, 0));
   EXPECT_EQ(at(1), at(3));
   EXPECT_NE(at(1), at(2));
-  for (int i = 0; i < 3; ++i) EXPECT_GE(at(1)[i], 50);  // not to be taken for none
+  for (int i = 0; i < 3; ++i) EXPECT_GE(at(1)[i], 50);  // distinguishable from none
 }
 
 TEST(TruthColoursTest, DisparityIsIn256thsOfAPixel) {

@@ -51,8 +51,8 @@ TEST(RosCameraTest, ALensWithDistortionIsRaw) {
   EXPECT_EQ(cameras[1].calibration.P[3], 0);  // of no pair
 }
 
-/// ROS: the right camera's P takes points of the left rectified view to the right image, where they
-/// must be seen as its own camera, turned by R, sees them.
+/// ROS: the right camera's P projects points of the left rectified view to the right image, where
+/// the right camera, rotated by R, must see them.
 TEST(RosCameraTest, RAndPRectifyAPairThatIsNot) {
   Rig rig = Rig::stereo(kLens, 0.12);
   Pose& T_body_right = rig.cameras[1].T_body_cam;

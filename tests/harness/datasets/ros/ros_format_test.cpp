@@ -67,13 +67,13 @@ TEST_F(RosFormatTest, ImagesAndColourAreThoseAskedFor) {
   record({"ros", "euroc"});
   const std::string compressed = read_file(bag());
   EXPECT_THAT(compressed, testing::Not(HasSubstr("mono8")));
-  // The very bytes of the file, though they were encoded once.
+  // The same bytes as the file, from one encoding.
   const std::string png = read_file(request_.out / "euroc/mav0/cam2/data/0.png");
   EXPECT_NE(compressed.find(png), std::string::npos);
   EXPECT_FALSE(fs::exists(request_.out / "ros/left"));
 }
 
-/// Holds files to a size while it lives.
+/// Limits the size of files during its lifetime.
 class SizeLimit {
  public:
   explicit SizeLimit(rlim_t bytes) : signal_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -113,7 +113,7 @@ TEST_F(RosFormatTest, ABagThatOutgrowsTheDiskIsClosedAllTheSame) {
   EXPECT_GT(written, 10);
   EXPECT_LE(fs::file_size(file), 300'000u);
   EXPECT_FALSE(fs::exists(file.string() + ".active"));
-  // Of a bag that was closed the first record says where its index is.
+  // The first record of a closed bag has the position of its index.
   const std::string bytes = read_file(file);
   const std::size_t index = bytes.find("index_pos=");
   ASSERT_NE(index, std::string::npos);

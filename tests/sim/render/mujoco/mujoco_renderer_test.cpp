@@ -75,7 +75,7 @@ TEST_F(MujocoRendererTest, TakesTheLevelOfTheDistance) {
   MujocoRendererConfig near;
   MujocoRendererConfig far;
   far.level_distance = 3;
-  // Each mesh carries two tiny triangles more.
+  // Each mesh has two additional tiny triangles.
   EXPECT_EQ(MujocoRenderer(scene_, near).triangles(), 4);
   EXPECT_EQ(MujocoRenderer(scene_, far).triangles(), 3);
 }

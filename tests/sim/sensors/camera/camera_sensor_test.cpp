@@ -27,7 +27,7 @@ CameraSensorConfig off() {
   return perfect_sensors().camera;
 }
 
-/// A wall 2 m ahead of a camera that looks along +y, left of x = 0 black, right of it white.
+/// A wall 2 m in front of a camera that looks along +y, black left of x = 0, white right of it.
 class EdgeTest : public testing::Test {
  protected:
   static constexpr double kDistance = 2;  // m
@@ -68,7 +68,7 @@ class EdgeTest : public testing::Test {
         });
   }
 
-  /// Mean and variance (px, px^2) of where light changes along some rows of an image.
+  /// Mean and variance (px, px^2) of the position of the edge along some rows of an image.
   static std::pair<double, double> edge(const cv::Mat& rgb, int top, int rows) {
     const cv::Mat light = to_light(rgb);
     double sum = 0, first = 0, second = 0;
@@ -125,7 +125,7 @@ TEST_F(EdgeTest, BlurIsAsLongAsExposureTimesImageSpeed) {
     // A box of length L has the variance L^2 / 12; n instants make (1 - 1 / n^2) of it.
     const double length = std::sqrt(12 * (moving - still) / (1 - 1 / (24.0 * 24)));
     EXPECT_NEAR(length, exposure * image_speed(), 0.5);
-    EXPECT_NEAR(middle, 99.5, 0.25);  // at mid-exposure the edge is before the camera
+    EXPECT_NEAR(middle, 99.5, 0.25);  // at mid-exposure the edge is on the optical axis
   }
 }
 
@@ -137,7 +137,7 @@ TEST_F(EdgeTest, ReadoutSkewsByItsTimeTimesImageSpeed) {
   // Bands of 8 rows, the first one's middle at row 3.5 and the last one's at 155.5 of 0 to 159.
   const double top = edge(rgb, 0, 8).first;
   const double bottom = edge(rgb, 152, 8).first;
-  // Later rows see the edge from farther right, so farther left.
+  // For later rows the camera is farther right, so the edge is farther left.
   EXPECT_NEAR((top - bottom) * 159 / 152, config.readout_time * image_speed(), 0.5);
   EXPECT_NEAR(edge(rgb, 72, 16).first, 99.5, 0.25);
 }
@@ -149,7 +149,7 @@ TEST_F(EdgeTest, WithoutMotionNeitherBlurNorReadoutShow) {
   EXPECT_EQ(different_values(capture(config, 0).rgb, clean), 0);
   config = off();
   config.readout_time = 0.02;
-  // Another crop may round an edge's pixels another way.
+  // Another crop may round an edge's pixels differently.
   EXPECT_LT(different_values(capture(config, 0).rgb, clean), 0.001 * clean.total() * 3);
 }
 
@@ -170,7 +170,7 @@ TEST_F(EdgeTest, BlurChangesNoNoiseDraw) {
   EXPECT_EQ(different_values(capture(noisy, 0).rgb, capture(both, 0).rgb), 0);
 }
 
-/// A sensor before an even wall of some code.
+/// A sensor in front of a uniform wall of some code.
 class WallTest : public testing::Test {
  protected:
   static constexpr int kWidth = 120;
@@ -200,7 +200,7 @@ class WallTest : public testing::Test {
   }
 
   cv::Scalar wall_;
-  double exposure_ = 0;  ///< as last asked of the renderer
+  double exposure_ = 0;  ///< as last requested from the renderer
 };
 
 TEST_F(WallTest, ExposureAndGainMultiplyTheLight) {
@@ -285,7 +285,7 @@ TEST_F(WallTest, HotPixelsLeakInProportionToTheTime) {
   };
   const double wall = light_of_code(100);
   // 1 % of pixels leak 1e6 electrons/s * 0.5 ms of 6900, on average; 108 leaks that scatter by
-  // their mean: 10 %. Four times the light within what saturation and pixels hit twice leave.
+  // their mean: 10 %. Four times the light, reduced by saturation and doubly hit pixels.
   const double little = lit(0.0001) - wall;
   EXPECT_NEAR(little, 0.01 * 1e6 * 0.0001 / 6900, 0.35 * 0.01 * 1e6 * 0.0001 / 6900);
   EXPECT_NEAR((lit(0.0004) - wall) / little, 4, 0.4);
@@ -348,8 +348,8 @@ class LensTest : public testing::Test {
   Renderer renderer_{Chessboard::scene(), {}};
 };
 
-/// With squares of 150 px, more than two to a texel: edges so soft that the search does not feel
-/// the grid.
+/// With squares of 150 px, more than two to a texel: edges so soft that the pixel grid has no
+/// influence.
 TEST_F(LensTest, PointsAreWhereTheCameraProjectsThem) {
   const Pose near = look_at({0.02, -0.24, 0.03}, {0.01, 0, 0}, 0.05);
   for (const std::array<double, 4>& distortion :
@@ -376,7 +376,7 @@ TEST_F(LensTest, LabelsAreBentWithTheImage) {
     }
   }
   EXPECT_GT(seen, 50000);
-  // Only along the outline of about 2000 px, where a pixel's centre falls to either side.
+  // Only along the outline of about 2000 px, where a pixel's centre may be on either side.
   EXPECT_LT(wrong, 1000);
 }
 

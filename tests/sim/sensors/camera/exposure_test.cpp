@@ -20,7 +20,7 @@ Rig pair_and_side() {
   return rig;
 }
 
-/// Images of even walls of that light under that exposure.
+/// Images of uniform walls of that light with that exposure.
 cv::Mat image(double light, const Exposure& exposure, const ExposureConfig& config) {
   const double code = code_of_light(light * exposure.factor(config.reference_time));
   return {48, 64, CV_8UC3, cv::Scalar::all(std::round(code))};
@@ -32,7 +32,7 @@ ExposureConfig automatic() {
   return config;
 }
 
-/// Brightness, frame by frame, before walls of these lights.
+/// Brightness, frame by frame, of walls of these lights.
 std::vector<double> brightness_over(ExposureControl& control, const ExposureConfig& config,
                                     double light, int frames) {
   std::vector<double> brightness;
@@ -76,7 +76,7 @@ TEST(ExposureTest, TheErrorFallsByAThirdsPowerOfEInATimeConstant) {
 TEST(ExposureTest, TimeComesFirstThenGain) {
   const ExposureConfig config = automatic();
   ExposureControl control(config, pair_and_side());
-  brightness_over(control, config, 0.03, 40);  // asks for 5.3 times the light: 10 ms
+  brightness_over(control, config, 0.03, 40);  // requires 5.3 times the light: 10 ms
   EXPECT_LT(control.of(0).time, config.max_time);
   EXPECT_EQ(control.of(0).gain_db, 0);
   brightness_over(control, config, 0.003, 40);  // 53 times: 16 ms and 6.6-fold

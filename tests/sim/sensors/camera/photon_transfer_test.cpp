@@ -30,7 +30,7 @@ Moments noisy_moments(const PhotonTransfer& sensor, int level) {
   return moments(image);
 }
 
-/// Slope and value at 0 of the straight line through points, weighted alike.
+/// Slope and intercept of the least-squares line.
 std::pair<double, double> fit_line(const std::vector<Moments>& points) {
   double x = 0, y = 0, xx = 0, xy = 0;
   for (const Moments& p : points) {
