@@ -20,12 +20,12 @@ namespace fs = std::filesystem;
 using test::error_of;
 using testing::HasSubstr;
 
-class RosFormatTest : public test::SmallScenario {
+class RecordedBagsTest : public test::SmallScenario {
  protected:
   fs::path bag() const { return request_.out / "ros/run.bag"; }
 };
 
-TEST_F(RosFormatTest, WithoutRosItIsOneError) {
+TEST_F(RecordedBagsTest, WithoutRosItIsOneError) {
   if (has_rosbag()) GTEST_SKIP() << "built with rosbag";
   const std::string error = error_of([&] { record({"rgb", "ros"}); });
   EXPECT_THAT(error, HasSubstr("built without ROS's libraries"));
@@ -34,7 +34,7 @@ TEST_F(RosFormatTest, WithoutRosItIsOneError) {
   EXPECT_THAT(all_formats(), testing::Not(testing::Contains("ros")));
 }
 
-TEST_F(RosFormatTest, WhatABagCannotHaveIsAnError) {
+TEST_F(RecordedBagsTest, WhatABagCannotHaveIsAnError) {
   request_.options.images = ImageKind::kWebp;
   EXPECT_THAT(error_of([&] { record({"ros"}); }), HasSubstr("--image webp: expected png or jpg"));
   EXPECT_TRUE(fs::is_empty(request_.out));
@@ -45,7 +45,7 @@ TEST_F(RosFormatTest, WhatABagCannotHaveIsAnError) {
   EXPECT_THAT(error_of([&] { record({"ros"}); }), HasSubstr("camera '2nd': expected a name"));
 }
 
-TEST_F(RosFormatTest, AnInterruptedBagIsClosed) {
+TEST_F(RecordedBagsTest, AnInterruptedBagIsClosed) {
   if (!has_rosbag()) GTEST_SKIP() << "built without rosbag";
   EXPECT_TRUE(record({"ros"}, 3).interrupted);
   EXPECT_TRUE(fs::exists(bag()));
@@ -57,7 +57,7 @@ TEST_F(RosFormatTest, AnInterruptedBagIsClosed) {
   EXPECT_GT(fs::file_size(bag()), of_three);
 }
 
-TEST_F(RosFormatTest, ImagesAndColourAreThoseAskedFor) {
+TEST_F(RecordedBagsTest, ImagesAndColourAreThoseAskedFor) {
   if (!has_rosbag()) GTEST_SKIP() << "built without rosbag";
   record({"ros"});
   const std::string raw = read_file(bag());
@@ -93,7 +93,7 @@ class SizeLimit {
   void (*signal_)(int);
 };
 
-TEST_F(RosFormatTest, ABagThatOutgrowsTheDiskIsClosedAllTheSame) {
+TEST_F(RecordedBagsTest, ABagThatOutgrowsTheDiskIsClosedAllTheSame) {
   if (!has_rosbag()) GTEST_SKIP() << "built without rosbag";
   const fs::path file = folder_ / "full.bag";
   std::int64_t written = 0;
@@ -120,7 +120,7 @@ TEST_F(RosFormatTest, ABagThatOutgrowsTheDiskIsClosedAllTheSame) {
   EXPECT_NE(bytes.substr(index + 10, 8), std::string(8, '\0'));
 }
 
-TEST_F(RosFormatTest, ABagThatCannotBeMadeIsAnError) {
+TEST_F(RecordedBagsTest, ABagThatCannotBeMadeIsAnError) {
   if (!has_rosbag()) GTEST_SKIP() << "built without rosbag";
   EXPECT_THAT(error_of([&] { RosBag(folder_ / "none/run.bag"); }),
               HasSubstr("cannot be written: No such file or directory"));
