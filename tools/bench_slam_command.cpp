@@ -9,6 +9,7 @@
 
 #include "core/util/files.h"
 #include "harness/benchmarks/slam_benchmark.h"
+#include "harness/datasets/reading/dataset_reader.h"
 #include "harness/replay.h"
 #include "tools/commands.h"
 #include "tools/interactive.h"
@@ -33,7 +34,8 @@ void load_recording(const BenchSlamArguments& arguments, harness::SlamBenchmark&
   benchmark.tags = recording.tags;
   benchmark.slam = harness::replay_settings(recording, "", parse_overrides(arguments.overrides));
   WorkerPool pool(arguments.threads);
-  benchmark.frames = harness::preload(*harness::play(std::move(recording), pool), arguments.frames);
+  harness::DatasetReader reader(std::move(recording), pool);
+  benchmark.frames = harness::preload(reader, arguments.frames);
 }
 
 int bench_slam(const BenchSlamArguments& arguments) {

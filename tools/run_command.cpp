@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "core/util/error.h"
+#include "harness/datasets/formats.h"
 #include "harness/jobs/run_scenario.h"
 #include "harness/sets/seed_list.h"
 #include "tools/commands.h"

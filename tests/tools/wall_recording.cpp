@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "harness/datasets/euroc/euroc_writer.h"
+#include "harness/datasets/euroc/euroc_sink.h"
 #include "tests/support/synthetic_texture.h"
 
 // Writes FOLDER, an EuRoC recording of a textured wall 2 m ahead of a pair with 0.1 m of baseline:
@@ -55,7 +55,7 @@ vinebench::Sample sample(int i) {
 
 int main(int argc, char** argv) {
   if (argc != 2) return 1;
-  vinebench::harness::EurocWriter writer(argv[1], notes());
+  vinebench::harness::EurocSink writer(argv[1], notes());
   for (int i = 0; i < kFrames; ++i) writer.on_tick(sample(i), {});
   writer.on_finish({});
 }

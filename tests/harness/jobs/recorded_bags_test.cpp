@@ -3,14 +3,13 @@
 
 // What is in a bag is read by ROS's own library in tests/tools/ros_test.sh.
 
-#include "harness/datasets/ros/ros_format.h"
-
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
 #include <csignal>
 
 #include "harness/datasets/dataset_check.h"
+#include "harness/datasets/ros/ros_writer.h"
 #include "tests/support/small_scenario.h"
 
 namespace vinebench::harness {

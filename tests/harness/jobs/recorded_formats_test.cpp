@@ -14,7 +14,7 @@
 #include <sstream>
 
 #include "core/trajectory.h"
-#include "harness/datasets/reading/dataset_reader.h"
+#include "harness/datasets/open_recording.h"
 #include "harness/jobs/run_scenario.h"
 #include "tests/support/recorded_folders.h"
 #include "tests/support/small_scenario.h"
