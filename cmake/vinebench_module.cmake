@@ -38,11 +38,15 @@ function(vinebench_precompile target)
   endif()
 endfunction()
 
-# vinebench_module(NAME dependencies...): one static library of every source in this folder and
-# those below it, except folders that are separate libraries.
+# vinebench_module(NAME dependencies...): one static library of every source in this folder and those
+# below it, but for folders that are libraries of their own, and for files that match
+# vinebench_without_NAME, a regular expression.
 function(vinebench_module name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
   list(FILTER sources EXCLUDE REGEX "/rosbag/")
+  if(vinebench_without_${name})
+    list(FILTER sources EXCLUDE REGEX "${vinebench_without_${name}}")
+  endif()
   add_library(vinebench_${name} STATIC ${sources})
   target_link_libraries(vinebench_${name} PUBLIC ${ARGN})
   vinebench_flags(vinebench_${name})
@@ -69,10 +73,14 @@ function(vinebench_library name)
   target_compile_options(vinebench_${name} PRIVATE -fno-semantic-interposition)
 endfunction()
 
-# vinebench_tests(FOLDER dependencies...): one GoogleTest program of every *_test.cpp in and below tests/FOLDER.
+# vinebench_tests(FOLDER dependencies...): one GoogleTest program of every *_test.cpp in and below tests/FOLDER
+# but for those that match vinebench_without_FOLDER_test, a regular expression.
 function(vinebench_tests folder)
   string(REPLACE "/" "_" name ${folder})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${folder}/*_test.cpp)
+  if(vinebench_without_${name}_test)
+    list(FILTER sources EXCLUDE REGEX "${vinebench_without_${name}_test}")
+  endif()
   if(VINEBENCH_TEST_FILES)
     list(FILTER sources INCLUDE REGEX "/(${VINEBENCH_TEST_FILES})_test\\.cpp$")
   endif()
@@ -84,7 +92,7 @@ function(vinebench_tests folder)
   target_compile_definitions(${name}_test PRIVATE VINEBENCH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   vinebench_flags(${name}_test)
   vinebench_precompile(${name}_test <gmock/gmock.h> <gtest/gtest.h>)
-  if(VINEBENCH_SANITIZE AND NOT VINEBENCH_SIMULATION)
+  if(VINEBENCH_SANITIZE AND VINEBENCH_SLAM_ONLY)
     vinebench_shards(${name}_test)
   else()
     # Complete drives are scenario tests: tests/CMakeLists.txt.

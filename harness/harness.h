@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Runs and evaluates experiments: reads a scenario, runs a SLAM system on its simulation in
-/// lockstep, compares the estimate with the ground truth and writes the results. The only folder
-/// that uses both simulation and SLAM.
+/// What runs a SLAM system in lockstep on frames from anywhere, compares what it says with the
+/// truth, and writes down what happened. Scenarios, which need the simulation, are in experiment/
+/// and jobs/.
 
-#include "harness/experiment/scenario.h"
-#include "harness/jobs/run_scenario.h"
 #include "harness/judge/evaluation.h"
 #include "harness/replay.h"
 #include "harness/report/run_folder.h"

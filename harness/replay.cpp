@@ -6,6 +6,7 @@
 #include "core/config/yaml_writer.h"
 #include "core/util/error.h"
 #include "core/util/files.h"
+#include "harness/datasets/reading/dataset_reader.h"
 #include "harness/report/run_folder.h"
 
 namespace vinebench::harness {
@@ -46,8 +47,8 @@ RunOutcome run_replay(Recording recording, const slam::SlamConfig& slam, int thr
   Trial trial;
   trial.name = recording.name;
   const auto system = slam::make_slam(slam, recording.rig, recording.tags, pool);
-  const auto source = play(std::move(recording), pool);
-  return run_mapping_system(trial, *source, *system, options);
+  DatasetReader source(std::move(recording), pool);
+  return run_mapping_system(trial, source, *system, options);
 }
 
 std::string format_replay(const Json& metrics) {

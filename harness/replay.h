@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/config/override.h"
-#include "harness/datasets/reading/dataset_reader.h"
+#include "harness/datasets/open_recording.h"
 #include "harness/run.h"
 
 namespace vinebench::harness {

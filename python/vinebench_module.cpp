@@ -18,7 +18,6 @@
 
 #include "core/time.h"
 #include "core/util/error.h"
-#include "harness/datasets/labels/label_formats.h"
 #include "harness/datasets/labels/label_table.h"
 #include "harness/datasets/labels/mask_rle.h"
 #include "harness/jobs/frame_stream.h"

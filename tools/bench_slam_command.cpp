@@ -7,18 +7,16 @@
 #include <memory>
 #include <thread>
 
-#include "core/util/error.h"
 #include "core/util/files.h"
 #include "harness/benchmarks/slam_benchmark.h"
-#include "harness/jobs/run_scenario.h"
+#include "harness/datasets/reading/dataset_reader.h"
 #include "harness/replay.h"
 #include "tools/commands.h"
 #include "tools/interactive.h"
+#include "tools/simulation.h"
 
 namespace vinebench::tools {
 namespace {
-
-constexpr const char* kDefaultScenario = "scenarios/quick-loop.yaml";
 
 struct BenchSlamArguments {
   std::string dataset;
@@ -36,35 +34,16 @@ void load_recording(const BenchSlamArguments& arguments, harness::SlamBenchmark&
   benchmark.tags = recording.tags;
   benchmark.slam = harness::replay_settings(recording, "", parse_overrides(arguments.overrides));
   WorkerPool pool(arguments.threads);
-  benchmark.frames = harness::preload(*harness::play(std::move(recording), pool), arguments.frames);
-}
-
-void record_simulation(const BenchSlamArguments& arguments, harness::SlamBenchmark& benchmark) {
-  const std::string file = arguments.scenario.empty() ? kDefaultScenario : arguments.scenario;
-  if (arguments.scenario.empty() && !std::filesystem::exists(file)) {
-    fail(
-        "bench slam: no {} here; run it in the project's folder, or name a DATASET or a --scenario",
-        file);
-  }
-  const harness::ScenarioConfig scenario =
-      harness::load_scenario(file, parse_overrides(arguments.overrides));
-  fmt::print(stderr, "simulating at most {} frames of {} …\n", arguments.frames, scenario.name);
-  WorkerPool pool(arguments.threads);
-  const auto source =
-      sim::make_simulation(scenario.simulation, static_cast<std::uint64_t>(scenario.seed),
-                           harness::default_cache(), pool);
-  benchmark.name = scenario.name;
-  benchmark.rig = source->rig();
-  benchmark.tags = sim::registered_tags(scenario.simulation.world);
-  benchmark.slam = scenario.slam;
-  benchmark.frames = harness::preload(*source, arguments.frames);
+  harness::DatasetReader reader(std::move(recording), pool);
+  benchmark.frames = harness::preload(reader, arguments.frames);
 }
 
 int bench_slam(const BenchSlamArguments& arguments) {
   harness::SlamBenchmark benchmark;
   benchmark.threads = arguments.threads;
   if (arguments.dataset.empty()) {
-    record_simulation(arguments, benchmark);
+    simulate_frames({arguments.scenario, parse_overrides(arguments.overrides), arguments.frames},
+                    benchmark);
   } else {
     load_recording(arguments, benchmark);
   }

@@ -29,6 +29,7 @@ void add_bench_command(CLI::App& app, Command& chosen);
 void add_world_command(CLI::App& app, Command& chosen);
 
 /// Sub-commands of bench in files of their own.
+void add_bench_render(CLI::App& bench, Command& chosen);
 void add_bench_slam(CLI::App& bench, Command& chosen);
 void add_bench_record(CLI::App& bench, Command& chosen);
 

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <thread>
 
+#include "harness/datasets/formats.h"
 #include "harness/jobs/record.h"
 #include "harness/run.h"
 #include "tools/commands.h"
@@ -66,10 +67,13 @@ int record(const RecordArguments& arguments) {
 
 void add_what(CLI::App& command, RecordArguments& arguments) {
   harness::RecordOptions& options = arguments.request.options;
+  std::vector<std::string> names;
+  for (const harness::DatasetFormat& format : harness::dataset_formats()) {
+    names.push_back(format.name);
+  }
   command
       .add_option("--format", arguments.formats,
-                  "Some of euroc, kitti, tum, dcvslam, rgb, depth, depth32, disparity, flow, flo, "
-                  "normals, semantic, instances, coco, ros; commas between them")
+                  fmt::format("Some of {}; commas between them", fmt::join(names, ", ")))
       ->required()
       ->delimiter(',');
   command.add_option("--cameras", options.cameras, "Names of cameras of the rig (default: all)")

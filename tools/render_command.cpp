@@ -9,6 +9,7 @@
 #include "core/geometry/rig.h"
 #include "core/truth/truth_images.h"
 #include "core/util/error.h"
+#include "harness/datasets/files/image_file.h"
 #include "harness/datasets/labels/truth_colours.h"
 #include "harness/jobs/run_scenario.h"
 #include "harness/jobs/snapshot.h"

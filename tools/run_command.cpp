@@ -9,7 +9,8 @@
 #include <thread>
 
 #include "core/util/error.h"
-#include "harness/harness.h"
+#include "harness/datasets/formats.h"
+#include "harness/jobs/run_scenario.h"
 #include "harness/sets/seed_list.h"
 #include "tools/commands.h"
 #include "tools/interactive.h"

@@ -4,14 +4,13 @@
 
 #include <ceres/version.h>
 #include <fmt/format.h>
-#include <mujoco/mujoco.h>
 #include <xxhash.h>
 
 #include <CLI/Version.hpp>
 #include <Eigen/Core>
 #include <opencv2/core/utility.hpp>
 
-#include "sim/render/gl/platform/gl_context.h"
+#include "tools/simulation.h"
 #include "vinebench/version.h"
 
 namespace vinebench::tools {
@@ -21,13 +20,12 @@ std::string versions_text() {
   const auto add = [&](const char* name, const std::string& version) {
     text += fmt::format("  {:<10} {}\n", name, version);
   };
-  add("MuJoCo", mj_versionString());
+  for (const auto& [name, version] : simulation_versions()) add(name.c_str(), version);
   add("OpenCV", cv::getVersionString());
   add("Eigen",
       fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));
   add("Ceres", CERES_VERSION_STRING);
   add("AprilTag", VINEBENCH_APRILTAG_VERSION);
-  add("OpenGL", sim::gl_version());
   add("CLI11", CLI11_VERSION);
   add("fmt",
       fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100));

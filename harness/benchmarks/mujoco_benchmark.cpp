@@ -6,8 +6,8 @@
 #include <array>
 
 #include "harness/benchmarks/measurement.h"
+#include "harness/datasets/files/image_file.h"
 #include "harness/jobs/run_scenario.h"
-#include "harness/jobs/snapshot.h"
 #include "sim/render/mujoco/mujoco_renderer.h"
 
 namespace vinebench::harness {

@@ -10,6 +10,7 @@
 #include "core/util/error.h"
 #include "harness/benchmarks/measurement.h"
 #include "harness/datasets/dataset_writer.h"
+#include "harness/datasets/formats.h"
 #include "harness/jobs/run_scenario.h"
 #include "harness/run/lockstep.h"
 #include "harness/run/prefetch.h"

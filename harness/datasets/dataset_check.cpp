@@ -3,19 +3,20 @@
 #include "harness/datasets/dataset_check.h"
 
 #include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <system_error>
 
-#include "core/trajectory.h"
 #include "core/util/error.h"
 #include "core/util/files.h"
 #include "harness/datasets/files/file_manifest.h"
 #include "harness/datasets/files/text_table.h"
+#include "harness/datasets/format/calibration_file.h"
 #include "harness/datasets/format/dataset_card.h"
-#include "harness/datasets/labels/label_check.h"
+#include "harness/datasets/formats.h"
 
 namespace vinebench::harness {
 namespace {
@@ -23,6 +24,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPartial = ".partial";
+constexpr std::size_t kFramesCompared = 6;  // whose label images are held against each other
+
+bool has_wind(const fs::path& scenario) {
+  const YAML::Node speed = YAML::LoadFile(scenario.string())["world"]["wind"]["speed"];
+  return speed.as<double>(0) != 0;
+}
 
 /// One sequence, or the folder of several.
 class Check {
@@ -42,11 +49,12 @@ class Check {
     check_files();
     if (!card_.sequences.empty()) return;
     ++report_.sequences;
+    sequence_.folder = folder_;
+    sequence_.complete = card_.complete;
     check_frames();
-    check_lists();
-    const LabelCheck labels = check_labels(folder_, frames_);
-    report_.label_images += labels.images;
-    for (const DatasetFault& found : labels.faults) fault(found.file, found.problem);
+    sequence_.rig = read_calibration(folder_ / "calibration.yaml");
+    sequence_.windy = has_wind(folder_ / "scenario.resolved.yaml");
+    check_formats();
   }
 
   const DatasetCard& card() const { return card_; }
@@ -87,76 +95,54 @@ class Check {
       frame.T_world_body.translation = {row.number(3), row.number(4), row.number(5)};
       frame.T_world_body.rotation =
           Eigen::Quaterniond(row.number(9), row.number(6), row.number(7), row.number(8));
-      if (row.number(0) != static_cast<double>(frames_.size())) {
-        fault("frames.csv", fmt::format("expected number {} in its place", frames_.size()));
+      if (row.number(0) != static_cast<double>(sequence_.frames.size())) {
+        fault("frames.csv",
+              fmt::format("expected number {} in its place", sequence_.frames.size()));
       }
-      if (!frames_.empty() && frame.stamp <= frames_.back().stamp) {
-        fault("frames.csv", fmt::format("frame {}: its stamp does not ascend", frames_.size()));
+      if (!sequence_.frames.empty() && frame.stamp <= sequence_.frames.back().stamp) {
+        fault("frames.csv",
+              fmt::format("frame {}: its stamp does not ascend", sequence_.frames.size()));
       }
       if (std::abs(frame.T_world_body.rotation.norm() - 1) > 1e-9) {
-        fault("frames.csv", fmt::format("frame {}: its quaternion is no unit one", frames_.size()));
+        fault("frames.csv",
+              fmt::format("frame {}: its quaternion is no unit one", sequence_.frames.size()));
       }
-      frames_.push_back(frame);
+      sequence_.frames.push_back(frame);
     }
-    report_.frames += static_cast<std::int64_t>(frames_.size());
-    if (card_.complete && static_cast<std::int64_t>(frames_.size()) != card_.frames) {
-      fault("frames.csv",
-            fmt::format("has {} frames, dataset.yaml says {}", frames_.size(), card_.frames));
-    }
-  }
-
-  bool exists(const std::string& name) const {
-    std::error_code ignored;
-    return fs::exists(folder_ / name, ignored);
-  }
-
-  /// Of a list of one line a frame; an interrupted recording may be a frame ahead in some.
-  void expect_rows(const std::string& name, std::size_t rows) {
-    const std::size_t frames = frames_.size();
-    if (rows == frames || (!card_.complete && rows >= frames && rows <= frames + 1)) return;
-    fault(name, fmt::format("has {} lines, expected one for each of {} frames", rows, frames));
-  }
-
-  void check_lists() {
-    if (exists("euroc")) check_euroc();
-    if (exists("kitti")) {
-      for (const char* name : {"kitti/times.txt", "kitti/poses.txt"}) {
-        expect_rows(name, read_table(folder_ / name).size());
-      }
-    }
-    if (!exists("tum")) return;
-    for (const std::string& name : files_below(folder_ / "tum")) {
-      expect_rows("tum/" + name, read_tum(folder_ / "tum" / name).size());
+    report_.frames += static_cast<std::int64_t>(sequence_.frames.size());
+    if (card_.complete && static_cast<std::int64_t>(sequence_.frames.size()) != card_.frames) {
+      fault("frames.csv", fmt::format("has {} frames, dataset.yaml says {}",
+                                      sequence_.frames.size(), card_.frames));
     }
   }
 
-  void check_euroc() {
-    expect_rows("euroc/frames.csv", read_table(folder_ / "euroc/frames.csv").size());
-    std::set<Stamp> stamps;
-    for (const RecordedPose& frame : frames_) stamps.insert(frame.stamp);
-    for (int i = 0; exists(fmt::format("euroc/mav0/cam{}", i)); ++i) {
-      const std::string camera = fmt::format("euroc/mav0/cam{}", i);
-      for (const TableRow& row : read_table(folder_ / camera / "data.csv")) {
-        row.expect_columns(2, "timestamp [ns], filename");
-        if (card_.complete && !stamps.contains(row.nanoseconds(0))) {
-          fault(camera + "/data.csv", fmt::format("{}: no frame has this stamp", row.fields[0]));
+  /// What every format says of itself: its lists, and label images of some frames.
+  void check_formats() {
+    std::vector<DatasetFault> faults;
+    std::vector<const DatasetFormat*> formats;
+    for (const DatasetFormat& format : dataset_formats()) {
+      if (!sequence_.has(format.name)) continue;
+      formats.push_back(&format);
+      if (format.check) format.check(sequence_, faults);
+    }
+    const std::size_t step = (sequence_.frames.size() + kFramesCompared - 1) / kFramesCompared;
+    for (std::size_t frame = 0; frame < sequence_.frames.size(); frame += step) {
+      for (std::size_t camera = 0; camera < sequence_.rig.cameras.size(); ++camera) {
+        LabelImages images(sequence_, frame, camera, faults);
+        for (const DatasetFormat* format : formats) {
+          if (format->check_image) format->check_image(images);
         }
-        if (!exists(camera + "/data/" + row.fields[1])) {
-          fault(camera + "/data.csv", fmt::format("{}: there is no such image", row.fields[1]));
-        }
+        report_.label_images += images.images();
       }
     }
-    const std::string truth = "euroc/mav0/state_groundtruth_estimate0/data.csv";
-    const std::size_t rows = read_table(folder_ / truth).size();
-    if (card_.complete) expect_rows(truth, rows);
-    for (const TableRow& row : read_table(folder_ / truth)) row.expect_columns(17, "EuRoC's");
+    for (const DatasetFault& found : faults) fault(found.file, found.problem);
   }
 
   fs::path folder_;
   std::string prefix_;
   DatasetReport& report_;
   DatasetCard card_;
-  std::vector<RecordedPose> frames_;
+  RecordedSequence sequence_;
 };
 
 }  // namespace

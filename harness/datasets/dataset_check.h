@@ -2,17 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-namespace vinebench::harness {
+#include "harness/datasets/format/recorded_sequence.h"
 
-/// What a check found wrong: a file, relative to the data set, and what is the matter with it.
-struct DatasetFault {
-  std::string file;
-  std::string problem;
-};
+namespace vinebench::harness {
 
 struct DatasetReport {
   std::vector<DatasetFault> faults;
@@ -24,8 +21,8 @@ struct DatasetReport {
 };
 
 /// Checks a data set that `vinebench record` made: that every file is there with the hash that the
-/// list says and none beside them, that the formats' lists agree with the frames, and at some
-/// frames that labels, depth, disparity, flow, masks and calibration agree with each other. Of an
+/// list says and none beside them, that each format's check holds, and at some frames that
+/// of its label images. Of an
 /// interrupted one, what there is. Throws Error for a folder that is no such data set.
 DatasetReport check_dataset(const std::filesystem::path& folder);
 

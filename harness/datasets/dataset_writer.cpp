@@ -6,15 +6,10 @@
 
 #include "core/util/error.h"
 #include "core/util/files.h"
-#include "harness/datasets/coco/coco_format.h"
-#include "harness/datasets/dcvslam/dcvslam_format.h"
-#include "harness/datasets/euroc/euroc_format.h"
+#include "harness/datasets/files/append_file.h"
+#include "harness/datasets/files/dataset_folder.h"
 #include "harness/datasets/format/calibration_file.h"
-#include "harness/datasets/format/dataset_folder.h"
-#include "harness/datasets/kitti/kitti_format.h"
-#include "harness/datasets/labels/label_formats.h"
-#include "harness/datasets/ros/ros_format.h"
-#include "harness/datasets/tum/tum_format.h"
+#include "harness/datasets/formats.h"
 #include "vinebench/version.h"
 
 namespace vinebench::harness {
@@ -22,12 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string name_of(RecordFormat format) {
-  return yaml_names(RecordFormat{}).at(static_cast<std::size_t>(format));
-}
-
 /// frames.csv; also what says that a frame is whole in all formats, as it stands last among them.
-class FrameList : public DatasetFormat {
+class FrameList : public FormatWriter {
  public:
   explicit FrameList(const fs::path& file) : list_(file) {
     list_.append(
@@ -62,7 +53,7 @@ DatasetCard card_of(const RecordingNotes& notes, const RecordOptions& options, c
   card.world = notes.world;
   card.seed = notes.seed;
   card.planned_frames = planned;
-  for (const RecordFormat format : options.formats) card.formats.push_back(name_of(format));
+  card.formats = options.formats;
   for (const std::size_t camera : chosen_cameras(plan_of(options, rig), rig)) {
     card.cameras.push_back(rig.cameras[camera].name);
   }
@@ -95,60 +86,30 @@ DatasetWriter::DatasetWriter(const fs::path& folder, const RecordingNotes& notes
 }
 
 void DatasetWriter::begin(const RecordingNotes& notes, const SceneIndex& scene) {
-  DatasetEncoder::Formats formats = make_formats(notes, scene);
+  DatasetEncoder::Writers writers = make_writers(notes, scene);
   write_card(folder_, card_);
   write_file_atomically(folder_ / "scenario.resolved.yaml", notes.settings);
   Rig rig = notes.rig.make();
   rig.cameras = notes.true_cameras;
   write_file_atomically(folder_ / "calibration.yaml", format_calibration(rig));
   manifest_ = std::make_unique<FileManifest>(folder_);
-  encoder_ = std::make_unique<DatasetEncoder>(std::move(formats), options_.threads, folder_,
+  encoder_ = std::make_unique<DatasetEncoder>(std::move(writers), options_.threads, folder_,
                                               manifest_.get());
 }
 
-DatasetEncoder::Formats DatasetWriter::make_formats(const RecordingNotes& notes,
+DatasetEncoder::Writers DatasetWriter::make_writers(const RecordingNotes& notes,
                                                     const SceneIndex& scene) const {
-  using enum RecordFormat;
-  DatasetEncoder::Formats formats;
-  const auto add = [&](RecordFormat format, const auto& make) {
-    if (options_.has(format)) formats.push_back(make(folder_ / name_of(format)));
-  };
-  add(kEuroc, [&](const fs::path& to) {
-    return std::make_unique<EurocFormat>(to, notes, options_.colour);
-  });
-  add(kKitti, [&](const fs::path& to) {
-    return std::make_unique<KittiFormat>(to, notes, options_.colour);
-  });
-  add(kTum, [&](const fs::path& to) { return std::make_unique<TumFormat>(to, notes); });
-  add(kDcvslam, [&](const fs::path& to) {
-    return std::make_unique<DcvslamFormat>(to, notes, options_.colour);
-  });
-  const ImageKind images = options_.images.value_or(ImageKind::kPng);
-  add(kRgb, [&](const fs::path& to) { return make_rgb_format(to, notes, images); });
-  add(kDepth, [&](const fs::path& to) { return make_depth_format(to, notes); });
-  add(kDepth32, [&](const fs::path& to) { return make_depth32_format(to, notes); });
-  add(kDisparity, [&](const fs::path& to) { return std::make_unique<DisparityFormat>(to, notes); });
-  add(kNormals, [&](const fs::path& to) { return make_normals_format(to, notes); });
-  add(kSemantic, [&](const fs::path& to) { return make_semantic_format(to, notes); });
-  add(kInstances,
-      [&](const fs::path& to) { return std::make_unique<InstanceFormat>(to, notes, scene); });
-  add(kCoco, [&](const fs::path& to) {
-    return std::make_unique<CocoFormat>(
-        to, notes, scene,
-        CocoOptions{images, options_.categories, options_.sequence * kCocoImagesPerSequence + 1});
-  });
-  add(kRos, [&](const fs::path& to) {
-    return std::make_unique<RosFormat>(to, notes, options_.colour, options_.images);
-  });
-  if (options_.has(kFlow) || options_.has(kFlo)) {
-    const auto folder = [&](RecordFormat format) {
-      return options_.has(format) ? folder_ / name_of(format) : fs::path();
-    };
-    formats.push_back(
-        std::make_unique<FlowFormat>(FlowFormat::Folders{folder(kFlow), folder(kFlo)}, notes));
+  DatasetEncoder::Writers writers;
+  for (const bool looks_back : {false, true}) {
+    for (const std::string& name : options_.formats) {
+      const DatasetFormat& format = format_named(name);
+      if (format.looks_back != looks_back) continue;
+      auto writer = format.write({folder_ / name, notes, scene, options_});
+      if (writer != nullptr) writers.push_back(std::move(writer));
+    }
   }
-  formats.push_back(std::make_unique<FrameList>(folder_ / "frames.csv"));
-  return formats;
+  writers.push_back(std::make_unique<FrameList>(folder_ / "frames.csv"));
+  return writers;
 }
 
 DatasetFrame DatasetWriter::frame_of(const Sample& sample) const {

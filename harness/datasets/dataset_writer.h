@@ -33,7 +33,7 @@ class DatasetWriter : public Sink {
 
  private:
   void begin(const RecordingNotes& notes, const SceneIndex& scene);
-  DatasetEncoder::Formats make_formats(const RecordingNotes& notes, const SceneIndex& scene) const;
+  DatasetEncoder::Writers make_writers(const RecordingNotes& notes, const SceneIndex& scene) const;
   DatasetFrame frame_of(const Sample& sample) const;
 
   std::filesystem::path folder_;

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "core/util/error.h"
+#include "harness/datasets/flow/flow_writer.h"
 #include "harness/datasets/format/record_options.h"
-#include "harness/datasets/labels/label_formats.h"
 #include "harness/experiment/randomisation.h"
 #include "harness/jobs/run_scenario.h"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/util/worker_pool.h"
-#include "harness/datasets/format/dataset_format.h"
+#include "harness/datasets/format/format_writer.h"
 #include "harness/datasets/labels/image_labels.h"
 #include "harness/experiment/scenario.h"
 #include "harness/run/prefetch.h"

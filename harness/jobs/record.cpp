@@ -8,9 +8,9 @@
 
 #include "core/util/error.h"
 #include "core/util/files.h"
-#include "harness/datasets/coco/coco_file.h"
 #include "harness/datasets/dataset_writer.h"
-#include "harness/datasets/format/dataset_folder.h"
+#include "harness/datasets/files/dataset_folder.h"
+#include "harness/datasets/formats.h"
 #include "harness/experiment/randomisation.h"
 #include "harness/jobs/run_scenario.h"
 #include "harness/run/progress.h"
@@ -77,29 +77,32 @@ void record_sequence(const ScenarioConfig& scenario, const fs::path& folder,
   if (!outcome.interrupted) ++outcome.sequences;
 }
 
-/// dataset.yaml of the folder of all sequences, and COCO's lists of all of them.
+/// The card of the folder that holds the sequences, and the formats' lists of them all.
 void write_whole(const RecordRequest& request, const std::vector<std::string>& sequences,
                  const DatasetCard& of_first, bool complete) {
-  if (complete && request.options.has(RecordFormat::kCoco)) {
-    std::vector<std::string> parts;
-    for (const std::string& sequence : sequences) parts.push_back(sequence + "/coco");
-    merge_coco(request.out, parts, request.options.categories);
+  std::vector<std::string> listed;
+  for (const std::string& name : request.options.formats) {
+    const DatasetFormat& format = format_named(name);
+    if (complete && format.joined.join) {
+      std::vector<std::string> parts;
+      for (const std::string& sequence : sequences) parts.push_back(sequence + "/" + name);
+      format.joined.join(request.out, parts, request.options);
+    }
+    for (const std::string& file : format.joined.files) {
+      std::error_code ignored;
+      if (fs::exists(request.out / file, ignored)) listed.push_back(file);
+    }
   }
   DatasetCard card = of_first;
   card.sequences = sequences;
   card.complete = complete;
   card.frames = card.planned_frames = 0;
-  std::vector<std::string> listed;
   for (const std::string& sequence : sequences) {
     const DatasetCard part = read_card(request.out / sequence);
     card.frames += part.frames;
     card.planned_frames += part.planned_frames;
   }
   FileManifest manifest(request.out);
-  for (const char* file : {"instances.json", "panoptic.json"}) {
-    std::error_code ignored;
-    if (fs::exists(request.out / file, ignored)) listed.emplace_back(file);
-  }
   for (const std::string& sequence : sequences) {
     listed.push_back(sequence + "/" + DatasetCard::kName);
   }

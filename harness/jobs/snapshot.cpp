@@ -3,16 +3,12 @@
 #include "harness/jobs/snapshot.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "core/geometry/rig.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "harness/datasets/labels/label_table.h"
 #include "harness/jobs/run_scenario.h"
 #include "sim/render/renderer.h"
@@ -38,20 +34,6 @@ std::vector<double> parse_numbers(const std::string& text, const std::string& ex
   return numbers;
 }
 
-cv::Mat for_encoder(const cv::Mat& image) {
-  cv::Mat out;
-  switch (image.type()) {
-    case CV_8UC3:
-      cv::cvtColor(image, out, cv::COLOR_RGB2BGR);
-      return out;
-    case CV_32FC1:
-      image.convertTo(out, CV_16U, 1000);
-      return out;
-    default:
-      return image;
-  }
-}
-
 }  // namespace
 
 PinholeCamera parse_camera(const std::string& text) {
@@ -75,18 +57,6 @@ Pose parse_view(const std::string& text) {
   if (n.size() != 4 && n.size() != 5) fail("'{}': expected a pose {}", text, expected);
   const double pitch_up = n.size() == 5 ? n[4] : 0;
   return {from_roll_pitch_yaw({0, -pitch_up * kRadians, n[3] * kRadians}), {n[0], n[1], n[2]}};
-}
-
-void write_image(const std::filesystem::path& file, const cv::Mat& image) {
-  const std::string ending = file.extension().string();
-  const bool lossy = ending == ".jpg" || ending == ".jpeg";
-  if (!lossy && ending != ".png")
-    fail("{}: expected a name that ends in .png or .jpg", file.string());
-  if (lossy && image.depth() != CV_8U) fail("{}: depth needs a .png", file.string());
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(ending, for_encoder(image), bytes,
-               lossy ? std::vector<int>{cv::IMWRITE_JPEG_QUALITY, 88} : std::vector<int>{});
-  write_file_atomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 cv::Mat colour_labels(const cv::Mat& labels) {

@@ -22,11 +22,7 @@ PinholeCamera parse_camera(const std::string& text);
 /// a frame with x forward, y left, z up. Throws Error for anything else.
 Pose parse_view(const std::string& text);
 
-/// Writes an image as PNG or JPEG by the name's ending: CV_8UC3 (RGB), CV_8UC1, or CV_32FC1 (depth
-/// in m, written as 16-bit PNG in mm). Throws Error for other endings and if it cannot be written.
-void write_image(const std::filesystem::path& file, const cv::Mat& image);
-
-/// Labels (CV_8UC1 of Label) as colours for display, CV_8UC3.
+/// Labels (CV_8UC1 of Label) in colours for the camera, CV_8UC3.
 cv::Mat colour_labels(const cv::Mat& labels);
 
 /// A contact sheet of eight views of a world from all sides, from above eye level.

@@ -111,7 +111,7 @@ class ExternalSlam : public SlamSystem {
   fs::path recording_;
   fs::path output_;
   std::function<bool()> stopped_;
-  std::optional<EurocWriter> writer_;
+  std::optional<EurocSink> writer_;
   std::vector<Stamp> stamps_;
   StageTimes times_;
 };

@@ -131,7 +131,8 @@ TEST_F(ReplayTest, TheBenchmarkMeasuresFramesInMemory) {
   benchmark.name = "wall";
   benchmark.rig = recording.rig;
   benchmark.warm_up = 2;
-  benchmark.frames = preload(*play(std::move(recording), pool), 9);
+  DatasetReader reader(std::move(recording), pool);
+  benchmark.frames = preload(reader, 9);
   ASSERT_EQ(benchmark.frames.size(), 9u);
   const auto result = measure_slam(benchmark);
   EXPECT_EQ(result["frames"], 7);

@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/util/worker_pool.h"
+#include "harness/datasets/open_recording.h"
 #include "harness/datasets/reading/dataset_reader.h"
 #include "tests/support/test_folder.h"
 
@@ -109,9 +110,9 @@ inline fs::path write_euroc(const TestFolder& folder, int frames = 5) {
 inline std::vector<Sample> play_all(const fs::path& folder,
                                     const harness::RecordingOptions& options = {}) {
   WorkerPool pool(2);
-  const auto source = harness::play(harness::open_recording(folder, options), pool);
+  harness::DatasetReader reader(harness::open_recording(folder, options), pool);
   std::vector<Sample> samples;
-  while (auto sample = source->next()) samples.push_back(std::move(*sample));
+  while (auto sample = reader.next()) samples.push_back(std::move(*sample));
   return samples;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "harness/datasets/formats.h"
 #include "harness/jobs/record.h"
 #include "tests/support/test_folder.h"
 

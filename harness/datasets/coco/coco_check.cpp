@@ -53,7 +53,7 @@ class Checker {
     for (const Json& image : root.at("images")) {
       const cv::Size size(image.at("width"), image.at("height"));
       if (!sizes.emplace(image.at("id"), size).second) {
-        fault(fmt::format("image {} stands twice", image.at("id").get<std::int64_t>()));
+        fault(fmt::format("image {} is listed twice", image.at("id").get<std::int64_t>()));
       }
       const auto name = image.at("file_name").get<std::string>();
       std::error_code ignored;
@@ -76,7 +76,7 @@ class Checker {
     std::set<std::int64_t> ids;
     for (const Json& annotation : root.at("annotations")) {
       const auto id = annotation.at("id").get<std::int64_t>();
-      if (!ids.insert(id).second) fault(fmt::format("annotation {} stands twice", id));
+      if (!ids.insert(id).second) fault(fmt::format("annotation {} is listed twice", id));
       const auto image = sizes.find(annotation.at("image_id").get<std::int64_t>());
       if (image == sizes.end() || !categories.contains(annotation.at("category_id").get<int>())) {
         fault(fmt::format("annotation {} names an image or category that is not there", id));

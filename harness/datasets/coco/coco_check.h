@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "harness/datasets/dataset_check.h"
+#include "harness/datasets/format/recorded_sequence.h"
 
 namespace vinebench::harness {
 

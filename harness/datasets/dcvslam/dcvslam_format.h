@@ -2,31 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "harness/datasets/files/append_file.h"
 #include "harness/datasets/format/dataset_format.h"
 
 namespace vinebench::harness {
 
-/// What DC-VSLAM reads without ROS (its programs SingleCam and DualCam, run in this folder):
-/// config.yaml, the images of the first pair in left and right, of a second one in leftBack and
-/// rightBack; and tags.csv, the tags that are wholly in view, with their true poses and corners
-/// (bottom left first, then anticlockwise, px).
-class DcvslamFormat : public DatasetFormat {
- public:
-  /// Throws Error for a rig without a pair, or with one that is not rectified.
-  DcvslamFormat(const std::filesystem::path& folder, const RecordingNotes& notes, bool colour);
-
-  std::vector<FileTask> files(const std::shared_ptr<const DatasetFrame>& frame) override;
-  void commit(const DatasetFrame& frame) override;
-
- private:
-  void append_tags(const DatasetFrame& frame);
-
-  std::filesystem::path folder_;
-  bool colour_;
-  RecordingNotes notes_;
-  Rig rig_;
-  AppendFile tags_;
-};
+/// What DC-VSLAM's own programs read without ROS.
+DatasetFormat dcvslam_format();
 
 }  // namespace vinebench::harness

@@ -2,44 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <deque>
-#include <optional>
-
-#include "core/trajectory.h"
-#include "harness/datasets/files/append_file.h"
 #include "harness/datasets/format/dataset_format.h"
 
 namespace vinebench::harness {
 
-/// EuRoC/ASL: mav0 with cam0, cam1, … in the order of the rig (grey or RGB, PNG), imu0, wheels0,
-/// state_groundtruth_estimate0; beside mav0 times.txt (ns of the frames that both cameras of the
-/// first pair have, for ORB-SLAM3), settings for other SLAM systems, and what is ours: frames.csv
-/// (stamps of all frames, for a camera may miss one), rig.yaml, tags.yaml, slam.yaml.
-class EurocFormat : public DatasetFormat {
- public:
-  EurocFormat(const std::filesystem::path& folder, const RecordingNotes& notes, bool colour);
-
-  std::vector<FileTask> files(const std::shared_ptr<const DatasetFrame>& frame) override;
-  void commit(const DatasetFrame& frame) override;
-  /// The last true pose waits for the next one, which its speed is computed with.
-  void finish() override;
-
- private:
-  void describe(const std::filesystem::path& folder, const RecordingNotes& notes) const;
-  void write_readings(const Frame& frame);
-  void write_truth(const StampedPose& now);
-  void append_truth(const StampedPose& at, const StampedPose& from, const StampedPose& to);
-
-  std::filesystem::path mav_;
-  bool colour_;
-  std::optional<StereoPair> pair_;  ///< the first
-  AppendFile frames_;
-  AppendFile times_;
-  AppendFile imu_;
-  AppendFile wheels_;
-  AppendFile truth_;
-  std::vector<AppendFile> cameras_;
-  std::deque<StampedPose> poses_;  ///< the last two
-};
+/// An EuRoC/ASL folder.
+DatasetFormat euroc_format();
 
 }  // namespace vinebench::harness

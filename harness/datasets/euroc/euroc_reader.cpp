@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
+#include "harness/datasets/euroc/euroc_reader.h"
+
 #include <algorithm>
 
 #include "core/util/error.h"
+#include "harness/datasets/euroc/sensor_file.h"
+#include "harness/datasets/euroc/tag_list.h"
 #include "harness/datasets/files/text_table.h"
-#include "harness/datasets/format/sensor_file.h"
-#include "harness/datasets/format/tag_list.h"
-#include "harness/datasets/reading/dataset_readers.h"
+#include "harness/datasets/reading/groundtruth.h"
 #include "harness/datasets/reading/image_association.h"
 
 namespace vinebench::harness {

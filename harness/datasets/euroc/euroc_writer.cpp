@@ -2,32 +2,170 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/datasets/euroc/euroc_writer.h"
 
-#include "harness/datasets/euroc/euroc_format.h"
-#include "harness/datasets/format/dataset_folder.h"
+#include <fmt/ranges.h>
+
+#include "core/config/yaml_writer.h"
+#include "core/util/files.h"
+#include "harness/datasets/euroc/slam_settings.h"
+#include "harness/datasets/euroc/tag_list.h"
+#include "harness/datasets/files/image_codec.h"
 
 namespace vinebench::harness {
 namespace {
 
-constexpr int kThreads = 1;
+namespace fs = std::filesystem;
 
-DatasetEncoder::Formats euroc_alone(const std::filesystem::path& folder,
-                                    const RecordingNotes& notes) {
-  DatasetEncoder::Formats formats;
-  formats.push_back(std::make_unique<EurocFormat>(claim_folder(folder), notes, false));
-  return formats;
+constexpr const char* kImuHeader =
+    "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
+    "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\n";
+constexpr const char* kWheelHeader =
+    "#timestamp [ns],front left [rad],front right [rad],rear left [rad],rear right [rad],"
+    "front left [rad s^-1],front right [rad s^-1],rear left [rad s^-1],rear right [rad s^-1]\n";
+constexpr const char* kTruthHeader =
+    "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],"
+    "q_RS_z [],v_RS_R_x [m s^-1],v_RS_R_y [m s^-1],v_RS_R_z [m s^-1],b_w_RS_S_x [rad s^-1],"
+    "b_w_RS_S_y [rad s^-1],b_w_RS_S_z [rad s^-1],b_a_RS_S_x [m s^-2],b_a_RS_S_y [m s^-2],"
+    "b_a_RS_S_z [m s^-2]\n";
+
+std::string format_transform(const Pose& T_BS) {
+  const Eigen::Matrix4d T = T_BS.matrix();
+  std::string rows;
+  for (Eigen::Index row = 0; row < 4; ++row) {
+    rows += fmt::format("{}{}, {}, {}, {}", row == 0 ? "[" : ",\n         ", T(row, 0), T(row, 1),
+                        T(row, 2), T(row, 3));
+  }
+  return fmt::format("T_BS:\n  cols: 4\n  rows: 4\n  data: {}]\n", rows);
+}
+
+std::string describe_camera(const RigCamera& camera, double rate_hz) {
+  const PinholeCamera& lens = camera.model;
+  return fmt::format(
+      "sensor_type: camera\ncomment: {}\n{}rate_hz: {}\nresolution: [{}, {}]\n"
+      "camera_model: pinhole\nintrinsics: [{}, {}, {}, {}]\n"
+      "distortion_model: radial-tangential\ndistortion_coefficients: [{}]\n",
+      camera.name, format_transform(camera.T_body_cam), rate_hz, lens.width, lens.height, lens.fx,
+      lens.fy, lens.cx, lens.cy, fmt::join(lens.distortion, ", "));
+}
+
+std::string describe_imu(const RecordingNotes& notes) {
+  const auto& [gyroscope, accelerometer] = notes.imu;
+  return fmt::format(
+      "sensor_type: imu\ncomment: inertial unit\n{}rate_hz: {}\ngyroscope_noise_density: {}\n"
+      "gyroscope_random_walk: {}\naccelerometer_noise_density: {}\n"
+      "accelerometer_random_walk: {}\n",
+      format_transform(Pose{}), notes.imu_rate_hz, gyroscope.noise_density,
+      gyroscope.bias_random_walk, accelerometer.noise_density, accelerometer.bias_random_walk);
 }
 
 }  // namespace
 
-EurocWriter::EurocWriter(const std::filesystem::path& folder, const RecordingNotes& notes)
-    : encoder_(euroc_alone(folder, notes), kThreads) {}
-
-void EurocWriter::on_tick(const Sample& sample, const Estimate&) {
-  encoder_.submit(own_frame(sample, sample.frame.index));
+EurocWriter::EurocWriter(const fs::path& folder, const RecordingNotes& notes, bool colour)
+    : mav_(make_folder(folder / "mav0")),
+      colour_(colour),
+      frames_(folder / "frames.csv"),
+      times_(folder / "times.txt"),
+      imu_(make_folder(mav_ / "imu0") / "data.csv"),
+      wheels_(make_folder(mav_ / "wheels0") / "data.csv"),
+      truth_(make_folder(mav_ / "state_groundtruth_estimate0") / "data.csv") {
+  frames_.append("#timestamp [ns]\n");
+  imu_.append(kImuHeader);
+  wheels_.append(kWheelHeader);
+  truth_.append(kTruthHeader);
+  const Rig rig = notes.rig.make();
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    const fs::path camera = mav_ / fmt::format("cam{}", i);
+    make_folder(camera / "data");
+    write_file_atomically(camera / "sensor.yaml", describe_camera(rig.cameras[i], rig.rate_hz));
+    cameras_.emplace_back(camera / "data.csv").append("#timestamp [ns],filename\n");
+  }
+  if (!rig.stereo_pairs.empty()) pair_ = rig.stereo_pairs.front();
+  describe(folder, notes);
 }
 
-void EurocWriter::on_finish(const SlamSummary&) {
-  encoder_.finish();
+void EurocWriter::describe(const fs::path& folder, const RecordingNotes& notes) const {
+  write_file_atomically(folder / "rig.yaml", format_yaml(notes.rig));
+  write_file_atomically(folder / "tags.yaml", format_tags(notes.tags));
+  write_file_atomically(folder / "slam.yaml", format_yaml(notes.slam));
+  write_file_atomically(mav_ / "body.yaml", fmt::format("comment: {}\n", notes.scenario));
+  write_file_atomically(mav_ / "imu0/sensor.yaml", describe_imu(notes));
+  write_file_atomically(
+      mav_ / "state_groundtruth_estimate0/sensor.yaml",
+      "sensor_type: visual-inertial\ncomment: true poses\n" + format_transform(Pose{}));
+  if (!pair_) return;
+  make_folder(folder / "settings");
+  for (const SettingsFile& file : slam_settings(notes)) {
+    write_file_atomically(folder / "settings" / file.name, file.text);
+  }
+}
+
+std::vector<FileTask> EurocWriter::files(const std::shared_ptr<const DatasetFrame>& frame) {
+  const std::string name = fmt::format("{}.png", frame->frame.stamp);
+  std::vector<FileTask> tasks;
+  for (std::size_t i = 0; i < frame->frame.images.size(); ++i) {
+    if (frame->frame.images[i].empty()) continue;
+    tasks.push_back(camera_image(frame, i, colour_, mav_ / fmt::format("cam{}/data", i) / name));
+  }
+  return tasks;
+}
+
+void EurocWriter::commit(const DatasetFrame& written) {
+  const Frame& frame = written.frame;
+  const auto has = [&](int camera) {
+    return !frame.images.at(static_cast<std::size_t>(camera)).empty();
+  };
+  for (std::size_t i = 0; i < frame.images.size(); ++i) {
+    if (!frame.images[i].empty()) {
+      cameras_[i].append(fmt::format("{},{}.png\n", frame.stamp, frame.stamp));
+    }
+  }
+  if (pair_ && has(pair_->left) && has(pair_->right)) {
+    times_.append(fmt::format("{}\n", frame.stamp));
+  }
+  write_readings(frame);
+  if (written.truth.known) write_truth({frame.stamp, written.truth.T_world_body});
+  frames_.append(fmt::format("{}\n", frame.stamp));
+}
+
+void EurocWriter::finish() {
+  if (poses_.empty()) return;
+  append_truth(poses_.back(), poses_.front(), poses_.back());
+  poses_.clear();
+}
+
+void EurocWriter::write_readings(const Frame& frame) {
+  std::string rows;
+  for (const ImuSample& s : frame.imu) {
+    const Eigen::Vector3d& w = s.angular_velocity;
+    const Eigen::Vector3d& a = s.specific_force;
+    rows +=
+        fmt::format("{},{},{},{},{},{},{}\n", s.stamp, w.x(), w.y(), w.z(), a.x(), a.y(), a.z());
+  }
+  imu_.append(rows);
+  rows.clear();
+  for (const WheelSample& s : frame.wheels) {
+    rows += fmt::format("{},{},{}\n", s.stamp, fmt::join(s.angle, ","), fmt::join(s.velocity, ","));
+  }
+  wheels_.append(rows);
+}
+
+void EurocWriter::write_truth(const StampedPose& now) {
+  poses_.push_back(now);
+  if (poses_.size() == 2) append_truth(poses_[0], poses_[0], poses_[1]);
+  if (poses_.size() < 3) return;
+  append_truth(poses_[1], poses_[0], poses_[2]);
+  poses_.pop_front();
+}
+
+/// With the mean velocity from one pose to another; biases are the sensor models' secret.
+void EurocWriter::append_truth(const StampedPose& at, const StampedPose& from,
+                               const StampedPose& to) {
+  const double seconds = to_seconds(to.stamp - from.stamp);
+  Eigen::Vector3d v = Eigen::Vector3d::Zero();
+  if (seconds > 0) v = (to.pose.translation - from.pose.translation) / seconds;
+  const Eigen::Vector3d& p = at.pose.translation;
+  const Eigen::Quaterniond& q = at.pose.rotation;
+  truth_.append(fmt::format("{},{},{},{},{},{},{},{},{},{},{},0,0,0,0,0,0\n", at.stamp, p.x(),
+                            p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), v.x(), v.y(), v.z()));
 }
 
 }  // namespace vinebench::harness

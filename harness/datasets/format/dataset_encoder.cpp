@@ -37,9 +37,9 @@ DatasetFrame own_frame(const Sample& sample, std::int64_t number) {
   return frame;
 }
 
-DatasetEncoder::DatasetEncoder(Formats formats, int threads, const fs::path& root,
+DatasetEncoder::DatasetEncoder(Writers writers, int threads, const fs::path& root,
                                FileManifest* manifest)
-    : formats_(std::move(formats)),
+    : writers_(std::move(writers)),
       pool_(threads),
       root_(root),
       manifest_(manifest),
@@ -53,8 +53,8 @@ void DatasetEncoder::submit(DatasetFrame frame) {
 /// Files first: what is in the lists is on the disk.
 void DatasetEncoder::write(const std::shared_ptr<const DatasetFrame>& frame) {
   std::vector<FileTask> tasks;
-  for (const auto& format : formats_) {
-    for (FileTask& task : format->files(frame)) tasks.push_back(std::move(task));
+  for (const auto& writer : writers_) {
+    for (FileTask& task : writer->files(frame)) tasks.push_back(std::move(task));
   }
   const auto groups = grouped(std::move(tasks));
   const std::vector<std::size_t> order = longest_first(groups);
@@ -72,7 +72,7 @@ void DatasetEncoder::write(const std::shared_ptr<const DatasetFrame>& frame) {
     seconds[i] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   });
   for (std::size_t i = 0; i < groups.size(); ++i) seconds_[groups[i].front().key] = seconds[i];
-  for (const auto& format : formats_) format->commit(*frame);
+  for (const auto& writer : writers_) writer->commit(*frame);
   if (manifest_ == nullptr) return;
   std::vector<ListedFile> listed;
   for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -97,7 +97,7 @@ std::vector<std::size_t> DatasetEncoder::longest_first(const std::vector<TaskGro
 
 void DatasetEncoder::finish() {
   worker_.wait();
-  for (const auto& format : formats_) format->finish();
+  for (const auto& writer : writers_) writer->finish();
 }
 
 }  // namespace vinebench::harness

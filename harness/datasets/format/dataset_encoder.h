@@ -13,7 +13,7 @@
 #include "core/util/worker_pool.h"
 #include "harness/datasets/files/background_worker.h"
 #include "harness/datasets/files/file_manifest.h"
-#include "harness/datasets/format/dataset_format.h"
+#include "harness/datasets/format/format_writer.h"
 
 namespace vinebench::harness {
 
@@ -22,10 +22,10 @@ namespace vinebench::harness {
 /// memory is bounded; the loop waits where the disk does not keep up.
 class DatasetEncoder {
  public:
-  using Formats = std::vector<std::unique_ptr<DatasetFormat>>;
+  using Writers = std::vector<std::unique_ptr<FormatWriter>>;
 
   /// Files are listed in the manifest, where there is one, relative to `root`.
-  DatasetEncoder(Formats formats, int threads, const std::filesystem::path& root = {},
+  DatasetEncoder(Writers writers, int threads, const std::filesystem::path& root = {},
                  FileManifest* manifest = nullptr);
 
   /// Rethrows what went wrong with an earlier frame; nothing is written after that one.
@@ -43,7 +43,7 @@ class DatasetEncoder {
   void write(const std::shared_ptr<const DatasetFrame>& frame);
   std::vector<std::size_t> longest_first(const std::vector<TaskGroup>& groups) const;
 
-  Formats formats_;
+  Writers writers_;
   WorkerPool pool_;
   std::filesystem::path root_;
   FileManifest* manifest_;

@@ -8,48 +8,66 @@
 #include <string>
 #include <vector>
 
-#include "core/truth/frame_source.h"
-#include "harness/datasets/format/recording_notes.h"
+#include "harness/datasets/format/format_writer.h"
+#include "harness/datasets/format/label_images.h"
+#include "harness/datasets/format/record_options.h"
+#include "harness/datasets/format/recorded_sequence.h"
+#include "harness/datasets/reading/recording.h"
 
 namespace vinebench::harness {
 
-/// One frame on its way to the disk. Cameras are those of the data set, in its order.
-struct DatasetFrame {
-  std::int64_t number = 0;  ///< in the data set, from 0 on without gaps
-  Frame frame;              ///< as the sensors gave it; images in memory of their own
-  Truth truth;
+/// What a writer is made of.
+struct WriterInputs {
+  std::filesystem::path folder;  ///< of this format alone: <data set>/<name>
+  const RecordingNotes& notes;   ///< of the chosen cameras
+  const SceneIndex& scene;
+  const RecordOptions& options;
 };
 
-/// A file of its own that a format wants of a frame, such as an image.
-struct FileTask {
-  std::string key;  ///< tasks of one frame that have the same key have the same bytes
-  std::filesystem::path file;
-  std::function<std::string()> bytes;  ///< called on any thread, beside others
-  /// Where there is one, it takes the bytes in place of a file; called likewise.
-  std::function<void(const std::string&)> take{};
+/// Images of the truth that a writer asks for; a simulation renders no others.
+struct TruthImages {
+  bool labels = false;
+  bool depth = false;
+  bool normals = false;
+  bool motion = false;
+  bool instances = false;
 };
 
-/// Writes a run in one format into a folder that is its own. All but a FileTask's functions is
-/// called on one thread, frame after frame; what goes wrong throws Error.
-class DatasetFormat {
- public:
-  virtual ~DatasetFormat() = default;
-  /// What to write before the frame counts as there; may look back at earlier frames.
-  virtual std::vector<FileTask> files(const std::shared_ptr<const DatasetFrame>& frame) = 0;
-  /// The frame's files are whole: the lists may name them.
-  virtual void commit(const DatasetFrame&) {}
-  /// No frame follows.
-  virtual void finish() {}
+/// Reads a format; all three are there, or none.
+struct FormatReader {
+  std::string layout;  ///< what it recognises, for error messages: "an EuRoC folder (mav0)"
+  std::function<bool(const std::filesystem::path& folder)> recognises;
+  /// Without the ground truth where the options name another. Throws Error.
+  std::function<Recording(const std::filesystem::path& folder, const RecordingOptions& options)>
+      read;
 };
 
-/// "000012.png" for number 12 and "png".
-std::string numbered(std::int64_t number, const std::string& ending);
+/// Lists that a data set of several sequences has of them all, in its own folder.
+struct JoinedLists {
+  std::vector<std::string> files;  ///< by name
+  /// Makes them in `folder` of what the sequences have in `parts`, relative to it.
+  std::function<void(const std::filesystem::path& folder, const std::vector<std::string>& parts,
+                     const RecordOptions& options)>
+      join;
+};
 
-/// A camera's image as PNG: grey as the SLAM core sees it, or in colour. Shared by all formats.
-FileTask camera_image(const std::shared_ptr<const DatasetFrame>& frame, std::size_t camera,
-                      bool colour, std::filesystem::path file);
-
-/// Makes a folder and those above it. Throws Error with the system's reason.
-std::filesystem::path make_folder(const std::filesystem::path& folder);
+/// All that the harness knows of one format of data sets. What a format does not have stays empty.
+struct DatasetFormat {
+  std::string name;         ///< of the option --format, and of its folder in a data set
+  std::string description;  ///< one line, for people
+  TruthImages truth{};
+  bool available = true;  ///< whether this build can write it
+  /// Its files of a frame can be written when the next one is there: they come after the others'.
+  bool looks_back = false;
+  /// Throws Error for a rig or options that do not go with the format. May return nothing where
+  /// another format that is asked for too writes its files.
+  std::function<std::unique_ptr<FormatWriter>(const WriterInputs&)> write;
+  FormatReader reader{};
+  /// Holds what the format lists against the frames of its sequence; adds what is wrong.
+  std::function<void(const RecordedSequence&, std::vector<DatasetFault>&)> check{};
+  /// Holds one label image against its calibration and other formats' images.
+  std::function<void(LabelImages&)> check_image{};
+  JoinedLists joined{};
+};
 
 }  // namespace vinebench::harness

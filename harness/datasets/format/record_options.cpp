@@ -8,7 +8,6 @@
 #include <charconv>
 
 #include "core/util/error.h"
-#include "harness/datasets/ros/rosbag/ros_bag.h"
 
 namespace vinebench::harness {
 namespace {
@@ -24,13 +23,9 @@ std::int64_t whole_number(std::string_view text) {
 }  // namespace
 
 std::string RecordOptions::text() const {
-  std::vector<std::string> names;
-  for (const RecordFormat format : formats) {
-    names.push_back(yaml_names(RecordFormat{}).at(static_cast<std::size_t>(format)));
-  }
   std::vector<int> ids;
   for (const Category category : categories) ids.push_back(category_id(category));
-  return fmt::format("{} | {} | {} | {} {} {} | {} {} {}", fmt::join(names, ","),
+  return fmt::format("{} | {} | {} | {} {} {} | {} {} {}", fmt::join(formats, ","),
                      fmt::join(cameras, ","), fmt::join(ids, ","), first, last, every,
                      images ? static_cast<int>(*images) : -1, colour, sequence);
 }
@@ -44,42 +39,6 @@ std::vector<bool> chosen_cameras(const std::vector<std::string>& names, const Ri
     chosen[static_cast<std::size_t>(camera)] = true;
   }
   return chosen;
-}
-
-CapturePlan plan_of(const RecordOptions& options, const Rig& rig) {
-  using enum RecordFormat;
-  CapturePlan plan;
-  plan.first = options.first;
-  plan.last = options.last;
-  plan.every = options.every;
-  const bool flows = options.has(kFlow) || options.has(kFlo);
-  plan.labels = options.has(kSemantic) || options.has(kCoco) || flows;
-  plan.depth = options.has(kDepth) || options.has(kDepth32) || options.has(kDisparity) || flows;
-  plan.normals = options.has(kNormals) || flows;
-  plan.motion = flows;
-  plan.instances = options.has(kInstances) || options.has(kCoco);
-  plan.cameras = chosen_cameras(options.cameras, rig, "--cameras");
-  return plan;
-}
-
-std::vector<std::string> all_formats() {
-  std::vector<std::string> names = yaml_names(RecordFormat{});
-  if (!has_rosbag()) std::erase(names, "ros");
-  return names;
-}
-
-std::set<RecordFormat> parse_formats(const std::vector<std::string>& names) {
-  const std::vector<std::string> known = yaml_names(RecordFormat{});
-  std::set<RecordFormat> formats;
-  for (const std::string& name : names) {
-    const auto found = std::ranges::find(known, name);
-    if (found == known.end()) {
-      fail("--format: '{}' is no format, expected some of {}", name, fmt::join(known, ", "));
-    }
-    formats.insert(static_cast<RecordFormat>(found - known.begin()));
-  }
-  if (formats.empty()) fail("--format: expected some of {}", fmt::join(known, ", "));
-  return formats;
 }
 
 std::set<Category> parse_categories(const std::vector<std::string>& names) {

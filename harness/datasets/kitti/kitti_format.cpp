@@ -2,91 +2,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/datasets/kitti/kitti_format.h"
 
-#include <fmt/format.h>
-
-#include "core/config/yaml_writer.h"
-#include "core/util/error.h"
-#include "core/util/files.h"
-#include "harness/datasets/format/slam_settings.h"
+#include "harness/datasets/files/text_table.h"
+#include "harness/datasets/kitti/kitti_reader.h"
+#include "harness/datasets/kitti/kitti_writer.h"
 
 namespace vinebench::harness {
+
 namespace {
 
-namespace fs = std::filesystem;
-
-/// Three rows of four numbers, row by row.
-std::string twelve(const Eigen::Matrix<double, 3, 4>& m) {
-  std::string text;
-  for (Eigen::Index i = 0; i < m.size(); ++i) {
-    text += fmt::format("{}{}", i == 0 ? "" : " ", m(i / 4, i % 4));
-  }
-  return text;
+std::unique_ptr<FormatWriter> write(const WriterInputs& inputs) {
+  return std::make_unique<KittiWriter>(inputs.folder, inputs.notes, inputs.options.colour);
 }
 
-Eigen::Matrix<double, 3, 4> projection(const PinholeCamera& c, double shift) {
-  Eigen::Matrix<double, 3, 4> P;
-  P << c.fx, 0, c.cx, shift, 0, c.fy, c.cy, 0, 0, 0, 1, 0;
-  return P;
-}
-
-/// The pair's cameras as P0 and P1, and once more, for the images in colour, as P2 and P3.
-std::string calibration(const Rig& rig, const StereoPair& pair) {
-  const PinholeCamera& left = rig.cameras[static_cast<std::size_t>(pair.left)].model;
-  const PinholeCamera& right = rig.cameras[static_cast<std::size_t>(pair.right)].model;
-  std::string text;
-  for (int i = 0; i < 4; ++i) {
-    const bool second = i % 2 == 1;
-    const double shift = second ? -right.fx * rig.baseline(pair) : 0;
-    text += fmt::format("P{}: {}\n", i, twelve(projection(second ? right : left, shift)));
+void check(const RecordedSequence& sequence, std::vector<DatasetFault>& faults) {
+  for (const char* list : {"kitti/times.txt", "kitti/poses.txt"}) {
+    expect_rows(sequence, list, read_table(sequence.folder / list).size(), faults);
   }
-  return text;
-}
-
-StereoPair rectified_pair(const Rig& rig) {
-  if (rig.stereo_pairs.empty()) fail("kitti: expected a stereo pair among the cameras");
-  if (!is_rectified(rig, rig.stereo_pairs.front())) {
-    fail("kitti: pair '{}' is not rectified, and the format has no other cameras",
-         rig.stereo_pairs.front().name);
-  }
-  return rig.stereo_pairs.front();
 }
 
 }  // namespace
 
-KittiFormat::KittiFormat(const fs::path& folder, const RecordingNotes& notes, bool colour)
-    : folder_(make_folder(folder)),
-      colour_(colour),
-      pair_(rectified_pair(notes.rig.make())),
-      T_body_left_(notes.true_cameras.at(static_cast<std::size_t>(pair_.left)).T_body_cam),
-      times_(folder / "times.txt"),
-      poses_(folder / "poses.txt") {
-  for (int i = 0; i < (colour ? 4 : 2); ++i) make_folder(folder / fmt::format("image_{}", i));
-  const Rig rig = notes.rig.make();
-  write_file_atomically(folder / "calib.txt", calibration(rig, pair_));
-  const auto name = [&](int camera) { return rig.cameras[static_cast<std::size_t>(camera)].name; };
-  const RecordingNotes of_pair = with_cameras(notes, {name(pair_.left), name(pair_.right)});
-  write_file_atomically(folder / "rig.yaml", format_yaml(of_pair.rig));
-  write_file_atomically(folder / "slam.yaml", format_yaml(notes.slam));
-}
-
-std::vector<FileTask> KittiFormat::files(const std::shared_ptr<const DatasetFrame>& frame) {
-  std::vector<FileTask> tasks;
-  for (int i = 0; i < (colour_ ? 4 : 2); ++i) {
-    const auto camera = static_cast<std::size_t>(i % 2 == 0 ? pair_.left : pair_.right);
-    if (frame->frame.images[camera].empty()) continue;
-    tasks.push_back(
-        camera_image(frame, camera, i >= 2,
-                     folder_ / fmt::format("image_{}", i) / numbered(frame->number, "png")));
-  }
-  return tasks;
-}
-
-void KittiFormat::commit(const DatasetFrame& frame) {
-  const Pose T_world_left = frame.truth.T_world_body * T_body_left_;
-  if (!T_world_first_) T_world_first_ = T_world_left;
-  const Pose T_first_left = T_world_first_->inverse() * T_world_left;
-  times_.append(format_seconds(frame.frame.stamp) + "\n");
-  poses_.append(twelve(T_first_left.matrix().topRows<3>()) + "\n");
+DatasetFormat kitti_format() {
+  return {.name = "kitti",
+          .description = "KITTI odometry folder of the first pair",
+          .write = write,
+          .reader = {"a KITTI odometry folder (calib.txt beside image_0 and image_1, image_2 and "
+                     "image_3, or image_l and image_r)",
+                     is_kitti, read_kitti},
+          .check = check};
 }
 
 }  // namespace vinebench::harness

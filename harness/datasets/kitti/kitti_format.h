@@ -2,32 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-
-#include "harness/datasets/files/append_file.h"
 #include "harness/datasets/format/dataset_format.h"
 
 namespace vinebench::harness {
 
-/// KITTI odometry of the first pair: image_0 and image_1 (grey), with colour image_2 and image_3
-/// too, calib.txt (P0 to P3), times.txt (s), poses.txt (the left camera against its first place);
-/// and what is ours: rig.yaml with the pair alone, slam.yaml.
-class KittiFormat : public DatasetFormat {
- public:
-  /// Throws Error for a rig without a pair, or with one that is not rectified.
-  KittiFormat(const std::filesystem::path& folder, const RecordingNotes& notes, bool colour);
-
-  std::vector<FileTask> files(const std::shared_ptr<const DatasetFrame>& frame) override;
-  void commit(const DatasetFrame& frame) override;
-
- private:
-  std::filesystem::path folder_;
-  bool colour_;
-  StereoPair pair_;
-  Pose T_body_left_;  ///< the true one
-  AppendFile times_;
-  AppendFile poses_;
-  std::optional<Pose> T_world_first_;
-};
+/// A KITTI odometry folder.
+DatasetFormat kitti_format();
 
 }  // namespace vinebench::harness

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
+#include "harness/datasets/kitti/kitti_reader.h"
+
 #include <algorithm>
 #include <array>
 #include <map>
 
 #include "core/util/error.h"
 #include "harness/datasets/files/text_table.h"
-#include "harness/datasets/reading/dataset_readers.h"
+#include "harness/datasets/reading/groundtruth.h"
 #include "harness/datasets/reading/recorded_images.h"
 
 namespace vinebench::harness {

@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 #include <utility>
 
-#include "harness/datasets/labels/label_formats.h"
+#include "harness/datasets/labels/instance_ids.h"
 
 namespace vinebench::harness {
 namespace {

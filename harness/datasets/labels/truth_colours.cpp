@@ -13,7 +13,7 @@
 #include "core/util/files.h"
 #include "core/util/random.h"
 #include "harness/datasets/files/image_codec.h"
-#include "harness/jobs/snapshot.h"
+#include "harness/datasets/files/image_file.h"
 
 namespace vinebench::harness {
 namespace {

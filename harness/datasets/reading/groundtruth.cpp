@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
+#include "harness/datasets/reading/groundtruth.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "core/util/error.h"
 #include "harness/datasets/files/text_table.h"
-#include "harness/datasets/reading/dataset_readers.h"
 
 namespace vinebench::harness {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/datasets/reading/dataset_reader.h"
+#include "harness/datasets/reading/recording.h"
 
 namespace vinebench::harness {
 

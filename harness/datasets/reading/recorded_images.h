@@ -4,7 +4,7 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "harness/datasets/reading/dataset_reader.h"
+#include "harness/datasets/reading/recording.h"
 
 namespace vinebench::harness {
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "core/util/error.h"
-#include "harness/datasets/format/slam_settings.h"
+#include "harness/datasets/format/rectified.h"
 #include "slam/camera/rectification.h"
 
 namespace vinebench::harness {

@@ -2,56 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-
-#include "core/trajectory.h"
-#include "harness/datasets/files/image_codec.h"
 #include "harness/datasets/format/dataset_format.h"
-#include "harness/datasets/ros/ros_camera.h"
-#include "harness/datasets/ros/rosbag/ros_bag.h"
-#include "slam/tags/tag_detector.h"
 
 namespace vinebench::harness {
 
-/// A bag of ROS 1, run.bag: images and calibration of each camera, inertial and wheel readings,
-/// the tags that the SLAM core's detector finds, the clock and the rig's transforms; and the truth,
-/// on a topic and in a frame of its own. docs/datasets.md has topics, types and frames.
-class RosFormat : public DatasetFormat {
- public:
-  /// Stamps count from this time, since 0 is none in ROS and faults may make stamps negative.
-  static constexpr Stamp kStart = kNanosecondsPerSecond;
-
-  /// Raw images where `kind` is absent. Throws Error for WebP, which ROS does not know, for what
-  /// ros_cameras() refuses, and where the program was built without ROS's libraries.
-  RosFormat(const std::filesystem::path& folder, const RecordingNotes& notes, bool colour,
-            std::optional<ImageKind> kind);
-
-  std::vector<FileTask> files(const std::shared_ptr<const DatasetFrame>& frame) override;
-  void commit(const DatasetFrame& frame) override;
-  void finish() override;
-
- private:
-  FileTask image_task(const std::shared_ptr<const DatasetFrame>& frame, std::size_t camera);
-  /// Tells the clock, and with the first time the rig.
-  RosHeader header(Stamp stamp, const std::string& frame);
-  void write_rig(Stamp stamp);
-  void write_readings(const Frame& frame);
-  void write_imu(const ImuSample& reading);
-  void write_wheels(const WheelSample& reading);
-  void write_truth(const StampedPose& now);
-  void write_image(std::size_t camera, const cv::Mat& image, Stamp stamp);
-  void write_tags(const Frame& frame);
-
-  RecordingNotes notes_;
-  Rig rig_;
-  bool colour_;
-  std::optional<ImageKind> kind_;
-  std::vector<RosCamera> cameras_;
-  std::vector<std::string> images_;  ///< of the frame that is being written, a camera each
-  slam::TagDetector detector_;
-  std::optional<StampedPose> before_;  ///< the true pose
-  std::int64_t clock_ = 0;             ///< what was told of it
-  RosBag bag_;
-};
+/// A bag of ROS 1; available where the program was built with ROS's libraries.
+DatasetFormat ros_format();
 
 }  // namespace vinebench::harness

@@ -3,24 +3,31 @@
 #include "harness/datasets/tum/tum_format.h"
 
 #include "core/trajectory.h"
+#include "harness/datasets/files/file_manifest.h"
+#include "harness/datasets/tum/tum_writer.h"
 
 namespace vinebench::harness {
 
-TumFormat::TumFormat(const std::filesystem::path& folder, const RecordingNotes& notes) {
-  make_folder(folder);
-  T_body_sensor_.emplace_back();
-  files_.emplace_back(folder / "body.txt");
-  for (const RigCamera& camera : notes.true_cameras) {
-    T_body_sensor_.push_back(camera.T_body_cam);
-    files_.emplace_back(folder / (camera.name + ".txt"));
+namespace {
+
+std::unique_ptr<FormatWriter> write(const WriterInputs& inputs) {
+  return std::make_unique<TumWriter>(inputs.folder, inputs.notes);
+}
+
+void check(const RecordedSequence& sequence, std::vector<DatasetFault>& faults) {
+  const std::filesystem::path folder = sequence.folder / "tum";
+  for (const std::string& name : files_below(folder)) {
+    expect_rows(sequence, "tum/" + name, read_tum(folder / name).size(), faults);
   }
 }
 
-void TumFormat::commit(const DatasetFrame& frame) {
-  for (std::size_t i = 0; i < files_.size(); ++i) {
-    const Pose T_world_sensor = frame.truth.T_world_body * T_body_sensor_[i];
-    files_[i].append(format_tum({{frame.frame.stamp, T_world_sensor}}));
-  }
+}  // namespace
+
+DatasetFormat tum_format() {
+  return {.name = "tum",
+          .description = "true trajectories of the body and of each camera",
+          .write = write,
+          .check = check};
 }
 
 }  // namespace vinebench::harness

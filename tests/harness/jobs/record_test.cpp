@@ -8,7 +8,7 @@
 
 #include "harness/datasets/dataset_check.h"
 #include "harness/datasets/format/dataset_card.h"
-#include "harness/datasets/reading/dataset_reader.h"
+#include "harness/datasets/open_recording.h"
 #include "tests/support/small_scenario.h"
 
 namespace vinebench::harness {

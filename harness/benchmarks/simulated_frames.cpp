@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/benchmarks/simulated_frames.h"
+
+#include "harness/jobs/run_scenario.h"
+
+namespace vinebench::harness {
+
+void load_simulated_frames(const ScenarioConfig& scenario, int frames, SlamBenchmark& benchmark) {
+  WorkerPool pool(benchmark.threads);
+  const auto source = sim::make_simulation(
+      scenario.simulation, static_cast<std::uint64_t>(scenario.seed), default_cache(), pool);
+  benchmark.name = scenario.name;
+  benchmark.rig = source->rig();
+  benchmark.tags = sim::registered_tags(scenario.simulation.world);
+  benchmark.slam = scenario.slam;
+  benchmark.frames = preload(*source, frames);
+}
+
+}  // namespace vinebench::harness

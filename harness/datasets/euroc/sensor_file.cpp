@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/datasets/euroc/sensor_file.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/util/error.h"
+#include "core/util/files.h"
+
+namespace vinebench::harness {
+namespace {
+
+/// Some writers begin with OpenCV's "%YAML:1.0", which is no YAML.
+std::string without_directive(std::string text) {
+  if (text.starts_with("%YAML")) text[0] = '#';
+  return text;
+}
+
+constexpr double kRotationTolerance = 1e-3;  // of an entry of R R^T
+
+}  // namespace
+
+SensorFile::SensorFile(std::filesystem::path file) : file_(std::move(file)) {
+  try {
+    root_ = YAML::Load(without_directive(read_file(file_)));
+  } catch (const YAML::ParserException& error) {
+    fail("{}:{}: is not valid YAML: {}", file_.string(), error.mark.line + 1, error.msg);
+  }
+  if (!root_.IsMap()) fail("{}:1: expected a map of keys", file_.string());
+}
+
+void SensorFile::fault(const YAML::Node& node, const std::string& message) const {
+  const int line = node.IsDefined() && !node.Mark().is_null() ? node.Mark().line + 1 : 1;
+  fail("{}:{}: {}", file_.string(), line, message);
+}
+
+std::vector<double> SensorFile::numbers(const YAML::Node& node, const std::string& key,
+                                        std::size_t count) const {
+  if (!node.IsDefined())
+    fault(root_, fmt::format("{}: expected {} numbers, is absent", key, count));
+  if (!node.IsSequence() || node.size() != count) {
+    fault(node, fmt::format("{}: expected {} numbers, found {}", key, count,
+                            node.IsSequence() ? fmt::format("{}", node.size()) : "no list"));
+  }
+  std::vector<double> values;
+  for (const YAML::Node& item : node) {
+    double value = 0;
+    if (!YAML::convert<double>::decode(item, value) || !std::isfinite(value)) {
+      fault(item, fmt::format("{}: expected a number, found '{}'", key,
+                              item.IsScalar() ? item.Scalar() : ""));
+    }
+    values.push_back(value);
+  }
+  return values;
+}
+
+void SensorFile::expect_word(const std::string& key, const std::vector<std::string>& words) const {
+  const YAML::Node node = root_[key];
+  if (!node.IsDefined()) return;
+  const std::string found = node.IsScalar() ? node.Scalar() : "";
+  if (std::ranges::count(words, found) == 0) {
+    fault(node, fmt::format("{}: expected {}, found '{}'", key, fmt::join(words, " or "), found));
+  }
+}
+
+Pose SensorFile::T_BS() const {
+  const YAML::Node node = root_["T_BS"];
+  const YAML::Node data = node.IsDefined() && node.IsMap() ? node["data"] : node;
+  const std::vector<double> v = numbers(data, "T_BS", 16);
+  Eigen::Matrix4d T;
+  for (Eigen::Index i = 0; i < 16; ++i) T(i / 4, i % 4) = v[static_cast<std::size_t>(i)];
+  const Eigen::Matrix3d R = T.topLeftCorner<3, 3>();
+  const bool rigid = (R * R.transpose()).isIdentity(kRotationTolerance) && R.determinant() > 0;
+  if (!rigid || !T.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1))) {
+    fault(data, "T_BS: expected a rotation and a translation, row by row, with 0 0 0 1 last");
+  }
+  if (R.isIdentity(0)) return {Eigen::Quaterniond::Identity(), T.topRightCorner<3, 1>()};
+  return {Eigen::Quaterniond(R).normalized(), T.topRightCorner<3, 1>()};
+}
+
+PinholeCamera SensorFile::camera() const {
+  expect_word("camera_model", {"pinhole"});
+  expect_word("distortion_model", {"radial-tangential", "radtan", "plumb_bob", "none"});
+  const std::vector<double> size = numbers(root_["resolution"], "resolution", 2);
+  const std::vector<double> k = numbers(root_["intrinsics"], "intrinsics", 4);
+  PinholeCamera camera{
+      static_cast<int>(size[0]), static_cast<int>(size[1]), k[0], k[1], k[2], k[3], {}};
+  if (camera.width < 16 || camera.height < 16 || camera.fx <= 0 || camera.fy <= 0) {
+    fault(root_["intrinsics"], "expected at least 16 x 16 pixels and focal lengths above 0");
+  }
+  const YAML::Node distortion = root_["distortion_coefficients"];
+  if (!distortion.IsDefined() || (distortion.IsSequence() && distortion.size() == 0)) return camera;
+  const bool five = distortion.IsSequence() && distortion.size() == 5;
+  const std::vector<double> d =
+      numbers(distortion, "distortion_coefficients", five ? 5 : camera.distortion.size());
+  if (five && d[4] != 0) {
+    fault(distortion, "distortion_coefficients: expected k1, k2, p1, p2; a k3 is not supported");
+  }
+  std::copy_n(d.begin(), camera.distortion.size(), camera.distortion.begin());
+  return camera;
+}
+
+std::optional<double> SensorFile::rate_hz() const {
+  double rate = 0;
+  const YAML::Node node = root_["rate_hz"];
+  if (!node.IsDefined() || !YAML::convert<double>::decode(node, rate) || rate <= 0) return {};
+  return rate;
+}
+
+}  // namespace vinebench::harness

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/datasets/format/recording_notes.h"
+
+namespace vinebench::harness {
+
+struct SettingsFile {
+  std::string name;
+  std::string text;
+};
+
+/// Settings with which other SLAM systems run on an EuRoC recording: the first pair as their
+/// stereo camera (cam0 and cam1 where the rig begins with it), the body as the inertial unit.
+/// ORB-SLAM3 (v1.0; rectified where the pair is, and raw), Basalt, Kalibr's chains as OpenVINS
+/// reads them, stella_vslam. Throws Error for a rig without a pair.
+std::vector<SettingsFile> slam_settings(const RecordingNotes& notes);
+
+}  // namespace vinebench::harness

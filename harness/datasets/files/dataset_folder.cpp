@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/datasets/files/dataset_folder.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <vector>
+
+#include "core/util/error.h"
+
+namespace vinebench::harness {
+
+std::filesystem::path make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) fail("recording {}: cannot be made: {}", folder.string(), error.message());
+  return folder;
+}
+
+std::filesystem::path claim_folder(const std::filesystem::path& folder) {
+  make_folder(folder);
+  std::error_code error;
+  const bool empty = std::filesystem::is_empty(folder, error);
+  if (error) fail("recording {}: cannot be read: {}", folder.string(), error.message());
+  if (!empty) {
+    fail("recording {}: is not empty; expected a new or an empty folder", folder.string());
+  }
+  if (access(folder.c_str(), W_OK) != 0) {
+    fail("recording {}: cannot be written to: {}", folder.string(), std::strerror(errno));
+  }
+  return folder;
+}
+
+void clear_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::vector<std::filesystem::path> entries;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    entries.push_back(entry.path());
+  }
+  for (const std::filesystem::path& entry : entries) {
+    if (!error) std::filesystem::remove_all(entry, error);
+  }
+  if (error) fail("recording {}: cannot be cleared: {}", folder.string(), error.message());
+}
+
+}  // namespace vinebench::harness

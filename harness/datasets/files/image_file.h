@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <opencv2/core/mat.hpp>
+
+namespace vinebench::harness {
+
+/// Writes an image as PNG or JPEG by the name's ending: CV_8UC3 (RGB), CV_8UC1, or CV_32FC1 (depth
+/// in m, written as 16-bit PNG in mm). Throws Error for other endings and when it cannot be
+/// written.
+void write_image(const std::filesystem::path& file, const cv::Mat& image);
+
+}  // namespace vinebench::harness

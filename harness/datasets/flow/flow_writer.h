@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/truth/truth_images.h"
+#include "harness/datasets/format/format_writer.h"
+
+namespace vinebench::harness {
+
+/// Flow from each frame to the next one of the data set, as 16-bit PNG of KITTI (1/64 px around
+/// 2^15, blue 1 where known) and as Middlebury's .flo, and beside KITTI's a mask of what the next
+/// frame still shows. Throws Error for cameras with distortion.
+class FlowWriter : public FormatWriter {
+ public:
+  struct Folders {
+    std::filesystem::path kitti;  ///< none where empty
+    std::filesystem::path flo;    ///< likewise
+  };
+  FlowWriter(const Folders& folders, const RecordingNotes& notes);
+  std::vector<FileTask> files(const std::shared_ptr<const DatasetFrame>& frame) override;
+
+ private:
+  Folders folders_;
+  std::vector<RigCamera> cameras_;
+  std::shared_ptr<const DatasetFrame> before_;
+};
+
+/// Truth flow of a camera from one frame to the next, the rover's own pixels included.
+FlowTruth flow_between(const DatasetFrame& a, const DatasetFrame& b, std::size_t camera,
+                       const Pose& T_body_cam);
+
+/// KITTI's code of a flow, CV_16UC3 (RGB).
+cv::Mat kitti_flow(const cv::Mat& flow);
+
+}  // namespace vinebench::harness

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/geometry/rig.h"
+#include "core/time.h"
+
+namespace vinebench::harness {
+
+/// What a check found wrong: a file, relative to the data set, and what is the matter with it.
+struct DatasetFault {
+  std::string file;
+  std::string problem;
+};
+
+/// A line of frames.csv.
+struct RecordedPose {
+  Stamp stamp = 0;
+  Pose T_world_body;
+};
+
+/// A sequence that was recorded, as its checks know it.
+struct RecordedSequence {
+  std::filesystem::path folder;
+  bool complete = true;  ///< false after an interruption
+  std::vector<RecordedPose> frames;
+  Rig rig;             ///< the cameras as they truly are: calibration.yaml
+  bool windy = false;  ///< plants move by themselves
+
+  /// Whether it has a file or folder of this name.
+  bool has(const std::string& name) const;
+};
+
+/// Adds a fault where a list does not have a line for each frame; that of an interrupted recording
+/// may be a frame ahead.
+void expect_rows(const RecordedSequence& sequence, const std::string& list, std::size_t rows,
+                 std::vector<DatasetFault>& faults);
+
+}  // namespace vinebench::harness

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/datasets/reading/recording.h"
+
+#include "core/util/error.h"
+
+namespace vinebench::harness {
+
+Rig load_rig_for(const fs::path& file, std::size_t cameras) {
+  Rig rig = load_rig(file);
+  if (rig.cameras.size() > cameras) {
+    fail("{}: rig '{}' has {} cameras, the recording has {}", file.string(), rig.name,
+         rig.cameras.size(), cameras);
+  }
+  return rig;
+}
+
+}  // namespace vinebench::harness

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/jobs/simulation_versions.h"
+
+#include <mujoco/mujoco.h>
+
+#include "sim/render/gl/platform/gl_context.h"
+
+namespace vinebench::harness {
+
+std::vector<std::pair<std::string, std::string>> simulation_versions() {
+  return {{"MuJoCo", mj_versionString()}, {"OpenGL", sim::gl_version()}};
+}
+
+}  // namespace vinebench::harness
