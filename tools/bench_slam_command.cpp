@@ -13,6 +13,7 @@
 #include "harness/jobs/run_scenario.h"
 #include "harness/replay.h"
 #include "tools/commands.h"
+#include "tools/gl_variable.h"
 #include "tools/interactive.h"
 
 namespace vinebench::tools {
@@ -46,8 +47,9 @@ void record_simulation(const BenchSlamArguments& arguments, harness::SlamBenchma
         "bench slam: no {} here; run it in the project's folder, or name a DATASET or a --scenario",
         file);
   }
-  const harness::ScenarioConfig scenario =
+  harness::ScenarioConfig scenario =
       harness::load_scenario(file, parse_overrides(arguments.overrides));
+  sim::choose_backend(scenario.simulation.renderer, gl_variable());
   fmt::print(stderr, "simulating at most {} frames of {} …\n", arguments.frames, scenario.name);
   WorkerPool pool(arguments.threads);
   const auto source =

@@ -12,6 +12,8 @@
 #include <opencv2/core/utility.hpp>
 
 #include "sim/render/gl/platform/gl_context.h"
+#include "sim/render/renderer_config.h"
+#include "tools/gl_variable.h"
 #include "vinebench/version.h"
 
 namespace vinebench::tools {
@@ -27,7 +29,9 @@ std::string versions_text() {
       fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));
   add("Ceres", CERES_VERSION_STRING);
   add("AprilTag", VINEBENCH_APRILTAG_VERSION);
-  add("OpenGL", sim::gl_version());
+  sim::RendererConfig renderer;
+  sim::choose_backend(renderer, gl_variable());
+  add("OpenGL", sim::gl_version(renderer.backend));
   add("CLI11", CLI11_VERSION);
   add("fmt",
       fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100));
