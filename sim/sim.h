@@ -5,7 +5,7 @@
 /// The simulation of the test bench: vineyard, rover physics, renderer, sensors and ground truth.
 /// Independent of SLAM; its output is core's Frame, and Truth for the evaluation.
 
-#include "sim/render/renderer.h"
+#include "sim/render/factory/make_render_engine.h"
 #include "sim/rover/route.h"
 #include "sim/rover/rover.h"
 #include "sim/scene/scene.h"

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/config/validate.h"
+#include "sim/render/factory/make_render_engine.h"
 #include "sim/rover/driven_rover.h"
 #include "sim/rover/rover_asset.h"
 #include "sim/scene/scene_naming.h"
@@ -36,14 +37,17 @@ class Simulation : public SimulatedSource {
         exposure_(config.sensors.camera.exposure, rig_),
         inertial_(config.sensors.inertial, config.rover.imu_rate_hz, seed),
         wheels_(config.sensors.wheels) {
-    for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
-      cameras_.emplace_back(config.sensors.camera, rig_.cameras[i], static_cast<int>(i), seed);
-    }
     window_ = from_seconds(config.sensors.camera.half_window()) + timing_.longest_delay();
     Scene scene = build_scene(config.world, seed, cache);
     add_rover(scene, config.rover.model);
     index_of_scene_ = index_of(scene);
-    for (int i = 0; i < pool.threads(); ++i) renderers_.emplace_back(scene, config.renderer);
+    for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
+      cameras_.emplace_back(config.sensors.camera, rig_.cameras[i], static_cast<int>(i), seed,
+                            scene.light);
+    }
+    for (int i = 0; i < pool.threads(); ++i) {
+      renderers_.push_back(make_render_engine(scene, config.renderer));
+    }
     const double route_seconds = to_seconds(rover_.route().duration());
     const double seconds = std::min(config.duration.value_or(route_seconds), route_seconds);
     frames_ = static_cast<std::int64_t>(std::floor(seconds * rig_.rate_hz + 1e-9)) + 1;
@@ -141,7 +145,7 @@ class Simulation : public SimulatedSource {
         const std::size_t camera = order[i];
         if (timing_.is_dropped(index_, camera) || !takes(camera)) continue;
         const auto start = std::chrono::steady_clock::now();
-        render_camera(renderers_[lane], camera, sample, visible[camera]);
+        render_camera(*renderers_[lane], camera, sample, visible[camera]);
         spent[camera] =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
                 .count();
@@ -157,10 +161,10 @@ class Simulation : public SimulatedSource {
     sample.truth.visible_tags.erase(repeated.begin(), repeated.end());
   }
 
-  void render_camera(Renderer& renderer, std::size_t camera, Sample& sample,
+  void render_camera(RenderEngine& renderer, std::size_t camera, Sample& sample,
                      std::vector<int>& visible) {
     const bool reads_tags = std::ranges::count(rig_.tag_cameras, static_cast<int>(camera)) > 0;
-    CameraSensor::Shot shot;
+    Shot shot;
     shot.frame = index_;
     shot.instant = timing_.instant(index_, camera);
     shot.exposure = exposure_.of(camera);
@@ -169,7 +173,7 @@ class Simulation : public SimulatedSource {
     shot.request.labels |= wants_labels;
     RenderedImage image = cameras_[camera].capture(
         shot, [&](Stamp stamp) { return rover_.T_world_body(stamp); },
-        [&](const PinholeCamera& view, const Pose& T_world_cam, const Renderer::Request& request) {
+        [&](const PinholeCamera& view, const Pose& T_world_cam, const RenderRequest& request) {
           return renderer.render(view, T_world_cam, request);
         });
     if (wants_labels) {
@@ -184,7 +188,7 @@ class Simulation : public SimulatedSource {
                                   std::move(image)};
   }
 
-  void ask_for_truth(Renderer::Request& request) const {
+  void ask_for_truth(RenderRequest& request) const {
     request.labels = plan_.labels;
     request.depth = plan_.depth;
     request.instances = plan_.instances;
@@ -229,7 +233,7 @@ class Simulation : public SimulatedSource {
   InertialSensor inertial_;
   WheelSensor wheels_;
   std::vector<CameraSensor> cameras_;
-  std::vector<Renderer> renderers_;
+  std::vector<std::unique_ptr<RenderEngine>> renderers_;
   StageTimes times_;
   Stamp window_ = 0;  ///< maximum time between an image's exposure and the frame's instant
   std::int64_t frames_ = 0;

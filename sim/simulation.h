@@ -14,7 +14,7 @@
 #include "core/truth/frame_source.h"
 #include "core/util/stage_timer.h"
 #include "core/util/worker_pool.h"
-#include "sim/render/renderer.h"
+#include "sim/render/renderer_config.h"
 #include "sim/rover/route.h"
 #include "sim/rover/rover.h"
 #include "sim/sensors/sensors.h"

@@ -12,6 +12,7 @@
 #include "core/util/files.h"
 #include "harness/benchmarks/record_benchmark.h"
 #include "tools/commands.h"
+#include "tools/gl_variable.h"
 #include "tools/interactive.h"
 
 namespace vinebench::tools {
@@ -35,6 +36,7 @@ int bench_record(const BenchRecordArguments& arguments) {
   }
   harness::RecordBenchmark benchmark;
   benchmark.scenario = harness::load_scenario(file, parse_overrides(arguments.overrides));
+  sim::choose_backend(benchmark.scenario.simulation.renderer, gl_variable());
   benchmark.frames = arguments.frames;
   benchmark.threads = arguments.threads;
   const std::filesystem::path parent = arguments.folder.empty()

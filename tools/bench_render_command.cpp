@@ -15,6 +15,7 @@
 #include "harness/experiment/scenario.h"
 #include "sim/config_files.h"
 #include "tools/commands.h"
+#include "tools/gl_variable.h"
 
 namespace vinebench::tools {
 namespace {
@@ -44,6 +45,7 @@ harness::RenderBenchmark benchmark_of(const BenchArguments& arguments, const std
   benchmark.threads = arguments.threads;
   benchmark.mujoco = !arguments.no_mujoco && benchmark.name == "csl-vineyard";
   benchmark.images = arguments.images;
+  sim::choose_backend(benchmark.renderer, gl_variable());
   return benchmark;
 }
 

@@ -11,6 +11,7 @@
 #include "harness/jobs/record.h"
 #include "harness/run.h"
 #include "tools/commands.h"
+#include "tools/gl_variable.h"
 #include "tools/interactive.h"
 
 namespace vinebench::tools {
@@ -29,6 +30,7 @@ struct RecordArguments {
 harness::RecordRequest request_of(const RecordArguments& arguments) {
   harness::RecordRequest request = arguments.request;
   request.overrides = parse_overrides(arguments.overrides);
+  request.gl_backend = gl_variable();
   request.options.formats = harness::parse_formats(arguments.formats);
   request.options.categories = harness::parse_categories(arguments.labels);
   if (!arguments.seeds.empty()) request.seeds = harness::parse_span(arguments.seeds, "--seeds");

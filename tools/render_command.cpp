@@ -14,10 +14,12 @@
 #include "harness/jobs/run_scenario.h"
 #include "harness/jobs/snapshot.h"
 #include "sim/config_files.h"
-#include "sim/render/renderer.h"
+#include "sim/render/factory/make_render_engine.h"
 #include "sim/rover/rover.h"
 #include "sim/rover/rover_asset.h"
+#include "sim/sensors/effects/glare.h"
 #include "tools/commands.h"
+#include "tools/gl_variable.h"
 
 namespace vinebench::tools {
 namespace {
@@ -57,10 +59,16 @@ RigCamera camera_of(const RenderArguments& arguments) {
   return rig.cameras[static_cast<std::size_t>(index)];
 }
 
-sim::Renderer::Request request_of(const RenderArguments& arguments) {
+sim::RendererConfig renderer_config() {
+  sim::RendererConfig config;
+  sim::choose_backend(config, gl_variable());
+  return config;
+}
+
+sim::RenderRequest request_of(const RenderArguments& arguments) {
   const bool flows = !arguments.flow.empty() || !arguments.flow_visible.empty();
   const bool warps = flows || !arguments.disparity.empty();
-  sim::Renderer::Request request;
+  sim::RenderRequest request;
   request.labels = !arguments.labels.empty();
   request.depth = !arguments.depth.empty() || warps;
   request.instances = !arguments.instances.empty();
@@ -85,14 +93,14 @@ void write_images(const RenderArguments& arguments, const RenderedImage& image) 
 }
 
 /// What takes a second view: flow and disparity.
-void write_warps(const RenderArguments& arguments, sim::Renderer& renderer, const TruthView& view,
-                 const RigCamera& camera) {
-  const sim::Renderer::Request request = request_of(arguments);
-  const auto view_from = [&](const Pose& T_world_cam, const sim::Renderer::Request& asked) {
+void write_warps(const RenderArguments& arguments, sim::RenderEngine& renderer,
+                 const TruthView& view, const RigCamera& camera) {
+  const sim::RenderRequest request = request_of(arguments);
+  const auto view_from = [&](const Pose& T_world_cam, const sim::RenderRequest& asked) {
     return TruthView{camera.model, T_world_cam, renderer.render(camera.model, T_world_cam, asked)};
   };
   if (!arguments.flow_to.empty()) {
-    sim::Renderer::Request later = request;
+    sim::RenderRequest later = request;
     if (later.T_world_rover_other) later.T_world_rover = later.T_world_rover_other;
     const Pose there = harness::parse_view(arguments.flow_to) * camera.T_body_cam;
     const FlowTruth truth = optical_flow(view, view_from(there, later));
@@ -136,16 +144,19 @@ int render(const RenderArguments& arguments) {
   const RigCamera camera = camera_of(arguments);
   if (arguments.turntable) {
     const auto seed = static_cast<std::uint64_t>(arguments.seed);
-    harness::write_image(arguments.out, harness::turntable(world, seed, camera.model));
+    harness::write_image(arguments.out,
+                         harness::turntable(world, seed, camera.model, renderer_config()));
     return 0;
   }
   check(arguments);
   const Pose T_world_cam = harness::parse_view(arguments.pose) * camera.T_body_cam;
-  sim::Renderer renderer(scene_of(arguments, world), {});
+  const sim::Scene scene = scene_of(arguments, world);
+  const auto renderer = sim::make_render_engine(scene, renderer_config());
   const TruthView view{camera.model, T_world_cam,
-                       renderer.render(camera.model, T_world_cam, request_of(arguments))};
+                       sim::render_with_glare(*renderer, scene.light, camera.model, T_world_cam,
+                                              request_of(arguments))};
   write_images(arguments, view.image);
-  write_warps(arguments, renderer, view, camera);
+  write_warps(arguments, *renderer, view, camera);
   return 0;
 }
 

@@ -13,6 +13,7 @@
 #include "harness/jobs/run_scenario.h"
 #include "harness/sets/seed_list.h"
 #include "tools/commands.h"
+#include "tools/gl_variable.h"
 #include "tools/interactive.h"
 #include "tools/run_many.h"
 
@@ -40,6 +41,7 @@ std::vector<harness::ScenarioConfig> scenarios_of(const RunArguments& arguments)
   std::vector<harness::ScenarioConfig> scenarios;
   for (const std::string& file : arguments.scenarios) {
     scenarios.push_back(harness::load_scenario(file, overrides));
+    sim::choose_backend(scenarios.back().simulation.renderer, gl_variable());
     if (arguments.seed) scenarios.back().seed = *arguments.seed;
   }
   return scenarios;

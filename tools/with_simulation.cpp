@@ -7,12 +7,13 @@
 #include "core/util/error.h"
 #include "harness/benchmarks/simulated_frames.h"
 #include "harness/jobs/simulation_versions.h"
+#include "tools/gl_variable.h"
 #include "tools/simulation.h"
 
 namespace vinebench::tools {
 
 std::vector<std::pair<std::string, std::string>> simulation_versions() {
-  return harness::simulation_versions();
+  return harness::simulation_versions(gl_variable());
 }
 
 void simulate_frames(const SimulatedFrames& wanted, harness::SlamBenchmark& benchmark) {
@@ -24,7 +25,8 @@ void simulate_frames(const SimulatedFrames& wanted, harness::SlamBenchmark& benc
         "bench slam: no {} here; run it in the project's folder, or name a DATASET or a --scenario",
         file.string());
   }
-  const harness::ScenarioConfig scenario = harness::load_scenario(file, wanted.overrides);
+  harness::ScenarioConfig scenario = harness::load_scenario(file, wanted.overrides);
+  sim::choose_backend(scenario.simulation.renderer, gl_variable());
   fmt::print(stderr, "simulating at most {} frames of {} …\n", wanted.frames, scenario.name);
   harness::load_simulated_frames(scenario, wanted.frames, benchmark);
 }

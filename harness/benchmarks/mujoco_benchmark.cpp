@@ -39,20 +39,19 @@ std::vector<RigCamera> one_of_each_size(const Rig& rig) {
 nlohmann::ordered_json measure_variant(const RenderBenchmark& benchmark, const sim::Scene& scene,
                                        const RigCamera& camera, const Variant& variant) {
   sim::MujocoRendererConfig config;
-  config.width = camera.model.width;
-  config.height = camera.model.height;
   config.level_distance = variant.distance * sim::kLevelFocalLength / camera.model.fx;
   config.shadows = variant.shadows;
   sim::MujocoRenderer renderer(scene, config);
   const Pose& first = benchmark.route.front();
-  const cv::Mat image = renderer.render(camera.model, first * camera.T_body_cam);  // warm up
+  const cv::Mat image =
+      renderer.render(camera.model, first * camera.T_body_cam, {}).rgb;  // warm up
   if (!benchmark.images.empty()) {
     write_image(benchmark.images / fmt::format("{}-{}.png", camera.name, variant.file), image);
   }
   std::vector<Timing> timings;
   for (const Pose& T_world_body : benchmark.route) {
     timings.push_back(
-        measure([&] { renderer.render(camera.model, T_world_body * camera.T_body_cam); }));
+        measure([&] { renderer.render(camera.model, T_world_body * camera.T_body_cam, {}); }));
   }
   const Timing typical = median(timings);
   return {{"camera", camera.name},

@@ -14,7 +14,7 @@
 #include "harness/datasets/files/image_file.h"
 #include "harness/jobs/run_scenario.h"
 #include "harness/sets/child_process.h"
-#include "sim/render/renderer.h"
+#include "sim/render/gl/gl_renderer.h"
 #include "sim/world/terrain.h"
 
 namespace vinebench::harness {
@@ -31,7 +31,7 @@ void prepare_software_rendering(int threads) {
   setenv("LP_NUM_THREADS", std::to_string(threads == 1 ? 0 : threads).c_str(), 1);
 }
 
-Json measure_camera(sim::Renderer& renderer, const RigCamera& camera,
+Json measure_camera(sim::GlRenderer& renderer, const RigCamera& camera,
                     const RenderBenchmark& benchmark) {
   const Pose& first = benchmark.route.front();
   const RenderedImage image =
@@ -51,7 +51,7 @@ Json measure_camera(sim::Renderer& renderer, const RigCamera& camera,
           {"wall_ms", rounded(typical.wall_ms)}};
 }
 
-void render_frame(WorkerPool& pool, std::vector<sim::Renderer>& renderers, const Rig& rig,
+void render_frame(WorkerPool& pool, std::vector<sim::GlRenderer>& renderers, const Rig& rig,
                   const Pose& T_world_body) {
   std::atomic<std::size_t> next{0};
   pool.for_each(renderers.size(), [&](std::size_t lane) {
@@ -62,7 +62,7 @@ void render_frame(WorkerPool& pool, std::vector<sim::Renderer>& renderers, const
   });
 }
 
-double measure_frames(std::vector<sim::Renderer>& renderers, const RenderBenchmark& benchmark) {
+double measure_frames(std::vector<sim::GlRenderer>& renderers, const RenderBenchmark& benchmark) {
   WorkerPool pool(static_cast<int>(renderers.size()));
   render_frame(pool, renderers, benchmark.rig, benchmark.route.front());  // warm up
   std::vector<double> wall;
@@ -80,9 +80,9 @@ Json measure_with_threads(const RenderBenchmark& benchmark, int threads) {
   std::optional<sim::Scene> scene;
   const Timing built =
       measure([&] { scene = sim::build_scene(benchmark.world, benchmark.seed, default_cache()); });
-  std::vector<sim::Renderer> renderers;
+  std::vector<sim::GlRenderer> renderers;
   const Timing uploaded = measure([&] {
-    for (int i = 0; i < threads; ++i) renderers.emplace_back(*scene, sim::RendererConfig{});
+    for (int i = 0; i < threads; ++i) renderers.emplace_back(*scene, benchmark.renderer);
   });
   Json result;
   for (const RigCamera& camera : benchmark.rig.cameras) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/geometry/rig.h"
+#include "sim/render/renderer_config.h"
 #include "sim/world/world.h"
 
 namespace vinebench::harness {
@@ -21,6 +22,7 @@ struct RenderBenchmark {
   std::vector<Pose> route;  ///< T_world_body of each frame
   std::uint64_t seed = 1;
   int threads = 2;
+  sim::RendererConfig renderer;
   bool mujoco = false;           ///< also measure MuJoCo's own renderer on the same scene
   std::filesystem::path images;  ///< folder for both renderers' images of one pose, if any
 };

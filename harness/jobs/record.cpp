@@ -27,7 +27,10 @@ std::string name_of_sequence(std::int64_t seed) {
 }
 
 ScenarioConfig scenario_of(const RecordRequest& request, std::optional<std::int64_t> seed) {
-  return load_drawn_scenario(request.scenario, request.overrides, request.randomisation, seed);
+  ScenarioConfig scenario =
+      load_drawn_scenario(request.scenario, request.overrides, request.randomisation, seed);
+  sim::choose_backend(scenario.simulation.renderer, request.gl_backend);
+  return scenario;
 }
 
 /// Whether the folder has this sequence, complete. Removes an interrupted one.

@@ -18,6 +18,7 @@ struct RecordRequest {
   std::filesystem::path scenario;
   std::vector<Override> overrides;
   std::filesystem::path randomisation;  ///< distributions that each seed draws keys from; or none
+  std::string gl_backend;  ///< platform where the scenario leaves it open; empty changes nothing
   std::filesystem::path out;
   /// First and last seed. Each is a separate sequence, in a folder `seed_000012` of `out`; if
   /// absent, `out` is the single sequence of the scenario's own seed.

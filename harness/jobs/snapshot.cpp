@@ -11,7 +11,8 @@
 #include "core/util/error.h"
 #include "harness/datasets/labels/label_table.h"
 #include "harness/jobs/run_scenario.h"
-#include "sim/render/renderer.h"
+#include "sim/render/factory/make_render_engine.h"
+#include "sim/sensors/effects/glare.h"
 
 namespace vinebench::harness {
 namespace {
@@ -69,14 +70,16 @@ cv::Mat colour_labels(const cv::Mat& labels) {
   return colours;
 }
 
-cv::Mat turntable(const sim::WorldConfig& world, std::uint64_t seed, const PinholeCamera& camera) {
+cv::Mat turntable(const sim::WorldConfig& world, std::uint64_t seed, const PinholeCamera& camera,
+                  const sim::RendererConfig& config) {
   constexpr int kViews = 8;
   constexpr int kColumns = 4;
   constexpr double kPitchDown = 22 * kRadians;
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector2d& post : sim::post_positions(world)) box.extend(post);
   const double distance = 1.5 + 0.75 * box.diagonal().norm();
-  sim::Renderer renderer(sim::build_scene(world, seed, default_cache()), {});
+  const sim::Scene scene = sim::build_scene(world, seed, default_cache());
+  const auto renderer = sim::make_render_engine(scene, config);
   cv::Mat sheet(camera.height * (kViews / kColumns), camera.width * kColumns, CV_8UC3);
   for (int i = 0; i < kViews; ++i) {
     const double yaw = (i + 0.5) * 2 * std::numbers::pi / kViews;
@@ -87,7 +90,8 @@ cv::Mat turntable(const sim::WorldConfig& world, std::uint64_t seed, const Pinho
                    {0, kPitchDown, yaw});
     const cv::Rect place((i % kColumns) * camera.width, (i / kColumns) * camera.height,
                          camera.width, camera.height);
-    renderer.render(camera, T_world_cam, {}).rgb.copyTo(sheet(place));
+    sim::render_with_glare(*renderer, scene.light, camera, T_world_cam, {})
+        .rgb.copyTo(sheet(place));
   }
   return sheet;
 }

@@ -10,6 +10,7 @@
 
 #include "core/geometry/camera.h"
 #include "harness/experiment/scenario.h"
+#include "sim/render/renderer_config.h"
 #include "sim/world/world.h"
 
 namespace vinebench::harness {
@@ -26,6 +27,7 @@ Pose parse_view(const std::string& text);
 cv::Mat colour_labels(const cv::Mat& labels);
 
 /// A contact sheet of eight views of a world from all sides, from above eye level.
-cv::Mat turntable(const sim::WorldConfig& world, std::uint64_t seed, const PinholeCamera& camera);
+cv::Mat turntable(const sim::WorldConfig& world, std::uint64_t seed, const PinholeCamera& camera,
+                  const sim::RendererConfig& renderer);
 
 }  // namespace vinebench::harness

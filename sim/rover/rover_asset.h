@@ -15,7 +15,7 @@ namespace vinebench::sim {
 /// geom.
 Asset rover_asset(const std::filesystem::path& mjcf);
 
-/// Makes it the rover that Renderer::Request places.
+/// Makes it the rover that RenderRequest places.
 void add_rover(Scene& scene, const std::filesystem::path& mjcf);
 
 }  // namespace vinebench::sim

@@ -102,7 +102,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Model> models;
   std::vector<Instance> instances;
-  int rover_model = -1;  ///< index into models of the rover posed by Renderer::Request; -1 for none
+  int rover_model = -1;  ///< index into models of the rover posed by RenderRequest; -1 for none
   std::vector<Wire> wires;
   Light light;
   Wind wind;

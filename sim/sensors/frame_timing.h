@@ -10,7 +10,7 @@
 #include "core/config/config_field.h"
 #include "core/geometry/rig.h"
 #include "core/time.h"
-#include "sim/sensors/fault_scope.h"
+#include "sim/sensors/effects/fault_scope.h"
 
 namespace vinebench::sim {
 

@@ -16,7 +16,7 @@
 #include "harness/benchmarks/render_benchmark.h"
 #include "harness/jobs/run_scenario.h"
 #include "sim/config_files.h"
-#include "sim/render/renderer.h"
+#include "sim/render/gl/gl_renderer.h"
 #include "slam/features/orb_extractor.h"
 
 namespace vinebench::harness {
@@ -40,9 +40,9 @@ struct Corners {
 
 class SteadyCornersTest : public testing::TestWithParam<const char*> {
  protected:
-  static Corners corners(const slam::OrbExtractor& orb, sim::Renderer& renderer,
+  static Corners corners(const slam::OrbExtractor& orb, sim::GlRenderer& renderer,
                          const PinholeCamera& camera, const Pose& T_world_cam) {
-    sim::Renderer::Request request;
+    sim::RenderRequest request;
     request.depth = true;
     const RenderedImage image = renderer.render(camera, T_world_cam, request);
     cv::Mat grey;
@@ -62,7 +62,7 @@ class SteadyCornersTest : public testing::TestWithParam<const char*> {
 TEST_P(SteadyCornersTest, RepeatUnderAShiftOfAQuarterPixelNearAndFar) {
   const sim::WorldConfig world = sim::load_world(kSource / "worlds" / GetParam());
   const Rig rig = load_rig(kSource / "models" / "csl-rover" / "rig.yaml");
-  sim::Renderer renderer(sim::build_scene(world, 1, default_cache()), {});
+  sim::GlRenderer renderer(sim::build_scene(world, 1, default_cache()), {});
   int all = 0, again = 0, by_chance = 0;
   std::array<int, 3> at_depth{};  // below 1 m, 1 to 2 m, 2 to 10 m
   for (const Pose& T_world_body : aisle_route(world, 4)) {

@@ -118,7 +118,7 @@ TEST_F(SimulationTest, PerfectSensorsGiveTheTruth) {
   ASSERT_EQ(samples.size(), 10u);
   // The same images, rendered by hand.
   const Rig rig = load_rig(perfect.rover.rig);
-  Renderer renderer(build_scene(perfect.world, 1, folder_ / "cache"), perfect.renderer);
+  GlRenderer renderer(build_scene(perfect.world, 1, folder_ / "cache"), perfect.renderer);
   for (const std::size_t i : {0u, 9u}) {
     const Pose T_world_cam = samples[i].truth.T_world_body * rig.cameras[2].T_body_cam;
     const RenderedImage image = renderer.render(rig.cameras[2].model, T_world_cam, {});

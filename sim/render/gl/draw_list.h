@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/geometry/pose.h"
-#include "sim/render/gl/frustum.h"
-#include "sim/render/gl/gpu_scene.h"
+#include "sim/render/gl/scene/frustum.h"
+#include "sim/render/gl/scene/gpu_scene.h"
 #include "sim/render/gl/shadows/rover_shadow.h"
 
 namespace vinebench::sim {

@@ -10,7 +10,7 @@ namespace vinebench::sim {
 namespace {
 
 /// Draws into the image, or not, and into what is asked for of the truth.
-void draw_into(bool image, const TruthParts& truth) {
+void draw_into(const GlFunctions& gl, bool image, const TruthParts& truth) {
   const auto target = [](bool wanted, GLenum attachment) -> GLenum {
     return wanted ? attachment : GL_NONE;
   };
@@ -22,19 +22,22 @@ void draw_into(bool image, const TruthParts& truth) {
 
 }  // namespace
 
-Painter::Painter(const Scene& scene, int shadow_map_size)
-    : scene_(scene),
+Painter::Painter(const GlFunctions& gl, const Scene& scene, int shadow_map_size)
+    : gl_(gl),
+      scene_(gl, scene),
+      view_(gl),
+      programs_(gl),
       shadow_map_(scene_, shadow_map_size),
       light_map_(scene_, shadow_map_, programs_, view_, shadow_map_size),
       rover_shadow_(scene_, shadow_map_size),
-      coarse_shadows_(make_coarse_depth_sampler()),
-      sky_program_("sky", sky_vertex_shader(), sky_fragment_shader()),
-      sky_(make_texture({sky_image(scene.light, scene.seed)}, false)),
-      no_vertices_(make_vertex_array()),
-      wire_program_("wire", wire_vertex_shader(), wire_fragment_shader(false)),
-      wire_truth_program_("truth of a wire", wire_vertex_shader(), wire_fragment_shader(true)) {
+      coarse_shadows_(make_coarse_depth_sampler(gl)),
+      sky_program_(gl, "sky", sky_vertex_shader(), sky_fragment_shader()),
+      sky_(make_texture(gl, {sky_image(scene.light, scene.seed)}, false)),
+      no_vertices_(make_vertex_array(gl)),
+      wire_program_(gl, "wire", wire_vertex_shader(), wire_fragment_shader(false)),
+      wire_truth_program_(gl, "truth of a wire", wire_vertex_shader(), wire_fragment_shader(true)) {
   for (const Material& material : scene.materials) programs_.get(shader_of(material, false));
-  check_gl("uploading the scene");
+  check_gl(gl, "uploading the scene");
 }
 
 MeshShader Painter::shader_of(const Material& material, bool truth) const {
@@ -46,9 +49,9 @@ MeshShader Painter::shader_of(const Material& material, bool truth) const {
 }
 
 void Painter::clear(const TruthParts& truth) const {
-  draw_into(true, truth);
-  gl.ClearColor(0, 0, 0, 0);
-  gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  draw_into(gl_, true, truth);
+  gl_.ClearColor(0, 0, 0, 0);
+  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
 void Painter::draw_meshes(const DrawList& list, bool terrain, bool truth) {
@@ -65,8 +68,8 @@ void Painter::draw_meshes(const DrawList& list, bool terrain, bool truth) {
         shader.rover = batch.shaded;
         programs_.get(shader).use_for(material, shadow_map_.texel(), ground_light_);
         if (material.texture >= 0) {
-          gl.BindTexture(GL_TEXTURE_2D,
-                         scene_.textures[static_cast<std::size_t>(material.texture)].get());
+          gl_.BindTexture(GL_TEXTURE_2D,
+                          scene_.textures[static_cast<std::size_t>(material.texture)].get());
         }
         material_in_use = primitive.material;
         shaded_in_use = batch.shaded;
@@ -87,39 +90,39 @@ void Painter::draw_sky(const ViewBlock& view) const {
       Eigen::Vector3f(-clip(0, 2) / clip(0, 0), -clip(1, 2) / clip(1, 1), 1);
   const Eigen::Matrix3f R_world_cam = view.world_from_cam.topLeftCorner<3, 3>();
   ray_from_clip.topRows<3>() = (R_world_cam * ray_from_clip.topRows<3>()).eval();
-  gl.UniformMatrix4fv(sky_program_.uniform("ray_from_clip"), 1, GL_FALSE, ray_from_clip.data());
-  gl.Disable(GL_CULL_FACE);
-  bind_texture(kImageUnit, sky_);
-  gl.BindVertexArray(no_vertices_.get());
-  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl_.UniformMatrix4fv(sky_program_.uniform("ray_from_clip"), 1, GL_FALSE, ray_from_clip.data());
+  gl_.Disable(GL_CULL_FACE);
+  bind_texture(gl_, kImageUnit, sky_);
+  gl_.BindVertexArray(no_vertices_.get());
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 void Painter::draw_wire_pieces(const GlProgram& program,
                                const std::vector<VisibleWires>& wires) const {
   program.use();
-  gl.Disable(GL_CULL_FACE);
+  gl_.Disable(GL_CULL_FACE);
   for (const VisibleWires& visible : wires) {
     const GpuWires& of = scene_.wires[visible.wires];
     const Material& material = scene_.materials[static_cast<std::size_t>(of.material)];
-    gl.Uniform4fv(program.uniform("surface"), 1, surface_of(material).data());
-    gl.BindVertexArray(of.array.get());
-    gl.DrawArrays(GL_TRIANGLES, visible.first, visible.count);
+    gl_.Uniform4fv(program.uniform("surface"), 1, surface_of(material).data());
+    gl_.BindVertexArray(of.array.get());
+    gl_.DrawArrays(GL_TRIANGLES, visible.first, visible.count);
   }
 }
 
 void Painter::draw_wires(const PinholeCamera& camera, const Pose& T_world_cam,
                          const TruthParts& truth) const {
   const std::vector<VisibleWires> wires = visible_wires(scene_, camera, T_world_cam);
-  gl.DepthMask(GL_FALSE);
-  gl.Enable(GL_BLEND);
-  gl.BlendFunc(GL_SRC1_COLOR, GL_ONE_MINUS_SRC1_COLOR);
+  gl_.DepthMask(GL_FALSE);
+  gl_.Enable(GL_BLEND);
+  gl_.BlendFunc(GL_SRC1_COLOR, GL_ONE_MINUS_SRC1_COLOR);
   draw_wire_pieces(wire_program_, wires);
-  gl.Disable(GL_BLEND);
-  gl.BlendFunc(GL_ONE, GL_ZERO);  // two sources forbid several targets even where nothing blends
-  gl.DepthMask(GL_TRUE);
+  gl_.Disable(GL_BLEND);
+  gl_.BlendFunc(GL_ONE, GL_ZERO);  // two sources forbid several targets even where nothing blends
+  gl_.DepthMask(GL_TRUE);
   if (!truth.any()) return;
   // Blending by two sources has but one target, so the wires' truth is drawn by itself.
-  draw_into(false, truth);
+  draw_into(gl_, false, truth);
   draw_wire_pieces(wire_truth_program_, wires);
 }
 
@@ -133,12 +136,12 @@ RoverInView Painter::cast_shadow(const PinholeCamera& camera, const Pose& T_worl
 }
 
 void Painter::bind_maps() const {
-  bind_texture(kGroundLightUnit, light_map_.texture());
-  bind_texture(kShadowUnit, shadow_map_.texture());
-  bind_texture(kCoarseShadowUnit, shadow_map_.texture());
-  gl.BindSampler(kCoarseShadowUnit, coarse_shadows_.get());
-  bind_texture(kRoverShadowUnit, rover_shadow_.texture());
-  gl.ActiveTexture(GL_TEXTURE0 + kImageUnit);
+  bind_texture(gl_, kGroundLightUnit, light_map_.texture());
+  bind_texture(gl_, kShadowUnit, shadow_map_.texture());
+  bind_texture(gl_, kCoarseShadowUnit, shadow_map_.texture());
+  gl_.BindSampler(kCoarseShadowUnit, coarse_shadows_.get());
+  bind_texture(gl_, kRoverShadowUnit, rover_shadow_.texture());
+  gl_.ActiveTexture(GL_TEXTURE0 + kImageUnit);
 }
 
 void Painter::draw(const GlTarget& target, const PinholeCamera& camera, const Pose& T_world_cam,
@@ -158,19 +161,19 @@ void Painter::draw(const GlTarget& target, const PinholeCamera& camera, const Po
   ground_light_ = LightMap::kBrightest * static_cast<double>(encoded(settings.exposure));
   const DrawList list = make_draw_list(scene_, camera, T_world_cam, lod_scale, rover);
   scene_.set_instances(list.rows);
-  gl.Enable(GL_DEPTH_TEST);
-  gl.DepthFunc(GL_LEQUAL);
-  gl.DepthMask(GL_TRUE);
-  gl.FrontFace(GL_CW);
-  gl.Disable(GL_BLEND);
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthFunc(GL_LEQUAL);
+  gl_.DepthMask(GL_TRUE);
+  gl_.FrontFace(GL_CW);
+  gl_.Disable(GL_BLEND);
   clear(truth);
   bind_maps();
   draw_meshes(list, false, truth.any());
   draw_meshes(list, true, truth.any());
-  draw_into(true, {});
+  draw_into(gl_, true, {});
   draw_sky(view);
   draw_wires(camera, T_world_cam, truth);
-  gl.BindVertexArray(0);
+  gl_.BindVertexArray(0);
 }
 
 }  // namespace vinebench::sim

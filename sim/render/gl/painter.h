@@ -3,12 +3,12 @@
 #pragma once
 
 #include "sim/render/gl/draw_list.h"
-#include "sim/render/gl/gpu_scene.h"
-#include "sim/render/gl/mesh_programs.h"
+#include "sim/render/gl/scene/gpu_scene.h"
+#include "sim/render/gl/scene/mesh_programs.h"
+#include "sim/render/gl/scene/view_block.h"
 #include "sim/render/gl/shadows/light_map.h"
 #include "sim/render/gl/shadows/rover_shadow.h"
 #include "sim/render/gl/shadows/shadow_map.h"
-#include "sim/render/gl/view_block.h"
 #include "sim/render/gl/visible_wires.h"
 
 namespace vinebench::sim {
@@ -26,7 +26,7 @@ struct TruthParts {
 /// wires. Alpha becomes the label of what a pixel shows. Lives and dies in a current context.
 class Painter {
  public:
-  Painter(const Scene& scene, int shadow_map_size);
+  Painter(const GlFunctions& gl, const Scene& scene, int shadow_map_size);
   /// Binds the target and draws into it; where `truth` asks for any, it must take the truth too.
   void draw(const GlTarget& target, const PinholeCamera& camera, const Pose& T_world_cam,
             const std::optional<Pose>& T_world_rover, double lod_scale,
@@ -44,6 +44,7 @@ class Painter {
   void bind_maps() const;
   MeshShader shader_of(const Material& material, bool truth) const;
 
+  const GlFunctions& gl_;
   GpuScene scene_;
   ViewBuffer view_;
   MeshPrograms programs_;

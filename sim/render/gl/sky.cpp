@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/util/random.h"
-#include "sim/render/gl/view_block.h"
+#include "sim/render/gl/scene/view_block.h"
 
 namespace vinebench::sim {
 namespace {

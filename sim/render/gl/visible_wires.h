@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/geometry/pose.h"
-#include "sim/render/gl/frustum.h"
-#include "sim/render/gl/gpu_scene.h"
+#include "sim/render/gl/scene/frustum.h"
+#include "sim/render/gl/scene/gpu_scene.h"
 
 namespace vinebench::sim {
 

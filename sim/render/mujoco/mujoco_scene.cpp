@@ -18,6 +18,10 @@ namespace {
 using Bytes = std::vector<char>;
 using Text = std::back_insert_iterator<std::string>;
 
+constexpr int kRoverNumber = -2;      // in place of an instance's index; a wire has -1
+constexpr double kRoverDistance = 0;  // m, whose level of detail is drawn
+constexpr double kOutOfSight = -1e5;  // m below ground, beyond the far plane
+
 template <class T>
 void append(Bytes& bytes, const T* values, std::size_t count) {
   const char* first = reinterpret_cast<const char*>(values);
@@ -123,7 +127,8 @@ void write_materials(Text text, Files& files, const Scene& scene) {
 
 void write_meshes(Text text, Files& files, const Scene& scene, double distance) {
   for (std::size_t m = 0; m < scene.models.size(); ++m) {
-    const LevelOfDetail* level = level_at(scene.models[m], distance);
+    const bool rover = static_cast<int>(m) == scene.rover_model;
+    const LevelOfDetail* level = level_at(scene.models[m], rover ? kRoverDistance : distance);
     for (std::size_t p = 0; level != nullptr && p < level->primitives.size(); ++p) {
       if (!drawable(level->primitives[p])) continue;
       files.add(fmt::format("m{}_{}.msh", m, p), msh_file(level->primitives[p]));
@@ -132,22 +137,38 @@ void write_meshes(Text text, Files& files, const Scene& scene, double distance) 
   }
 }
 
+/// A level's geoms, in a place and with a number of their own.
+void write_geoms(Text text, std::size_t model, const LevelOfDetail& level, const Pose& at,
+                 int number) {
+  const Eigen::Vector3d& p = at.translation;
+  const Eigen::Quaterniond& q = at.rotation;
+  for (std::size_t i = 0; i < level.primitives.size(); ++i) {
+    if (!drawable(level.primitives[i])) continue;
+    fmt::format_to(text,
+                   "<geom type=\"mesh\" mesh=\"m{}_{}\" material=\"a{}\" user=\"{}\" pos=\"{} {} "
+                   "{}\" quat=\"{} {} {} {}\"/>\n",
+                   model, i, level.primitives[i].material, number, p.x(), p.y(), p.z(), q.w(),
+                   q.x(), q.y(), q.z());
+  }
+}
+
 void write_instances(Text text, const Scene& scene, double distance) {
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     const auto model = static_cast<std::size_t>(instance.model);
     const LevelOfDetail* level = level_at(scene.models[model], distance);
-    const Eigen::Vector3d& at = instance.T_world_model.translation;
-    const Eigen::Quaterniond& q = instance.T_world_model.rotation;
-    for (std::size_t p = 0; level != nullptr && p < level->primitives.size(); ++p) {
-      if (!drawable(level->primitives[p])) continue;
-      fmt::format_to(text,
-                     "<geom type=\"mesh\" mesh=\"m{}_{}\" material=\"a{}\" user=\"{}\" pos=\"{} {} "
-                     "{}\" quat=\"{} {} {} {}\"/>\n",
-                     model, p, level->primitives[p].material, i, at.x(), at.y(), at.z(), q.w(),
-                     q.x(), q.y(), q.z());
+    if (level != nullptr) {
+      write_geoms(text, model, *level, instance.T_world_model, static_cast<int>(i));
     }
   }
+}
+
+/// At the origin, at the level that its own cameras see.
+void write_rover(Text text, const Scene& scene) {
+  if (scene.rover_model < 0) return;
+  const auto model = static_cast<std::size_t>(scene.rover_model);
+  const LevelOfDetail* level = level_at(scene.models[model], kRoverDistance);
+  if (level != nullptr) write_geoms(text, model, *level, {}, kRoverNumber);
 }
 
 void write_wires(Text text, const Scene& scene) {
@@ -169,17 +190,16 @@ Eigen::AlignedBox3f lit_box(const Scene& scene) {
   return box;
 }
 
-void write_settings(Text text, const Scene& scene, int width, int height) {
+void write_settings(Text text, const Scene& scene) {
   const Eigen::AlignedBox3f box = lit_box(scene);
   const Eigen::Vector3f middle = box.center();
   fmt::format_to(
       text,
       "<mujoco><size nuser_geom=\"1\"/><statistic extent=\"{}\" center=\"{} {} {}\"/>"
-      "<visual><global offwidth=\"{}\" offheight=\"{}\"/>"
-      "<quality offsamples=\"0\" shadowsize=\"2048\"/><headlight ambient=\"0.4 0.4 0.4\" "
+      "<visual><quality offsamples=\"0\" shadowsize=\"2048\"/><headlight ambient=\"0.4 0.4 0.4\" "
       "diffuse=\"0 0 0\" specular=\"0 0 0\"/></visual>"
       "<default><geom contype=\"0\" conaffinity=\"0\"/></default>",
-      1 + box.diagonal().norm() / 2, middle.x(), middle.y(), middle.z(), width, height);
+      1 + box.diagonal().norm() / 2, middle.x(), middle.y(), middle.z());
 }
 
 void write_sun(Text text, const Scene& scene) {
@@ -192,10 +212,10 @@ void write_sun(Text text, const Scene& scene) {
                  at.x(), at.y(), at.z(), sun.x(), sun.y(), sun.z());
 }
 
-std::string scene_mjcf(const Scene& scene, Files& files, double distance, int width, int height) {
+std::string scene_mjcf(const Scene& scene, Files& files, double distance) {
   std::string mjcf;
   const Text text = std::back_inserter(mjcf);
-  write_settings(text, scene, width, height);
+  write_settings(text, scene);
   mjcf +=
       "<asset><texture type=\"skybox\" builtin=\"gradient\" rgb1=\"0.55 0.7 0.9\" "
       "rgb2=\"0.9 0.93 0.95\" width=\"256\" height=\"1536\"/>\n";
@@ -204,6 +224,7 @@ std::string scene_mjcf(const Scene& scene, Files& files, double distance, int wi
   mjcf += "</asset><worldbody>";
   write_sun(text, scene);
   write_instances(text, scene, distance);
+  write_rover(text, scene);
   write_wires(text, scene);
   mjcf += "</worldbody></mujoco>\n";
   return mjcf;
@@ -211,9 +232,9 @@ std::string scene_mjcf(const Scene& scene, Files& files, double distance, int wi
 
 }  // namespace
 
-MujocoScene::MujocoScene(const Scene& scene, double level_distance, int width, int height) {
+MujocoScene::MujocoScene(const Scene& scene, double level_distance) {
   Files files;
-  const std::string mjcf = scene_mjcf(scene, files, level_distance, width, height);
+  const std::string mjcf = scene_mjcf(scene, files, level_distance);
   files.add("scene.xml", Bytes(mjcf.begin(), mjcf.end()));
   std::array<char, 1000> reason{};
   model_.reset(mj_loadXML("scene.xml", files.get(), reason.data(), reason.size()));
@@ -222,6 +243,8 @@ MujocoScene::MujocoScene(const Scene& scene, double level_distance, int width, i
   if (!state_) fail("no memory for MuJoCo's state of the scene");
   mj_forward(model_.get(), state_.get());
   enlarge(scene);
+  find_rover();
+  place_rover(std::nullopt);
 }
 
 /// MuJoCo scales meshes, not their geoms; but a scaled rotation draws a scaled geom.
@@ -236,6 +259,30 @@ void MujocoScene::enlarge(const Scene& scene) {
     at = foot + scale * (at - foot);
     for (mjtNum& entry : std::span(state_->geom_xmat + 9 * g, 9)) entry *= scale;
   }
+}
+
+void MujocoScene::find_rover() {
+  for (int g = 0; g < model_->ngeom; ++g) {
+    if (instance_of(g) != kRoverNumber) continue;
+    const Eigen::Map<const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>> R(state_->geom_xmat +
+                                                                           9 * g);
+    rover_.push_back({g, Eigen::Map<const Eigen::Vector3d>(state_->geom_xpos + 3 * g), R});
+  }
+}
+
+void MujocoScene::place_rover(const std::optional<Pose>& T_world_rover) {
+  const Pose hidden{Eigen::Quaterniond::Identity(), {0, 0, kOutOfSight}};
+  const Pose& T = T_world_rover ? *T_world_rover : hidden;
+  for (const RoverGeom& part : rover_) {
+    Eigen::Map<Eigen::Vector3d>(state_->geom_xpos + 3 * part.geom) = T * part.at;
+    Eigen::Map<Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>>(state_->geom_xmat + 9 * part.geom) =
+        T.rotation.toRotationMatrix() * part.R_rover_geom;
+  }
+}
+
+void MujocoScene::set_image_size(int width, int height) {
+  model_->vis.global.offwidth = width;
+  model_->vis.global.offheight = height;
 }
 
 std::int64_t MujocoScene::triangles() const {

@@ -4,9 +4,12 @@
 
 #include <mujoco/mujoco.h>
 
+#include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "core/geometry/pose.h"
 #include "sim/scene/scene.h"
 
 namespace vinebench::sim {
@@ -16,9 +19,18 @@ class MujocoScene {
  public:
   /// Takes each model at the level of detail that is drawn `level_distance` m from a camera of
   /// kLevelFocalLength (MuJoCo knows no levels); what is no longer drawn there is left out. Cut-out
-  /// textures become opaque (MuJoCo's have no alpha), wires become cylinders. `width` x `height`
-  /// is the largest image to be drawn, px. Throws Error with MuJoCo's reason.
-  MujocoScene(const Scene& scene, double level_distance, int width, int height);
+  /// textures become opaque (MuJoCo's have no alpha), wires become cylinders. Throws Error
+  /// with MuJoCo's reason.
+  MujocoScene(const Scene& scene, double level_distance);
+
+  /// The size of the largest image to be drawn from now on, px.
+  void set_image_size(int width, int height);
+
+  /// Puts the scene's rover there; out of sight where absent.
+  void place_rover(const std::optional<Pose>& T_world_rover);
+
+  /// Index into Scene::instances of a geom; -1 of a wire, -2 of the rover.
+  int instance_of(int geom) const { return static_cast<int>(model_->geom_user[geom]); }
 
   const mjModel& model() const { return *model_; }
   mjData& state() { return *state_; }
@@ -31,10 +43,17 @@ class MujocoScene {
     void operator()(mjModel* model) const { mj_deleteModel(model); }
     void operator()(mjData* state) const { mj_deleteData(state); }
   };
+  struct RoverGeom {
+    int geom = 0;
+    Eigen::Vector3d at;  ///< of its middle, m, in the rover's frame
+    Eigen::Matrix3d R_rover_geom;
+  };
   void enlarge(const Scene& scene);
+  void find_rover();
 
   std::unique_ptr<mjModel, Free> model_;
   std::unique_ptr<mjData, Free> state_;
+  std::vector<RoverGeom> rover_;
 };
 
 }  // namespace vinebench::sim

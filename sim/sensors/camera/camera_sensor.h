@@ -4,49 +4,31 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include "core/config/config_field.h"
 #include "core/geometry/rig.h"
 #include "core/time.h"
-#include "sim/render/renderer.h"
-#include "sim/sensors/camera/bayer.h"
+#include "sim/render/render_engine.h"
 #include "sim/sensors/camera/exposure.h"
-#include "sim/sensors/camera/fixed_pattern.h"
 #include "sim/sensors/camera/lens.h"
-#include "sim/sensors/camera/lens_dirt.h"
-#include "sim/sensors/camera/photon_transfer.h"
-#include "sim/sensors/camera/vignette.h"
+#include "sim/sensors/effects/effect_list.h"
 
 namespace vinebench::sim {
 
 /// How the cameras make images of what is before them. Only the noise is on by default.
-struct CameraSensorConfig {
+struct CameraSensorConfig : EffectsConfig {
   ExposureConfig exposure;
-  PhotonTransferConfig noise;
-  FixedPatternConfig fixed_pattern;
-  double gamma = 2.2;  ///< code / 255 = signal^(1 / gamma); 1 is linear
-  VignettingConfig vignetting;
   int blur_subframes = 1;   ///< instants that an exposure is the mean of; 1 draws no blur
   double readout_time = 0;  ///< s from the first row's exposure to the last's; 0: all at once
   int readout_bands = 16;   ///< bands of rows, each drawn as of one instant
-  BayerPattern bayer = BayerPattern::kNone;
-  std::vector<LensDirtConfig> dirt;
-  std::vector<LensLeafConfig> leaves;
   template <class Archive>
   void serialize(Archive& archive) {
     archive("exposure", exposure);
-    archive("noise", noise);
-    archive("fixed_pattern", fixed_pattern);
-    archive("gamma", gamma, Range::between(0.2, 5));
-    archive("vignetting", vignetting);
     archive("blur_subframes", blur_subframes, Range::between(1, 256));
     archive("readout_time", readout_time, Range::between(0, 0.2));
     archive("readout_bands", readout_bands, Range::between(2, 4096));
-    archive("bayer", bayer);
-    archive("dirt", dirt);
-    archive("leaves", leaves);
+    EffectsConfig::serialize(archive);
   }
   /// How long before and after its instant an image can be exposed at most, s.
   double half_window() const {
@@ -56,28 +38,20 @@ struct CameraSensorConfig {
 
 /// One camera: from the scene to the image that it delivers.
 ///
-/// In the order of the light's way: the scene is drawn at the instants of the sub-frames and bands
-/// of rows, with the exposure's factor; averaged as linear light; bent by the lens; covered by what
-/// sticks to the glass; dimmed towards the corners; and then, per pixel of the sensor, given its
-/// fixed pattern, filtered for colour, amplified with noise, saturated, encoded to 8 bits and
-/// interpolated to full colour. An effect that is off costs nothing, and with all of them off the
-/// image is the renderer's to the byte.
+/// The scene is drawn at the instants of the sub-frames and bands of rows, with the exposure's
+/// factor; averaged as linear light; bent by the lens. The effects of effect_list.cpp work on the
+/// views before that and on the light and the codes after it. An effect that is off costs nothing,
+/// and with all of them off the image is the engine's to the byte.
 class CameraSensor {
  public:
-  /// `camera` is the true one, the `index`-th of the rig.
+  /// `camera` is the true one, the `index`-th of the rig; `light` is the scene's.
   CameraSensor(const CameraSensorConfig& config, const RigCamera& camera, int index,
-               std::uint64_t seed);
+               std::uint64_t seed, const Light& light);
 
-  struct Shot {
-    std::int64_t frame = 0;
-    Stamp instant = 0;  ///< the middle of the middle row's exposure
-    Exposure exposure;
-    Renderer::Request request;  ///< beside the colours; exposure, time and rover are set here
-  };
   /// The body's pose at an instant within half_window() of the shot's.
   using PoseAt = std::function<Pose(Stamp)>;
   using Render = std::function<RenderedImage(const PinholeCamera&, const Pose& T_world_cam,
-                                             const Renderer::Request&)>;
+                                             const RenderRequest&)>;
 
   /// All but the colours is that of the middle sub-frame, through the same lens.
   RenderedImage capture(const Shot& shot, const PoseAt& T_world_body, const Render& render);
@@ -89,20 +63,14 @@ class CameraSensor {
   RenderedImage expose(const Shot& shot, const PoseAt& T_world_body, const Render& render) const;
   RenderedImage expose_band(std::size_t band, const Shot& shot, const PoseAt& T_world_body,
                             const Render& render) const;
+  RenderedImage draw(const LensBand& band, const Pose& T_world_rover, const RenderRequest& request,
+                     const Render& render) const;
   Stamp readout_delay(const LensBand& band) const;
-  void develop(cv::Mat& image, const Shot& shot);
-  void dim_and_cover(cv::Mat& light, const Shot& shot) const;
-  bool changes_light(Stamp instant) const;
 
   CameraSensorConfig config_;
   RigCamera camera_;
-  int index_;
-  std::uint64_t seed_;
   std::vector<LensBand> bands_;
-  std::vector<LensCover> covers_;
-  cv::Mat vignette_;  ///< empty where off
-  std::optional<FixedPattern> fixed_pattern_;
-  PhotonTransfer photon_transfer_;
+  EffectChain effects_;
 };
 
 }  // namespace vinebench::sim

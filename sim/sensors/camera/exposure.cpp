@@ -6,22 +6,14 @@
 #include <cmath>
 #include <numeric>
 
-#include "sim/sensors/camera/light.h"
+#include "sim/render/image_encoding.h"
 
 namespace vinebench::sim {
 namespace {
 
 constexpr double kDarkest = 1;  // grey levels; a black image must not ask for endless light
 
-double from_db(double gain_db) {
-  return std::pow(10.0, gain_db / 20);
-}
-
 }  // namespace
-
-double Exposure::factor(double reference_time) const {
-  return time / reference_time * from_db(gain_db);
-}
 
 ExposureControl::ExposureControl(const ExposureConfig& config, const Rig& rig)
     : config_(config),
@@ -62,7 +54,7 @@ void ExposureControl::steer(Group& group, double brightness) const {
   Exposure& now = group.exposure;
   const double wanted =
       light_of_code(config_.target) / light_of_code(std::max(brightness, kDarkest));
-  const double product = now.time * from_db(now.gain_db) * std::pow(wanted, step_);
+  const double product = now.time * now.gain() * std::pow(wanted, step_);
   now.time = std::clamp(product, config_.min_time, config_.max_time);
   now.gain_db = std::clamp(20 * std::log10(product / now.time), 0.0, config_.max_gain_db);
 }

@@ -7,6 +7,7 @@
 
 #include "core/config/config_field.h"
 #include "core/geometry/rig.h"
+#include "sim/sensors/effects/shot.h"
 
 namespace vinebench::sim {
 
@@ -37,14 +38,6 @@ struct ExposureConfig {
   }
   /// The longest that this configuration ever exposes, s.
   double longest() const { return automatic ? max_time : time; }
-};
-
-/// What one image is taken with.
-struct Exposure {
-  double time = 0;     ///< s
-  double gain_db = 0;  ///< dB
-  /// Signal against that of the reference time at 0 dB.
-  double factor(double reference_time) const;
 };
 
 /// Sets exposure and gain of each camera of a rig from the images that it delivered before. The

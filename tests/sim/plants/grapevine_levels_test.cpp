@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "sim/plants/grapevine.h"
-#include "sim/render/renderer.h"
+#include "sim/render/gl/gl_renderer.h"
 #include "tests/support/test_scene.h"
 
 namespace vinebench::sim {
@@ -39,7 +39,7 @@ std::vector<Look> looks_of_level(const Asset& plant, std::size_t level) {
   constexpr double kDistance = 8, kFocal = 240 * kDistance;
   const PinholeCamera camera{240, 360, kFocal, kFocal, 119.5, 179.5, {}};
   const Eigen::Vector3d middle(0, 0, 0.8);
-  Renderer renderer(scene_of(plant, level), {});
+  GlRenderer renderer(scene_of(plant, level), {});
   std::vector<Look> looks;
   for (const Eigen::Vector3d& towards : kTowards) {
     const Pose T_world_cam = test::look_at(middle + kDistance * towards.normalized(), middle);

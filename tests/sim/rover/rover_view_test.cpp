@@ -10,7 +10,7 @@
 #include "core/geometry/rig.h"
 #include "core/truth/truth_images.h"
 #include "core/util/error.h"
-#include "sim/render/renderer.h"
+#include "sim/render/gl/gl_renderer.h"
 #include "sim/rover/rover_asset.h"
 #include "sim/scene/scene_naming.h"
 #include "tests/support/test_folder.h"
@@ -57,7 +57,7 @@ class RoverViewTest : public testing::Test {
   }
 
   RenderedImage draw(const Pose& T_world_cam, const std::optional<Pose>& rover,
-                     Renderer::Request request = {}) {
+                     RenderRequest request = {}) {
     if (!renderer_) renderer_.emplace(scene_, RendererConfig{});
     request.T_world_rover = rover;
     return renderer_->render(camera_, T_world_cam, request);
@@ -75,7 +75,7 @@ class RoverViewTest : public testing::Test {
 
   PinholeCamera camera_ = small_camera();
   Scene scene_;
-  std::optional<Renderer> renderer_;
+  std::optional<GlRenderer> renderer_;
 };
 
 TEST_F(RoverViewTest, IsSeenFromOutsideWhereItStands) {
@@ -96,7 +96,7 @@ TEST_F(RoverViewTest, IsSeenFromOutsideWhereItStands) {
 // The rover must not be visible in the rig's own images.
 TEST_F(RoverViewTest, IsInNoneOfItsOwnImages) {
   const Rig rig = load_rig(kModel.parent_path() / "rig.yaml");
-  Renderer renderer(scene_, {});
+  GlRenderer renderer(scene_, {});
   for (const RigCamera& mounted : rig.cameras) {
     const RenderedImage image = renderer.render(mounted.model, kRover * mounted.T_body_cam,
                                                 {.labels = true, .T_world_rover = kRover});
@@ -182,7 +182,7 @@ TEST_F(RoverViewTest, FlowGoesWithTheRover) {
   // Rover and camera drive on together by 0.05 m and turn by 0.02 rad: its image stays in place.
   const Pose later = kRover * Pose{from_roll_pitch_yaw({0, 0, 0.02}), {0.05, 0, 0}};
   const Pose T_rover_cam = kRover.inverse() * look_at({0.8, 0.2, 0.7}, {2, 1, 0.2});
-  Renderer::Request request = truth_request();
+  RenderRequest request = truth_request();
   request.T_world_rover_other = later;
   const TruthView a{camera_, kRover * T_rover_cam, draw(kRover * T_rover_cam, kRover, request)};
   const TruthView b{camera_, later * T_rover_cam, draw(later * T_rover_cam, later, request)};

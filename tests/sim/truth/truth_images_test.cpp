@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "sim/render/renderer.h"
+#include "sim/render/gl/gl_renderer.h"
 #include "sim/scene/scene_naming.h"
 #include "sim/sensors/camera/camera_sensor.h"
 #include "sim/sensors/sensors.h"
@@ -46,7 +46,7 @@ class TwoPanelsTruthTest : public testing::Test {
 
   PinholeCamera camera_ = small_camera();
   Scene scene_;
-  std::optional<Renderer> renderer_;
+  std::optional<GlRenderer> renderer_;
 };
 
 TEST_F(TwoPanelsTruthTest, TheOcclusionMaskIsWhatTheDrawingSays) {
@@ -151,13 +151,13 @@ class LensTruthTest : public TwoPanelsTruthTest {
     CameraSensorConfig config = perfect_sensors().camera;
     config.readout_time = bands > 1 ? 1e-3 : 0;
     config.readout_bands = std::max(2, bands);
-    CameraSensor sensor(config, camera, 0, 1);
-    CameraSensor::Shot shot;
+    CameraSensor sensor(config, camera, 0, 1, scene_.light);
+    Shot shot;
     shot.exposure = {config.exposure.time, config.exposure.gain_db};
     shot.request = truth_request();
     return sensor.capture(
         shot, [&](Stamp) { return camera_at(0); },
-        [&](const PinholeCamera& view, const Pose& pose, const Renderer::Request& request) {
+        [&](const PinholeCamera& view, const Pose& pose, const RenderRequest& request) {
           return renderer_->render(view, pose, request);
         });
   }

@@ -12,7 +12,7 @@
 #include "core/geometry/rig.h"
 #include "core/truth/truth_images.h"
 #include "sim/config_files.h"
-#include "sim/render/renderer.h"
+#include "sim/render/gl/gl_renderer.h"
 #include "sim/scene/scene_naming.h"
 #include "sim/world/terrain.h"
 #include "tests/support/image_warp.h"
@@ -47,7 +47,7 @@ class TruthWorldTest : public testing::Test {
   static Pose in_aisle(double x = -0.3, double y = 0.02, double yaw = 0.15, double pitch = 0) {
     return Rig::mount({x, y, 0.45}, {0, pitch, yaw});
   }
-  TruthView view(Renderer& renderer, const Pose& T_world_cam, double time = 0,
+  TruthView view(GlRenderer& renderer, const Pose& T_world_cam, double time = 0,
                  double other_time = 0) const {
     return {camera_, T_world_cam,
             renderer.render(camera_, T_world_cam, truth_request(time, other_time))};
@@ -63,7 +63,7 @@ class TruthWorldTest : public testing::Test {
 };
 
 TEST_F(TruthWorldTest, FlowWarpsOneImageOntoTheNext) {
-  Renderer renderer(grow(csl_vineyard()), {});
+  GlRenderer renderer(grow(csl_vineyard()), {});
   // A frame of a rover at 0.75 m/s and 15 Hz, in a curve of 0.3 rad/s.
   const TruthView a = view(renderer, in_aisle()), b = view(renderer, in_aisle(-0.25, 0.03, 0.17));
   const FlowTruth forth = optical_flow(a, b), back = optical_flow(b, a);
@@ -102,7 +102,7 @@ TEST_F(TruthWorldTest, FlowWarpsOneImageOntoTheNext) {
 
 TEST_F(TruthWorldTest, DisparityWarpsTheRightImageOntoTheLeft) {
   constexpr double kBaseline = 0.12;  // m
-  Renderer renderer(grow(csl_vineyard()), {});
+  GlRenderer renderer(grow(csl_vineyard()), {});
   const Pose left_camera = in_aisle();
   const Pose right_camera = left_camera * Pose{Eigen::Quaterniond::Identity(), {kBaseline, 0, 0}};
   const TruthView left = view(renderer, left_camera), right = view(renderer, right_camera);
@@ -154,7 +154,7 @@ TEST_F(TruthWorldTest, LabelsInstancesDepthAndNormalsAgreeWithTheGeometry) {
   WorldConfig world = csl_vineyard();
   world.boxes.push_back({.name = "crate of tools", .position = {1.2, 0}});
   world.obstacles.push_back({.position = {2.5, 0.05}});
-  Renderer renderer(grow(world), {});
+  GlRenderer renderer(grow(world), {});
   std::map<Thing, int> seen;
   int bunches = 0, ground = 0, upright = 0;
   for (const Pose& pose : {in_aisle(), in_aisle(0.3, 0.1, -1.2), in_aisle(4.6, 0.8, 3.0, 0.2)}) {
@@ -218,7 +218,7 @@ TEST_F(TruthWorldTest, UnevenGroundIsWhereTheTerrainSays) {
   world.terrain.slope_percent = 3;
   world.place();
   // The finest level of the ground reaches 4 m for 750 px, so 4.2 m here; coarser ones cut bumps.
-  Renderer renderer(grow(world), {.lod_scale = 3});
+  GlRenderer renderer(grow(world), {.lod_scale = 3});
   const Terrain terrain(world);
   int compared = 0;
   const TruthView v = view(renderer, in_aisle(-0.3, 0, 0.1, 0.3));
@@ -243,7 +243,7 @@ TEST_F(TruthWorldTest, AskingForTheTruthChangesNoByteOfTheImage) {
       scene.wind.speed = 4;
       scene.light.haze = 0.05f;
     }
-    Renderer renderer(scene, {});
+    GlRenderer renderer(scene, {});
     const RenderedImage plain = renderer.render(camera_, in_aisle(), {.labels = true, .time = 2});
     const RenderedImage full = renderer.render(camera_, in_aisle(), truth_request(2, 2.1));
     EXPECT_EQ(different_values(plain.rgb, full.rgb), 0);
@@ -259,7 +259,7 @@ TEST_F(TruthWorldTest, WindMovesLeavesAndMotionSaysWhereTo) {
   windy.wind.speed = 4;
   // Without shadows, in which moving leaves would change their brightness.
   const RendererConfig config{.shadow_map_size = 0};
-  Renderer calm(still, config), renderer(windy, config);
+  GlRenderer calm(still, config), renderer(windy, config);
   const Pose pose = in_aisle(0.3, 0, 0.6, -0.25);
   EXPECT_EQ(different_values(calm.render(camera_, pose, {.time = kTime}).rgb,
                              calm.render(camera_, pose, {}).rgb),

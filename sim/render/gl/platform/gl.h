@@ -4,8 +4,6 @@
 
 #include <GL/glcorearb.h>
 
-#include "sim/render/gl/platform/gl_context.h"
-
 namespace vinebench::sim {
 
 // epoxy and its like resolve through GLX or EGL and do not see OSMesa, so the renderer loads the
@@ -83,14 +81,12 @@ namespace vinebench::sim {
   X(CLEARBUFFERFV, ClearBufferfv)                                                             \
   X(GETERROR, GetError)
 
-/// The GL entry points in use: gl.Clear(...) is glClear(...).
+/// The GL entry points in use: gl.Clear(...) is glClear(...). They belong to one context, which
+/// must be current in the thread that calls them.
 struct GlFunctions {
 #define VINEBENCH_GL_MEMBER(TYPE, name) PFNGL##TYPE##PROC name = nullptr;
   VINEBENCH_GL_FUNCTIONS(VINEBENCH_GL_MEMBER)
 #undef VINEBENCH_GL_MEMBER
 };
-
-/// The functions of the context that is current in this thread.
-extern thread_local GlFunctions gl;
 
 }  // namespace vinebench::sim

@@ -2,16 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/render/gl/platform/gl_context.h"
 
-#include <cstdlib>
-#include <map>
-#include <string_view>
-
 #include "core/util/error.h"
-#include "sim/render/gl/platform/gl.h"
 
 namespace vinebench::sim {
-
-thread_local GlFunctions gl;
 
 namespace {
 
@@ -29,20 +22,7 @@ GlFunctions load_functions(const GlContext& context) {
   return loaded;
 }
 
-GlBackend chosen(GlBackend backend) {
-  const char* wanted = std::getenv("VINEBENCH_GL");
-  if (backend != GlBackend::kAuto || wanted == nullptr || *wanted == '\0') return backend;
-  if (std::string_view(wanted) == "osmesa") return GlBackend::kOsmesa;
-  if (std::string_view(wanted) == "egl") return GlBackend::kEgl;
-  fail("VINEBENCH_GL={}: expected osmesa or egl", wanted);
-}
-
 }  // namespace
-
-CurrentContext::CurrentContext(GlContext& context) : context_(context) {
-  context_.make_current();
-  gl = context_.functions();
-}
 
 const GlFunctions& GlContext::functions() {
   if (!functions_) functions_ = std::make_unique<GlFunctions>(load_functions(*this));
@@ -53,7 +33,7 @@ GlContext::GlContext() = default;
 GlContext::~GlContext() = default;
 
 std::unique_ptr<GlContext> make_gl_context(GlBackend backend) {
-  switch (chosen(backend)) {
+  switch (backend) {
     case GlBackend::kOsmesa:
       return make_osmesa_context();
     case GlBackend::kEgl:
@@ -63,8 +43,8 @@ std::unique_ptr<GlContext> make_gl_context(GlBackend backend) {
   }
 }
 
-std::string gl_version() {
-  const std::unique_ptr<GlContext> context = make_gl_context();
+std::string gl_version(GlBackend backend) {
+  const std::unique_ptr<GlContext> context = make_gl_context(backend);
   const CurrentContext current(*context);
   PFNGLGETSTRINGPROC get_string = nullptr;
   load(*context, "glGetString", get_string);

@@ -5,11 +5,10 @@
 #include <memory>
 #include <string>
 
-#include "sim/render/renderer.h"
+#include "sim/render/gl/platform/gl.h"
+#include "sim/render/gl/platform/gl_backend.h"
 
 namespace vinebench::sim {
-
-struct GlFunctions;
 
 /// The seam to the platform: an off-screen GL 4.2 core context. Current in one thread at a time.
 class GlContext {
@@ -25,7 +24,7 @@ class GlContext {
   /// The entry point of that name, null when there is none.
   virtual Function function(const char* name) const = 0;
   /// All that sim/render/gl/platform/gl.h names, loaded at the first call, when the context must be
-  /// current. Throws Error that names what this OpenGL has not.
+  /// current; valid as long as the context. Throws Error that names what this OpenGL has not.
   const GlFunctions& functions();
 
  private:
@@ -48,15 +47,16 @@ std::unique_ptr<GlContext> make_egl_context();
 std::unique_ptr<GlContext> make_gl_context(GlBackend backend = GlBackend::kAuto);
 
 /// What OpenGL says of itself: "4.5 (Core Profile) Mesa 22.3.6".
-std::string gl_version();
+std::string gl_version(GlBackend backend = GlBackend::kAuto);
 
-/// Makes a context current for a scope, and its functions those of sim/render/gl/platform/gl.h.
+/// Makes a context current for a scope.
 class CurrentContext {
  public:
-  explicit CurrentContext(GlContext& context);
+  explicit CurrentContext(GlContext& context) : context_(context) { context_.make_current(); }
   ~CurrentContext() { context_.release(); }
   CurrentContext(const CurrentContext&) = delete;
   CurrentContext& operator=(const CurrentContext&) = delete;
+  const GlFunctions& gl() const { return context_.functions(); }
 
  private:
   GlContext& context_;

@@ -15,7 +15,8 @@ GLuint generate(GenerateNames generator) {
   return name;
 }
 
-GLuint compile(GLenum kind, const std::string& name, const std::string& source) {
+GLuint compile(const GlFunctions& gl, GLenum kind, const std::string& name,
+               const std::string& source) {
   const GLuint shader = gl.CreateShader(kind);
   const char* text = source.c_str();
   gl.ShaderSource(shader, 1, &text, nullptr);
@@ -32,7 +33,7 @@ GLuint compile(GLenum kind, const std::string& name, const std::string& source) 
   return shader;
 }
 
-void link(GLuint program, const std::string& name) {
+void link(const GlFunctions& gl, GLuint program, const std::string& name) {
   gl.LinkProgram(program);
   GLint linked = 0;
   gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
@@ -46,44 +47,45 @@ void link(GLuint program, const std::string& name) {
 
 }  // namespace
 
-void destroy_buffer(GLuint name) {
+void destroy_buffer(const GlFunctions& gl, GLuint name) {
   gl.DeleteBuffers(1, &name);
 }
-void destroy_texture(GLuint name) {
+void destroy_texture(const GlFunctions& gl, GLuint name) {
   gl.DeleteTextures(1, &name);
 }
-void destroy_vertex_array(GLuint name) {
+void destroy_vertex_array(const GlFunctions& gl, GLuint name) {
   gl.DeleteVertexArrays(1, &name);
 }
-void destroy_framebuffer(GLuint name) {
+void destroy_framebuffer(const GlFunctions& gl, GLuint name) {
   gl.DeleteFramebuffers(1, &name);
 }
-void destroy_renderbuffer(GLuint name) {
+void destroy_renderbuffer(const GlFunctions& gl, GLuint name) {
   gl.DeleteRenderbuffers(1, &name);
 }
-void destroy_program(GLuint name) {
+void destroy_program(const GlFunctions& gl, GLuint name) {
   gl.DeleteProgram(name);
 }
 
-void destroy_sampler(GLuint name) {
+void destroy_sampler(const GlFunctions& gl, GLuint name) {
   gl.DeleteSamplers(1, &name);
 }
 
-GlBuffer make_buffer(GLenum target, const void* data, std::size_t bytes) {
-  GlBuffer buffer(generate(gl.GenBuffers));
+GlBuffer make_buffer(const GlFunctions& gl, GLenum target, const void* data, std::size_t bytes) {
+  GlBuffer buffer(gl, generate(gl.GenBuffers));
   gl.BindBuffer(target, buffer.get());
   gl.BufferData(target, static_cast<GLsizeiptr>(bytes), data, GL_STATIC_DRAW);
   return buffer;
 }
 
-GlVertexArray make_vertex_array() {
-  GlVertexArray array(generate(gl.GenVertexArrays));
+GlVertexArray make_vertex_array(const GlFunctions& gl) {
+  GlVertexArray array(gl, generate(gl.GenVertexArrays));
   gl.BindVertexArray(array.get());
   return array;
 }
 
-GlTexture make_texture(const std::vector<cv::Mat>& levels, bool repeat, bool smooth) {
-  GlTexture texture(generate(gl.GenTextures));
+GlTexture make_texture(const GlFunctions& gl, const std::vector<cv::Mat>& levels, bool repeat,
+                       bool smooth) {
+  GlTexture texture(gl, generate(gl.GenTextures));
   gl.BindTexture(GL_TEXTURE_2D, texture.get());
   gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
   for (std::size_t i = 0; i < levels.size(); ++i) {
@@ -103,13 +105,13 @@ GlTexture make_texture(const std::vector<cv::Mat>& levels, bool repeat, bool smo
   return texture;
 }
 
-void bind_texture(GLint unit, const GlTexture& texture) {
+void bind_texture(const GlFunctions& gl, GLint unit, const GlTexture& texture) {
   gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
   gl.BindTexture(GL_TEXTURE_2D, texture.get());
 }
 
-GlTexture make_depth_texture(int size) {
-  GlTexture texture(generate(gl.GenTextures));
+GlTexture make_depth_texture(const GlFunctions& gl, int size) {
+  GlTexture texture(gl, generate(gl.GenTextures));
   gl.BindTexture(GL_TEXTURE_2D, texture.get());
   gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, size, size, 0, GL_DEPTH_COMPONENT,
                 GL_FLOAT, nullptr);
@@ -124,8 +126,8 @@ GlTexture make_depth_texture(int size) {
   return texture;
 }
 
-GlSampler make_coarse_depth_sampler() {
-  GlSampler sampler(generate(gl.GenSamplers));
+GlSampler make_coarse_depth_sampler(const GlFunctions& gl) {
+  GlSampler sampler(gl, generate(gl.GenSamplers));
   gl.SamplerParameteri(sampler.get(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   gl.SamplerParameteri(sampler.get(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   gl.SamplerParameteri(sampler.get(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -135,58 +137,60 @@ GlSampler make_coarse_depth_sampler() {
   return sampler;
 }
 
-void vertex_attribute(GLuint index, int components, std::size_t stride, std::size_t offset,
-                      int divisor) {
+void vertex_attribute(const GlFunctions& gl, GLuint index, int components, std::size_t stride,
+                      std::size_t offset, int divisor) {
   gl.EnableVertexAttribArray(index);
   gl.VertexAttribPointer(index, components, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
                          reinterpret_cast<const void*>(offset));
   gl.VertexAttribDivisor(index, static_cast<GLuint>(divisor));
 }
 
-void byte_attribute(GLuint index, std::size_t stride, std::size_t offset) {
+void byte_attribute(const GlFunctions& gl, GLuint index, std::size_t stride, std::size_t offset) {
   gl.EnableVertexAttribArray(index);
   gl.VertexAttribPointer(index, 1, GL_UNSIGNED_BYTE, GL_FALSE, static_cast<GLsizei>(stride),
                          reinterpret_cast<const void*>(offset));
 }
 
-void integer_attribute(GLuint index, std::size_t stride, std::size_t offset, int divisor) {
+void integer_attribute(const GlFunctions& gl, GLuint index, std::size_t stride, std::size_t offset,
+                       int divisor) {
   gl.EnableVertexAttribArray(index);
   gl.VertexAttribIPointer(index, 1, GL_UNSIGNED_INT, static_cast<GLsizei>(stride),
                           reinterpret_cast<const void*>(offset));
   gl.VertexAttribDivisor(index, static_cast<GLuint>(divisor));
 }
 
-GlProgram::GlProgram(const std::string& name, const std::string& vertex,
+GlProgram::GlProgram(const GlFunctions& gl, const std::string& name, const std::string& vertex,
                      const std::string& fragment)
-    : program_(gl.CreateProgram()) {
+    : gl_(&gl), program_(gl, gl.CreateProgram()) {
   for (const auto& [kind, source] :
        {std::pair(GL_VERTEX_SHADER, vertex), std::pair(GL_FRAGMENT_SHADER, fragment)}) {
-    const GLuint shader = compile(static_cast<GLenum>(kind), name, source);
+    const GLuint shader = compile(gl, static_cast<GLenum>(kind), name, source);
     gl.AttachShader(program_.get(), shader);
     gl.DeleteShader(shader);
   }
-  link(program_.get(), name);
+  link(gl, program_.get(), name);
 }
 
 void GlProgram::use() const {
-  gl.UseProgram(program_.get());
+  gl_->UseProgram(program_.get());
 }
 
 GLint GlProgram::uniform(const char* name) const {
-  return gl.GetUniformLocation(program_.get(), name);
+  return gl_->GetUniformLocation(program_.get(), name);
 }
 
-GlTarget::GlTarget(int width, int height, bool truth) : width_(width), height_(height) {
+GlTarget::GlTarget(const GlFunctions& gl, int width, int height, bool truth)
+    : gl_(gl), width_(width), height_(height) {
   std::vector<GLenum> formats{GL_RGBA8};
   if (truth) formats.insert(formats.end(), {GL_RGBA8, GL_RGBA32F, GL_RGBA32F});
-  framebuffer_ = GlFramebuffer(generate(gl.GenFramebuffers));
+  framebuffer_ = GlFramebuffer(gl, generate(gl.GenFramebuffers));
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
   for (const GLenum format : formats) {
     const auto index = static_cast<GLenum>(colours_.size());
     attach(GL_COLOR_ATTACHMENT0 + index, format,
-           colours_.emplace_back(generate(gl.GenRenderbuffers)));
+           colours_.emplace_back(gl, generate(gl.GenRenderbuffers)));
   }
-  depth_ = GlRenderbuffer(generate(gl.GenRenderbuffers));
+  depth_ = GlRenderbuffer(gl, generate(gl.GenRenderbuffers));
   attach(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F, depth_);
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     fail("renderer: OpenGL gives no image of {} x {} pixels", width, height);
@@ -194,17 +198,17 @@ GlTarget::GlTarget(int width, int height, bool truth) : width_(width), height_(h
 }
 
 void GlTarget::attach(GLenum place, GLenum format, const GlRenderbuffer& buffer) const {
-  gl.BindRenderbuffer(GL_RENDERBUFFER, buffer.get());
-  gl.RenderbufferStorage(GL_RENDERBUFFER, format, width_, height_);
-  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer.get());
+  gl_.BindRenderbuffer(GL_RENDERBUFFER, buffer.get());
+  gl_.RenderbufferStorage(GL_RENDERBUFFER, format, width_, height_);
+  gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer.get());
 }
 
 void GlTarget::bind() const {
-  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
-  gl.Viewport(0, 0, width_, height_);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+  gl_.Viewport(0, 0, width_, height_);
 }
 
-void check_gl(const char* where) {
+void check_gl(const GlFunctions& gl, const char* where) {
   const GLenum error = gl.GetError();
   if (error != GL_NO_ERROR) fail("renderer: OpenGL error {:#x} in {}", error, where);
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "sim/render/gl/mip_levels.h"
+#include "sim/render/gl/scene/mip_levels.h"
 
 namespace vinebench::sim {
 namespace {
@@ -41,10 +41,11 @@ Material white_ground() {
   return material;
 }
 
-GlFramebuffer colour_framebuffer(const GlRenderbuffer& colour, const cv::Size& size) {
+GlFramebuffer colour_framebuffer(const GlFunctions& gl, const GlRenderbuffer& colour,
+                                 const cv::Size& size) {
   GLuint name = 0;
   gl.GenFramebuffers(1, &name);
-  GlFramebuffer framebuffer(name);
+  GlFramebuffer framebuffer(gl, name);
   gl.BindFramebuffer(GL_FRAMEBUFFER, name);
   gl.BindRenderbuffer(GL_RENDERBUFFER, colour.get());
   gl.RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size.width, size.height);
@@ -81,15 +82,16 @@ LightMap::LightMap(const GpuScene& scene, const ShadowMap& shadows, MeshPrograms
   map_from_world_ << scale.cast<float>(), offset.cast<float>();
   cv::Mat map(8, 8, CV_8UC4, cv::Scalar::all(255));
   if (any) map = bake(scene, shadows, programs, view, size);
-  texture_ = make_texture(mip_levels(map, false), false);
+  texture_ = make_texture(scene.gl, mip_levels(map, false), false);
 }
 
 cv::Mat LightMap::bake(const GpuScene& scene, const ShadowMap& shadows, MeshPrograms& programs,
                        const ViewBuffer& view, const cv::Size& size) const {
+  const GlFunctions& gl = scene.gl;
   GLuint name = 0;
   gl.GenRenderbuffers(1, &name);
-  const GlRenderbuffer colour(name);
-  const GlFramebuffer framebuffer = colour_framebuffer(colour, size);
+  const GlRenderbuffer colour(gl, name);
+  const GlFramebuffer framebuffer = colour_framebuffer(gl, colour, size);
   gl.Viewport(0, 0, size.width, size.height);
   const PinholeCamera camera{1, 1, 1, 1, 0, 0, {}};  // the world is its camera's frame
   ViewBlock block = make_view_block(camera, Pose{}, scene.light, scene.wind, {});
@@ -97,7 +99,7 @@ cv::Mat LightMap::bake(const GpuScene& scene, const ShadowMap& shadows, MeshProg
   block.light_map = map_from_world_;
   block.lens.y() = static_cast<float>(1 / kBrightest);
   view.set(block);
-  bind_texture(kShadowUnit, shadows.texture());
+  bind_texture(gl, kShadowUnit, shadows.texture());
   gl.ActiveTexture(GL_TEXTURE0 + kImageUnit);
   std::vector<InstanceRow> rows;
   for (const GpuInstance& instance : scene.instances) {

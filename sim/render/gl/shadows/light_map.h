@@ -5,10 +5,10 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "sim/render/gl/gpu_scene.h"
-#include "sim/render/gl/mesh_programs.h"
+#include "sim/render/gl/scene/gpu_scene.h"
+#include "sim/render/gl/scene/mesh_programs.h"
+#include "sim/render/gl/scene/view_block.h"
 #include "sim/render/gl/shadows/shadow_map.h"
-#include "sim/render/gl/view_block.h"
 
 namespace vinebench::sim {
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "sim/render/gl/frustum.h"
-#include "sim/render/gl/shaders.h"
+#include "sim/render/gl/scene/frustum.h"
+#include "sim/render/gl/scene/shaders.h"
 #include "sim/render/gl/shadows/sun_view.h"
 
 namespace vinebench::sim {
@@ -32,10 +32,11 @@ RoverShadow::RoverShadow(const GpuScene& scene, int size)
       towards_sun_(scene.light.towards_sun.cast<double>().normalized()),
       R_sun_world_(sun_from_world(towards_sun_)),
       size_(casts_ ? std::min(kMapSize, size) : 1),
-      texture_(make_depth_texture(size_)),
-      framebuffer_(make_depth_framebuffer(texture_)),
-      program_("shadow of the rover", shadow_vertex_shader(), shadow_fragment_shader(false)) {
-  gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+      texture_(make_depth_texture(scene.gl, size_)),
+      framebuffer_(make_depth_framebuffer(scene.gl, texture_)),
+      program_(scene.gl, "shadow of the rover", shadow_vertex_shader(),
+               shadow_fragment_shader(false)) {
+  scene.gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
 bool RoverShadow::cast(const GpuScene& scene, const Pose& T_world_rover,
@@ -70,6 +71,7 @@ bool RoverShadow::may_be_seen(const std::vector<Eigen::Vector3d>& corners,
 }
 
 void RoverShadow::draw(const GpuScene& scene, const Pose& T_world_rover) const {
+  const GlFunctions& gl = scene.gl;
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
   gl.Viewport(0, 0, size_, size_);
   gl.Enable(GL_DEPTH_TEST);

@@ -9,7 +9,7 @@
 
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
-#include "sim/render/gl/gpu_scene.h"
+#include "sim/render/gl/scene/gpu_scene.h"
 
 namespace vinebench::sim {
 

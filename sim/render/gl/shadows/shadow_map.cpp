@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "sim/render/gl/shaders.h"
+#include "sim/render/gl/scene/shaders.h"
 #include "sim/render/gl/shadows/sun_view.h"
 
 namespace vinebench::sim {
@@ -38,11 +38,12 @@ const GpuLevel& caster_level(const GpuModel& model, double texel) {
 }  // namespace
 
 ShadowMap::ShadowMap(const GpuScene& scene, int size)
-    : texture_(make_depth_texture(std::max(1, size))) {
+    : texture_(make_depth_texture(scene.gl, std::max(1, size))) {
+  const GlFunctions& gl = scene.gl;
   const Eigen::Matrix3d R_sun_world = sun_from_world(scene.light.towards_sun.cast<double>());
   const Eigen::AlignedBox3d box = casters(scene, R_sun_world);
   const bool empty = size == 0 || box.isEmpty();
-  const GlFramebuffer framebuffer = make_depth_framebuffer(texture_);
+  const GlFramebuffer framebuffer = make_depth_framebuffer(gl, texture_);
   gl.Viewport(0, 0, std::max(1, size), std::max(1, size));
   gl.DepthMask(GL_TRUE);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
@@ -56,8 +57,9 @@ ShadowMap::ShadowMap(const GpuScene& scene, int size)
 }
 
 void ShadowMap::draw(const GpuScene& scene, const Eigen::Matrix4d& light) {
-  const GlProgram opaque("shadow", shadow_vertex_shader(), shadow_fragment_shader(false));
-  const GlProgram cutout("shadow of a cut-out", shadow_vertex_shader(),
+  const GlFunctions& gl = scene.gl;
+  const GlProgram opaque(gl, "shadow", shadow_vertex_shader(), shadow_fragment_shader(false));
+  const GlProgram cutout(gl, "shadow of a cut-out", shadow_vertex_shader(),
                          shadow_fragment_shader(true));
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(GL_LEQUAL);

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "sim/render/gl/gpu_scene.h"
+#include "sim/render/gl/scene/gpu_scene.h"
 
 namespace vinebench::sim {
 

@@ -36,10 +36,10 @@ Eigen::Matrix4d map_from_light() {
   return m;
 }
 
-GlFramebuffer make_depth_framebuffer(const GlTexture& texture) {
+GlFramebuffer make_depth_framebuffer(const GlFunctions& gl, const GlTexture& texture) {
   GLuint name = 0;
   gl.GenFramebuffers(1, &name);
-  GlFramebuffer framebuffer(name);
+  GlFramebuffer framebuffer(gl, name);
   gl.BindFramebuffer(GL_FRAMEBUFFER, name);
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture.get(), 0);
   gl.DrawBuffer(GL_NONE);

@@ -21,6 +21,6 @@ Eigen::Matrix4d light_from_world(const Eigen::Matrix3d& R_sun_world,
 Eigen::Matrix4d map_from_light();
 
 /// A target that draws into a depth texture alone; left bound.
-GlFramebuffer make_depth_framebuffer(const GlTexture& texture);
+GlFramebuffer make_depth_framebuffer(const GlFunctions& gl, const GlTexture& texture);
 
 }  // namespace vinebench::sim

@@ -20,7 +20,7 @@ class VisibleWiresTest : public testing::Test {
     scene.wires.push_back(wire);
     const std::unique_ptr<GlContext> context = make_gl_context();
     const CurrentContext current(*context);
-    const GpuScene gpu(scene);
+    const GpuScene gpu(current.gl(), scene);
     int count = 0;
     const Pose T_world_cam = Rig::mount({0, 0, 0.5}, {0, 0, 0});
     for (const VisibleWires& run : visible_wires(gpu, test::small_camera(), T_world_cam)) {

@@ -37,7 +37,7 @@ class MujocoRendererTest : public testing::Test {
     add_instance(scene_, add_model(scene_, panel(material, 0.4, 0.2)), {0.1, 0, 0.3});
   }
   cv::Mat render(const MujocoRendererConfig& config = {}) {
-    return MujocoRenderer(scene_, config).render(small_camera(), T_world_cam_);
+    return MujocoRenderer(scene_, config).render(small_camera(), T_world_cam_, {}).rgb;
   }
   Eigen::Vector2d pixel(double x, double z) const {
     return small_camera().project(T_world_cam_.inverse() * Eigen::Vector3d(x, 0, z));

@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/util/error.h"
-#include "sim/sensors/camera/light.h"
+#include "sim/render/image_encoding.h"
 #include "sim/sensors/sensors.h"
 #include "tests/support/chessboard.h"
 #include "tests/support/test_scene.h"
@@ -18,6 +18,8 @@ namespace vinebench::sim {
 namespace {
 
 using namespace test;
+
+const Light kDark{.sun = Eigen::Vector3f::Zero()};  // no sun, no glare
 
 int different_values(const cv::Mat& a, const cv::Mat& b) {
   return cv::countNonZero(cv::Mat(a != b).reshape(1));
@@ -55,15 +57,15 @@ class EdgeTest : public testing::Test {
   }
   RenderedImage capture(const CameraSensorConfig& config, double speed = kSpeed,
                         Stamp instant = 0) {
-    CameraSensor sensor(config, camera(), 0, 1);
-    CameraSensor::Shot shot;
+    CameraSensor sensor(config, camera(), 0, 1, kDark);
+    Shot shot;
     shot.instant = instant;
     shot.exposure = {config.exposure.time, config.exposure.gain_db};
     shot.request.labels = true;
     shot.request.depth = true;
     return sensor.capture(
         shot, [&](Stamp stamp) { return pose_at(speed, stamp); },
-        [&](const PinholeCamera& view, const Pose& pose, const Renderer::Request& request) {
+        [&](const PinholeCamera& view, const Pose& pose, const RenderRequest& request) {
           return renderer_.render(view, pose, request);
         });
   }
@@ -85,7 +87,7 @@ class EdgeTest : public testing::Test {
     return {mean, second / sum - mean * mean};
   }
 
-  Renderer renderer_;
+  GlRenderer renderer_;
 };
 
 TEST_F(EdgeTest, EverythingOffIsTheRenderedImage) {
@@ -101,11 +103,11 @@ TEST_F(EdgeTest, TheRoverIsWhereTheCameraIsInEachSubframeAndBand) {
   config.blur_subframes = 3;
   config.readout_time = 0.02;
   config.readout_bands = 4;
-  CameraSensor sensor(config, camera(), 0, 1);
+  CameraSensor sensor(config, camera(), 0, 1, kDark);
   int drawn = 0;
   sensor.capture(
       {}, [&](Stamp stamp) { return pose_at(kSpeed, stamp); },
-      [&](const PinholeCamera& view, const Pose& pose, const Renderer::Request& request) {
+      [&](const PinholeCamera& view, const Pose& pose, const RenderRequest& request) {
         ++drawn;
         EXPECT_TRUE(request.T_world_rover.has_value());
         // The body's axes are the camera's.
@@ -183,14 +185,14 @@ class WallTest : public testing::Test {
   }
   cv::Mat capture(const CameraSensorConfig& config, double seconds = 0, const char* name = "left",
                   int index = 0) {
-    CameraSensor sensor(config, camera(name), index, 1);
-    CameraSensor::Shot shot;
+    CameraSensor sensor(config, camera(name), index, 1, kDark);
+    Shot shot;
     shot.instant = from_seconds(seconds);
     shot.exposure = {config.exposure.time, config.exposure.gain_db};
     return sensor
         .capture(
             shot, [](Stamp) { return Pose{}; },
-            [&](const PinholeCamera& view, const Pose&, const Renderer::Request& request) {
+            [&](const PinholeCamera& view, const Pose&, const RenderRequest& request) {
               exposure_ = request.exposure;
               RenderedImage image;
               image.rgb = cv::Mat(view.height, view.width, CV_8UC3, wall_);
@@ -329,13 +331,13 @@ class LensTest : public testing::Test {
  protected:
   RenderedImage capture(const PinholeCamera& model, const Pose& T_world_cam,
                         const CameraSensorConfig& config = off()) {
-    CameraSensor sensor(config, {"camera", model, {}}, 0, 1);
-    CameraSensor::Shot shot;
+    CameraSensor sensor(config, {"camera", model, {}}, 0, 1, kDark);
+    Shot shot;
     shot.exposure = {config.exposure.time, 0};
     shot.request.labels = true;
     return sensor.capture(
         shot, [&](Stamp) { return T_world_cam; },
-        [&](const PinholeCamera& view, const Pose& pose, const Renderer::Request& request) {
+        [&](const PinholeCamera& view, const Pose& pose, const RenderRequest& request) {
           return renderer_.render(view, pose, request);
         });
   }
@@ -345,7 +347,7 @@ class LensTest : public testing::Test {
     return camera;
   }
 
-  Renderer renderer_{Chessboard::scene(), {}};
+  GlRenderer renderer_{Chessboard::scene(), {}};
 };
 
 /// With squares of 150 px, more than two to a texel: edges so soft that the pixel grid has no

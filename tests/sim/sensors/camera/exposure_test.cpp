@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/sensors/camera/light.h"
+#include "sim/render/image_encoding.h"
 
 namespace vinebench::sim {
 namespace {

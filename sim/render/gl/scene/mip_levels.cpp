@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/render/gl/scene/mip_levels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace vinebench::sim {
+namespace {
+
+constexpr double kGamma = 2.2;  // the same power as the shaders'
+
+/// Linear light, weighted by alpha so that a cut-out's background does not bleed into its edge.
+cv::Mat to_light(const cv::Mat& rgba, bool cutout) {
+  cv::Mat light(rgba.size(), CV_32FC4);
+  for (int y = 0; y < rgba.rows; ++y) {
+    for (int x = 0; x < rgba.cols; ++x) {
+      const cv::Vec4b& from = rgba.at<cv::Vec4b>(y, x);
+      const float alpha = from[3] / 255.0f;
+      const float weight = cutout ? std::max(alpha, 1e-3f) : 1.0f;
+      cv::Vec4f& to = light.at<cv::Vec4f>(y, x);
+      for (int c = 0; c < 3; ++c) {
+        to[c] = weight * static_cast<float>(std::pow(from[c] / 255.0, kGamma));
+      }
+      to[3] = cutout ? weight : alpha;
+    }
+  }
+  return light;
+}
+
+cv::Mat to_bytes(const cv::Mat& light, bool cutout, float alpha_scale) {
+  cv::Mat rgba(light.size(), CV_8UC4);
+  for (int y = 0; y < light.rows; ++y) {
+    for (int x = 0; x < light.cols; ++x) {
+      const cv::Vec4f& from = light.at<cv::Vec4f>(y, x);
+      cv::Vec4b& to = rgba.at<cv::Vec4b>(y, x);
+      const float weight = cutout ? from[3] : 1.0f;
+      for (int c = 0; c < 3; ++c) {
+        to[c] = cv::saturate_cast<std::uint8_t>(255.0 * std::pow(from[c] / weight, 1 / kGamma));
+      }
+      to[3] = cv::saturate_cast<std::uint8_t>(255.0f * alpha_scale * from[3]);
+    }
+  }
+  return rgba;
+}
+
+/// The factor that brings the share of alphas of at least one half to `coverage`.
+float coverage_scale(const cv::Mat& light, double coverage) {
+  std::vector<float> alphas;
+  alphas.reserve(light.total());
+  for (auto it = light.begin<cv::Vec4f>(); it != light.end<cv::Vec4f>(); ++it) {
+    alphas.push_back((*it)[3]);
+  }
+  const auto kept = static_cast<std::size_t>(std::lround(coverage * alphas.size()));
+  if (kept == 0) return 1.0f;
+  std::nth_element(alphas.begin(), alphas.begin() + (kept - 1), alphas.end(), std::greater<>());
+  return std::clamp(0.505f / std::max(alphas[kept - 1], 1e-3f), 0.25f, 4.0f);
+}
+
+}  // namespace
+
+double alpha_coverage(const cv::Mat& rgba) {
+  const auto passes = [](const cv::Vec4b& p) { return p[3] >= 128; };
+  return static_cast<double>(
+             std::count_if(rgba.begin<cv::Vec4b>(), rgba.end<cv::Vec4b>(), passes)) /
+         static_cast<double>(rgba.total());
+}
+
+std::vector<cv::Mat> mip_levels(const cv::Mat& rgba, bool cutout) {
+  std::vector<cv::Mat> levels{rgba.clone()};
+  const double coverage = cutout ? alpha_coverage(rgba) : 0;
+  cv::Mat light = to_light(rgba, cutout);
+  while (light.cols > 1 || light.rows > 1) {
+    const cv::Size half(std::max(1, light.cols / 2), std::max(1, light.rows / 2));
+    cv::resize(light, light, half, 0, 0, cv::INTER_AREA);
+    levels.push_back(to_bytes(light, cutout, cutout ? coverage_scale(light, coverage) : 1.0f));
+  }
+  return levels;
+}
+
+}  // namespace vinebench::sim

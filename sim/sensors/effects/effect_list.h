@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "core/config/config_field.h"
+#include "sim/sensors/effects/bayer.h"
+#include "sim/sensors/effects/effect_chain.h"
+#include "sim/sensors/effects/fixed_pattern.h"
+#include "sim/sensors/effects/lens_dirt.h"
+#include "sim/sensors/effects/lens_leaf.h"
+#include "sim/sensors/effects/photon_transfer.h"
+#include "sim/sensors/effects/vignette.h"
+
+namespace vinebench::sim {
+
+/// Settings of the effects. Only the noise is on by default.
+struct EffectsConfig {
+  std::vector<LensDirtConfig> dirt;
+  std::vector<LensLeafConfig> leaves;
+  VignettingConfig vignetting;
+  FixedPatternConfig fixed_pattern;
+  BayerPattern bayer = BayerPattern::kNone;
+  PhotonTransferConfig noise;
+  double gamma = 2.2;  ///< code / 255 = signal^(1 / gamma); 1 is linear
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("dirt", dirt);
+    archive("leaves", leaves);
+    archive("vignetting", vignetting);
+    archive("fixed_pattern", fixed_pattern);
+    archive("bayer", bayer);
+    archive("noise", noise);
+    archive("gamma", gamma, Range::between(0.2, 5));
+  }
+};
+
+/// Every effect of one camera, in the order in which light meets them.
+EffectChain make_effects(const EffectsConfig& config, const EffectInputs& inputs);
+
+}  // namespace vinebench::sim
