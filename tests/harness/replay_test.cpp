@@ -99,8 +99,9 @@ TEST_F(ReplayTest, FaultsAreCountedAndLogged) {
   const RunOutcome outcome = replay(folder_ / "out");
   EXPECT_EQ(outcome.metrics["input_faults"], Json({{"picture_unreadable", 1}}));
   const std::string events = read_file(folder_ / "out/events.jsonl");
-  EXPECT_THAT(events, HasSubstr("\"frame\":5,\"event\":\"image_unreadable\",\"sensor\":\"right\""));
-  EXPECT_THAT(format_replay(outcome.metrics), HasSubstr("image_unreadable (1 times)"));
+  EXPECT_THAT(events,
+              HasSubstr("\"frame\":5,\"event\":\"picture_unreadable\",\"sensor\":\"right\""));
+  EXPECT_THAT(format_replay(outcome.metrics), HasSubstr("picture_unreadable (1 times)"));
 }
 
 TEST_F(ReplayTest, SettingsComeFromFileAndOverrides) {
