@@ -30,6 +30,7 @@ class Simulation : public SimulatedSource {
       : config_(config),
         pool_(pool),
         plan_(plan),
+        occluders_(occluder_classes(config.world)),
         nominal_rig_(checked_rig(config)),
         rig_(sim::true_rig(nominal_rig_, config.sensors.calibration, seed)),
         rover_(config.rover, config.world, config.route, seed),
@@ -129,7 +130,7 @@ class Simulation : public SimulatedSource {
     const std::size_t cameras = rig_.cameras.size();
     std::vector<double> spent(cameras);
     sample.frame.images.assign(cameras, {});
-    sample.truth.box_share.assign(cameras, 0);
+    sample.truth.occlusion.assign(cameras, {});
     const bool blurs = config_.sensors.camera.blur_subframes > 1;
     sample.truth.blur_time.assign(cameras, 0);
     for (std::size_t i = 0; blurs && i < cameras; ++i) {
@@ -168,7 +169,7 @@ class Simulation : public SimulatedSource {
     shot.frame = index_;
     shot.instant = timing_.instant(index_, camera);
     shot.exposure = exposure_.of(camera);
-    const bool wants_labels = reads_tags || !config_.world.boxes.empty();
+    const bool wants_labels = reads_tags || !occluders_.empty();
     if (plan_.has_camera(camera)) ask_for_truth(shot.request);
     shot.request.labels |= wants_labels;
     RenderedImage image = cameras_[camera].capture(
@@ -177,7 +178,7 @@ class Simulation : public SimulatedSource {
           return renderer.render(view, T_world_cam, request);
         });
     if (wants_labels) {
-      sample.truth.box_share[camera] = label_share(image.labels, Label::kBox);
+      sample.truth.occlusion[camera] = occlusion_in(image.labels, occluders_);
     }
     if (reads_tags) visible = tags_seen(camera, shot.instant, image.labels);
     sample.frame.images[camera] = std::move(image.rgb);
@@ -224,6 +225,7 @@ class Simulation : public SimulatedSource {
   WorkerPool& pool_;
   CapturePlan plan_;
   SceneIndex index_of_scene_;
+  std::vector<OccluderClass> occluders_;  ///< classes of the world's
   Rig nominal_rig_;
   Rig rig_;  ///< the true rig
   DrivenRover rover_;

@@ -43,8 +43,8 @@ struct SimulationConfig {
 /// Drives the rover along its route and takes an image with every camera at each frame's instant.
 /// rig() is the nominal rig; the images are taken with the true one, which differs by the
 /// calibration error. Stamps may have errors; the truth is that of the frame's instant. A dropped
-/// image is empty: its box share is 0 and no tag is visible. With `steering: estimate` the rover is
-/// steered by the estimates: the first pose is aligned with the rover's true pose, and without a
+/// image is empty: nothing occludes it and no tag is visible. With `steering: estimate` the rover
+/// is steered by the estimates: the first pose is aligned with the rover's true pose, and without a
 /// pose the last command continues.
 ///
 /// A frame that is not in the plan is simulated but not delivered; its readings are part of the

@@ -7,8 +7,8 @@
 namespace vinebench {
 
 std::string name_of(Thing thing) {
-  static const std::array<const char*, 9> kNames{"none", "ground", "vine",  "post", "tag",
-                                                 "box",  "person", "rover", "cover"};
+  static const std::array<const char*, 10> kNames{"none", "ground", "vine",  "post",  "tag",
+                                                  "box",  "person", "rover", "cover", "occluder"};
   return kNames.at(static_cast<std::size_t>(thing));
 }
 

@@ -21,7 +21,11 @@ enum class Label : std::uint8_t {
   kTag,
   kBox,
   kRover,
-  kPerson
+  kPerson,
+  kCrate,
+  kTarpaulin,
+  kLooseLeaf,  ///< a leaf or shoot that was put before the cameras, not of a plant
+  kOccluder    ///< other things that were put before the cameras
 };
 
 /// The kind of an instance.
@@ -31,10 +35,11 @@ enum class Thing {
   kVine,
   kPost,  ///< with struts and anchors
   kTag,
-  kBox,
+  kBox,  ///< cartons and crates
   kPerson,
   kRover,
-  kCover  ///< on the ground: weeds, stones, fallen leaves, hedges, hills
+  kCover,    ///< on the ground: weeds, stones, fallen leaves, hedges, hills
+  kOccluder  ///< other things that were put before the cameras
 };
 
 /// "none", "ground", "vine" and so on.

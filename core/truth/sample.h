@@ -7,6 +7,7 @@
 
 #include "core/frame.h"
 #include "core/geometry/pose.h"
+#include "core/truth/occlusion.h"
 #include "core/truth/truth_images.h"
 
 namespace vinebench {
@@ -15,8 +16,8 @@ namespace vinebench {
 struct Truth {
   Pose T_world_body;
   bool known = true;  ///< false if a recording has no ground truth; the pose is then undefined
-  std::vector<double>
-      box_share;  ///< of each camera, the share of pixels that show a carton, 0 to 1
+  /// Of each camera's image, the shares covered by occluders; empty if unknown.
+  std::vector<Occlusion> occlusion{};
   /// Indices into the list of the world's tags (Site::tags) that are completely in the image of a
   /// tag camera, unoccluded at their centre and corners.
   std::vector<int> visible_tags;

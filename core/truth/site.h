@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/geometry/pose.h"
-#include "core/truth/labels.h"
+#include "core/truth/occlusion.h"
 
 namespace vinebench {
 
@@ -27,9 +27,9 @@ struct Site {
     Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< m
     Eigen::Vector2d end = Eigen::Vector2d::Zero();    ///< m
   };
-  /// An object that may occlude a camera.
+  /// An occluder.
   struct Object {
-    Label label = Label::kBox;
+    OccluderClass kind = OccluderClass::kCarton;
     Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< m
     Eigen::Vector2d size = Eigen::Vector2d::Zero();    ///< m, along its own x and y
     double yaw_deg = 0;

@@ -115,7 +115,7 @@ std::vector<Pose> aisle_route(const sim::WorldConfig& world, int count) {
   const Eigen::Vector2d along = (first.end + last.end) / 2 - start;
   if (middle == 0) start += kBeside * Eigen::Vector2d(direction.y(), -direction.x());
   const double heading = std::atan2(along.y(), along.x());
-  const sim::Terrain terrain(placed);
+  const sim::Terrain terrain = sim::terrain_of(placed);
   std::vector<Pose> route;
   for (int i = 0; i < count; ++i) {
     const double yaw = heading + (i % 2 == 1 ? std::numbers::pi : 0);

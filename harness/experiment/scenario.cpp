@@ -3,6 +3,7 @@
 #include "harness/experiment/scenario.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/config/yaml.h"
 #include "core/config/yaml_writer.h"
@@ -26,10 +27,13 @@ slam::MecanumWheels wheels_of(const sim::RoverConfig& rover) {
   return {rover.wheel_radius, rover.half_track, rover.half_wheelbase};
 }
 
-template <class T>
-void move_into(std::vector<T>& from, std::vector<T>& to) {
-  to.insert(to.end(), from.begin(), from.end());
-  from.clear();
+/// The scenario's occluders and tags beside its world's own.
+void furnish_world(ScenarioConfig& scenario) {
+  sim::WorldConfig& world = scenario.simulation.world;
+  sim::append_occluders(world.occluders, std::exchange(scenario.occluders, {}));
+  world.tags.insert(world.tags.end(), scenario.tags.begin(), scenario.tags.end());
+  scenario.tags.clear();
+  world.place();
 }
 
 }  // namespace
@@ -60,9 +64,7 @@ ScenarioConfig load_scenario(const std::filesystem::path& file,
           file.string());
     }
   }
-  move_into(scenario.boxes, scenario.simulation.world.boxes);
-  move_into(scenario.tags, scenario.simulation.world.tags);
-  scenario.simulation.world.place();
+  furnish_world(scenario);
   std::optional<slam::MecanumWheels>& wheels = scenario.slam.dead_reckoning.wheels;
   if (!wheels) wheels = wheels_of(scenario.simulation.rover);
   return scenario;

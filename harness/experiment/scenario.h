@@ -25,9 +25,9 @@ struct ScenarioConfig {
   std::string name;
   std::string description;
   std::int64_t seed = 1;
-  sim::SimulationConfig simulation;          ///< its fields are at the top level of the file
-  std::vector<sim::WorldConfig::Box> boxes;  ///< added to those of the world
-  std::vector<sim::WorldConfig::Tag> tags;   ///< likewise
+  sim::SimulationConfig simulation;         ///< its fields are at the top level of the file
+  std::vector<sim::Occluder> occluders;     ///< added to those of the world
+  std::vector<sim::WorldConfig::Tag> tags;  ///< likewise
   SlamChoice slam;
   Expectations expectations;
   template <class Archive>
@@ -36,7 +36,7 @@ struct ScenarioConfig {
     archive("description", description);
     archive("seed", seed, Range::non_negative());
     simulation.serialize(archive);
-    archive("boxes", boxes);
+    sim::serialize_occluders(archive, occluders, false);
     archive("tags", tags);
     archive("slam", slam);
     archive("expectations", expectations);
@@ -47,9 +47,9 @@ struct ScenarioConfig {
 
 /// Reads a scenario. `base` names another one from which missing keys are inherited. `world` and
 /// `rover` may be maps or names of files beside the scenario; overrides are applied after those are
-/// included, so that "world.sun.elevation_deg" works. Boxes and tags of the scenario are moved into
-/// its world. The rig is read too, so that its errors are reported first. Throws Error that names
-/// file, line and key.
+/// included, so that "world.sun.elevation_deg" works. Occluders and tags of the scenario are
+/// moved into its world. The rig is read too, so that its errors are reported first. Throws Error
+/// that names file, line and key.
 ScenarioConfig load_scenario(const std::filesystem::path& file,
                              const std::vector<Override>& overrides = {});
 

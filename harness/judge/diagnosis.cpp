@@ -47,7 +47,11 @@ class CauseFinder {
       if (!one.cameras.empty()) found.push_back(one);
     };
     add(Cause::kDroppedImages, [&](std::size_t i, std::size_t c) { return is_dropped(i, c); });
-    add(Cause::kOcclusion, [&](std::size_t i, std::size_t c) { return boxes(i, c) >= kOccluded; });
+    add(Cause::kOcclusion,
+        [&](std::size_t i, std::size_t c) { return occluded(i, c).total() >= kOccluded; });
+    if (!found.empty() && found.back().cause == Cause::kOcclusion) {
+      found.back().occluder = largest_occluder(found.back());
+    }
     add(Cause::kMotionBlur, [&](std::size_t i, std::size_t c) { return is_blurred(i, c); });
     add(Cause::kLittleTexture, [&](std::size_t i, std::size_t c) { return lacks_texture(i, c); });
     add_share(found, segment, Cause::kWrongTag, wrong_tags(segment));
@@ -109,9 +113,21 @@ class CauseFinder {
     return camera < tick(i).delivered.size() && !tick(i).delivered[camera];
   }
 
-  double boxes(std::size_t i, std::size_t camera) const {
-    const std::vector<double>& shares = tick(i).truth.box_share;
-    return camera < shares.size() ? shares[camera] : 0;
+  Occlusion occluded(std::size_t i, std::size_t camera) const {
+    const std::vector<Occlusion>& cameras = tick(i).truth.occlusion;
+    return camera < cameras.size() ? cameras[camera] : Occlusion{};
+  }
+
+  /// Of the cameras that the segment names, over all its ticks.
+  OccluderClass largest_occluder(const DegradedSegment& segment) const {
+    Occlusion sum;
+    for (std::size_t i = segment.first; i <= segment.last; ++i) {
+      for (const std::size_t camera : segment.cameras) {
+        const Occlusion seen = occluded(i, camera);
+        for (std::size_t c = 0; c < kOccluderClasses; ++c) sum.shares[c] += seen.shares[c];
+      }
+    }
+    return sum.largest();
   }
 
   bool is_blurred(std::size_t i, std::size_t camera) const {
@@ -126,7 +142,8 @@ class CauseFinder {
   bool lacks_texture(std::size_t i, std::size_t camera) const {
     const double usual = usual_features_[camera];
     if (usual <= 0 || camera >= tick(i).estimate.cameras.size()) return false;
-    if (is_dropped(i, camera) || is_blurred(i, camera) || boxes(i, camera) > kClearView) {
+    if (is_dropped(i, camera) || is_blurred(i, camera) ||
+        occluded(i, camera).total() > kClearView) {
       return false;
     }
     const double features = tick(i).estimate.cameras[camera].features;
@@ -196,11 +213,16 @@ std::string cameras_text(const RunRecord& record, const DegradedSegment& diagnos
   return names.empty() ? "" : fmt::format(" in {}", fmt::join(names, ", "));
 }
 
+std::string cause_text(const DegradedSegment& diagnosed) {
+  const std::string by = diagnosed.occluder ? " by " + name_of(*diagnosed.occluder) : "";
+  return name_of(diagnosed.cause) + by;
+}
+
 std::string line_of(const RunRecord& record, const DegradedSegment& diagnosed) {
   std::string text = fmt::format(
       "  {:.2f} to {:.2f} s: {}{} ({:.0f} % of the time); error grew by {:.1f} mm",
       to_seconds(record.ticks[diagnosed.first].stamp),
-      to_seconds(record.ticks[diagnosed.last].stamp), name_of(diagnosed.cause),
+      to_seconds(record.ticks[diagnosed.last].stamp), cause_text(diagnosed),
       cameras_text(record, diagnosed), 100 * diagnosed.share, 1e3 * diagnosed.error_growth);
   if (diagnosed.usual_inliers > 0) {
     text += fmt::format(", {:.0f} inliers of usually {:.0f}", diagnosed.inliers,

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/truth/occlusion.h"
 #include "harness/judge/results.h"
 
 namespace vinebench::harness {
@@ -12,7 +14,7 @@ namespace vinebench::harness {
 /// Causes of a degraded segment, according to the truth.
 enum class Cause {
   kDroppedImages,     ///< cameras gave no image
-  kOcclusion,         ///< cartons cover at least half of a camera's image
+  kOcclusion,         ///< occluders cover at least half of a camera's image
   kMotionBlur,        ///< the scene moved by pixels during the exposure
   kLittleTexture,     ///< a camera with a clear view found few features
   kWrongTag,          ///< a wrong loop closure, or a tag that contradicts the map
@@ -29,7 +31,8 @@ struct DegradedSegment {
   std::size_t last = 0;   ///< tick
   Cause cause = Cause::kUnexplained;
   std::vector<std::size_t>
-      cameras{};             ///< of the rig, affected by the cause; empty: not camera-specific
+      cameras{};  ///< of the rig, affected by the cause; empty: not camera-specific
+  std::optional<OccluderClass> occluder{};  ///< the class that covers most; of kOcclusion alone
   double share = 0;          ///< of the segment's ticks in which it is present, 0 to 1
   double error_growth = 0;   ///< m, drift of the live pose during the segment
   int untracked = 0;         ///< frames without a pose supported by cameras

@@ -15,10 +15,11 @@ inline constexpr std::size_t kSeedsForMedian = 3;
 
 /// The expectations of a scenario. Absent ones are not checked.
 struct Expectations {
-  /// Cartons cover some cameras almost completely while the rover moves, and tracking continues.
+  /// Occluders of any class cover some cameras almost completely while the rover moves, and
+  /// tracking continues.
   struct Blind {
     std::vector<std::string> cameras;    ///< names of the rig
-    double box_share = 0.8;              ///< of each one's pixels
+    double box_share = 0.8;              ///< of each one's pixels, covered by occluders
     double seconds = 3;                  ///< s at least, continuously, in motion
     std::optional<double> inliers_drop;  ///< minimum share by which their inliers drop, 0 to 1
     template <class Archive>

@@ -47,8 +47,29 @@ void count_events(const Tick& tick, Json& metrics) {
   }
 }
 
+/// Mean share of each camera's image that each class covers; no key where there is nothing.
+Json occlusion_metrics(const RunRecord& record) {
+  Json means = Json::object();
+  for (std::size_t camera = 0; camera < record.rig.cameras.size(); ++camera) {
+    Occlusion sum;
+    for (const Tick& tick : record.ticks) {
+      if (camera >= tick.truth.occlusion.size()) continue;
+      for (std::size_t c = 0; c < kOccluderClasses; ++c) {
+        sum.shares[c] += tick.truth.occlusion[camera].shares[c];
+      }
+    }
+    for (std::size_t c = 0; c < kOccluderClasses; ++c) {
+      if (sum.shares[c] == 0) continue;
+      means[record.rig.cameras[camera].name][name_of(static_cast<OccluderClass>(c))] =
+          sum.shares[c] / static_cast<double>(record.ticks.size());
+    }
+  }
+  return means;
+}
+
 Json blind_metrics(const OcclusionSegment& blind) {
-  return {{"seconds", blind.seconds},
+  return {{"occluder", name_of(blind.occluder)},
+          {"seconds", blind.seconds},
           {"metres", blind.metres},
           {"lost_frames", blind.lost_frames},
           {"inliers_clear", blind.inliers_clear},
@@ -80,6 +101,7 @@ Json result_metrics(const Trial& trial, const RunRecord& record, const RunResult
   metrics["features"] = camera_means(record, &CameraCounts::features);
   metrics["inliers"] = camera_means(record, &CameraCounts::inliers);
   for (const Tick& tick : record.ticks) count_events(tick, metrics);
+  if (Json shares = occlusion_metrics(record); !shares.empty()) metrics["occlusion"] = shares;
   if (results.blind) metrics["blind"] = blind_metrics(*results.blind);
   return metrics;
 }

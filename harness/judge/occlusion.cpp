@@ -12,7 +12,7 @@ namespace {
 bool each_share(const Tick& tick, const std::vector<int>& cameras, auto&& condition) {
   return std::ranges::all_of(cameras, [&](int camera) {
     const auto index = static_cast<std::size_t>(camera);
-    return index < tick.truth.box_share.size() && condition(tick.truth.box_share[index]);
+    return index < tick.truth.occlusion.size() && condition(tick.truth.occlusion[index].total());
   });
 }
 
@@ -37,13 +37,26 @@ double mean_inliers(const RunRecord& record, const std::vector<int>& cameras, au
   return count > 0 ? sum / count : 0;
 }
 
+OccluderClass largest_occluder(const RunRecord& record, const OcclusionSegment& segment,
+                               const std::vector<int>& cameras) {
+  Occlusion sum;
+  for (std::size_t i = segment.first; i <= segment.last; ++i) {
+    for (const int camera : cameras) {
+      const Occlusion& seen = record.ticks[i].truth.occlusion.at(static_cast<std::size_t>(camera));
+      for (std::size_t c = 0; c < kOccluderClasses; ++c) sum.shares[c] += seen.shares[c];
+    }
+  }
+  return sum.largest();
+}
+
 void describe(OcclusionSegment& segment, const RunRecord& record, const std::vector<int>& cameras,
-              double box_share) {
+              double share) {
+  segment.occluder = largest_occluder(record, segment, cameras);
   const auto in_segment = [&](std::size_t i) { return i >= segment.first && i <= segment.last; };
   segment.inliers_blind = mean_inliers(record, cameras, in_segment);
   segment.inliers_clear = mean_inliers(record, cameras, [&](std::size_t i) {
     return is_tracked(record.ticks[i].estimate) &&
-           each_share(record.ticks[i], cameras, [&](double s) { return s <= box_share / 2; });
+           each_share(record.ticks[i], cameras, [&](double s) { return s <= share / 2; });
   });
   for (std::size_t i = segment.first; i <= segment.last; ++i) {
     if (!is_tracked(record.ticks[i].estimate)) ++segment.lost_frames;
@@ -68,11 +81,10 @@ std::vector<int> find_cameras(const Rig& rig, const std::vector<std::string>& na
 }
 
 std::optional<OcclusionSegment> longest_occlusion(const RunRecord& record,
-                                                  const std::vector<int>& cameras,
-                                                  double box_share) {
+                                                  const std::vector<int>& cameras, double share) {
   const std::vector<double> lengths = true_path_lengths(record);
   const auto blind = [&](std::size_t i) {
-    return each_share(record.ticks[i], cameras, [&](double share) { return share >= box_share; });
+    return each_share(record.ticks[i], cameras, [&](double s) { return s >= share; });
   };
   std::optional<OcclusionSegment> longest;
   std::size_t begin = 0;
@@ -88,7 +100,7 @@ std::optional<OcclusionSegment> longest_occlusion(const RunRecord& record,
     longest = OcclusionSegment{
         .first = begin, .last = i, .seconds = seconds, .metres = lengths[i] - lengths[begin]};
   }
-  if (longest) describe(*longest, record, cameras, box_share);
+  if (longest) describe(*longest, record, cameras, share);
   return longest;
 }
 

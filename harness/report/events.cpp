@@ -82,13 +82,17 @@ class EventLog {
   }
 
   void add_occlusion(std::size_t camera, double box_share) {
-    if (camera >= tick_->truth.box_share.size()) return;
-    const bool occluded = tick_->truth.box_share[camera] >= box_share;
+    if (camera >= tick_->truth.occlusion.size()) return;
+    const Occlusion& seen = tick_->truth.occlusion[camera];
+    const bool occluded = seen.total() >= box_share;
     const auto open = occlusions_.find(camera);
     const std::string& name = record_.rig.cameras[camera].name;
     if (occluded && open == occlusions_.end()) {
       occlusions_[camera] = at_;
-      add("occlusion_begin", {{"camera", name}, {"box_share", tick_->truth.box_share[camera]}});
+      add("occlusion_begin", {{"camera", name},
+                              {"occluder", name_of(seen.largest())},
+                              {"share", seen.total()},
+                              {"box_share", seen.share(OccluderClass::kCarton)}});
     } else if (!occluded && open != occlusions_.end()) {
       const Stamp begin = record_.ticks[open->second].stamp;
       add("occlusion_end", {{"camera", name},
@@ -194,6 +198,7 @@ class EventLog {
                 {"untracked_frames", explanation.untracked},
                 {"inliers", explanation.inliers},
                 {"inliers_usual", explanation.usual_inliers}};
+      if (explanation.occluder) more["occluder"] = name_of(*explanation.occluder);
       for (const std::size_t camera : explanation.cameras) {
         more["cameras"].push_back(record_.rig.cameras[camera].name);
       }

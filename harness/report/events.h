@@ -10,7 +10,7 @@
 namespace vinebench::harness {
 
 /// The run's log, a JSON object a line in order of time: keyframes, occlusions by the truth (a
-/// camera whose share of carton is at least `box_share`), tag sightings and rejected ones, loop
+/// camera of which occluders cover at least `box_share`), tag sightings and rejected ones, loop
 /// closures, losses, causes of degraded segments, and faults of the source's data. Each has `t`
 /// (s), `frame` and `event`.
 std::string format_events(const RunRecord& record, const RunResults& results,

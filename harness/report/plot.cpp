@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "core/util/xml_text.h"
 
@@ -267,6 +268,21 @@ class Legend {
   double y_ = kTop + 12;
 };
 
+std::string rgb(const Eigen::Vector3d& colour) {
+  const Eigen::Vector3d c = 255 * colour;
+  return fmt::format("rgb({:.0f},{:.0f},{:.0f})", c.x(), c.y(), c.z());
+}
+
+/// Each class once, in the colour of its first.
+void describe_occluders(Legend& legend, const Site& site) {
+  std::set<OccluderClass> described;
+  for (const Site::Object& object : site.objects) {
+    if (described.insert(object.kind).second) {
+      legend.entry(name_of(object.kind), rgb(object.colour), 12);
+    }
+  }
+}
+
 void describe_site(Legend& legend, const Site& site) {
   if (!site.rows.empty()) {
     legend.entry("vine row", "#c5dfb3", 12);
@@ -274,6 +290,7 @@ void describe_site(Legend& legend, const Site& site) {
     legend.mark("post", 3, "fill=\"#7f6a4f\"");
   }
   if (!site.tags.empty()) legend.entry("tag and its facing direction", "#d62728", 6);
+  describe_occluders(legend, site);
 }
 
 void draw_legend(Drawing& drawing, const Site& site, const RunResults& results, double top) {

@@ -71,9 +71,19 @@ struct RunHash::State {
       }
     }
   }
+  /// Cartons always; the other classes only where they are seen.
+  void add(const Occlusion& occlusion) {
+    add(occlusion.share(OccluderClass::kCarton));
+    for (std::size_t i = 0; i < kOccluderClasses; ++i) {
+      const auto one = static_cast<OccluderClass>(i);
+      if (one == OccluderClass::kCarton || occlusion.share(one) == 0) continue;
+      add(one);
+      add(occlusion.share(one));
+    }
+  }
   void add(const Truth& truth) {
     if (truth.known) add(truth.T_world_body);
-    for (const double share : truth.box_share) add(share);
+    for (const Occlusion& occlusion : truth.occlusion) add(occlusion);
     for (const int tag : truth.visible_tags) add(tag);
   }
   void add(const Estimate& estimate) {

@@ -66,7 +66,7 @@ class GltfReader {
     material.cutout = from.alphaMode != "OPAQUE";
     material.double_sided = from.doubleSided;
     if (from.extras.Has(kLabel)) {
-      const double last = static_cast<int>(Label::kPerson);
+      const double last = static_cast<int>(Label::kOccluder);
       material.label =
           static_cast<Label>(static_cast<int>(number(from.extras.Get(kLabel), kLabel, 0, last)));
     }

@@ -14,8 +14,9 @@
 #include "core/util/error.h"
 #include "core/util/files.h"
 #include "core/util/xml_text.h"
-#include "sim/vineyard/obstacles.h"
+#include "sim/vineyard/occluders/occluder_shape.h"
 #include "sim/vineyard/trellis.h"
+#include "sim/world/occluder_pose.h"
 #include "sim/world/terrain.h"
 
 namespace vinebench::sim {
@@ -95,32 +96,30 @@ std::string trunks_mjcf(const WorldConfig& world, const Terrain& terrain, std::u
   return geoms;
 }
 
-std::string obstacles_mjcf(const WorldConfig& world, const Terrain& terrain) {
-  std::string geoms;
-  for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
-    const Pose pose = obstacle_pose(world.obstacles[i], terrain);
-    int part = 0;
-    for (const Block& block : obstacle_blocks(world.obstacles[i])) {
-      const Eigen::Vector3d at = pose * block.centre;
-      const Eigen::Quaterniond& q = pose.rotation;
-      geoms += fmt::format(
-          "    <geom name=\"obstacle {} {}\" type=\"box\" pos=\"{} {} {}\" quat=\"{} {} {} {}\" "
-          "size=\"{} {} {}\"/>\n",
-          i, part++, at.x(), at.y(), at.z(), q.w(), q.x(), q.y(), q.z(), block.half.x(),
-          block.half.y(), block.half.z());
-    }
-  }
-  return geoms;
-}
-
-std::string carton(const std::string& name, const WorldConfig::Box& box) {
-  const Pose pose = box_pose(box);
-  const Eigen::Quaterniond& q = pose.rotation;
+std::string block_mjcf(const std::string& name, const Pose& T_world_occluder, const Block& block) {
+  const Eigen::Vector3d at = T_world_occluder * block.centre;
+  const Eigen::Quaterniond& q = T_world_occluder.rotation;
   return fmt::format(
       "    <geom name=\"{}\" type=\"box\" pos=\"{} {} {}\" quat=\"{} {} {} {}\" size=\"{} {} "
       "{}\"/>\n",
-      name, pose.translation.x(), pose.translation.y(), pose.translation.z(), q.w(), q.x(), q.y(),
-      q.z(), box.size.x() / 2, box.size.y() / 2, box.size.z() / 2);
+      name, at.x(), at.y(), at.z(), q.w(), q.x(), q.y(), q.z(), block.half.x(), block.half.y(),
+      block.half.z());
+}
+
+/// Named by class and place in the world's list, and where there are several, the block.
+std::string occluders_mjcf(const WorldConfig& world, const Terrain& terrain) {
+  std::string geoms;
+  for (std::size_t i = 0; i < world.occluders.size(); ++i) {
+    const Occluder& occluder = world.occluders[i];
+    const Pose pose = occluder_pose(occluder, terrain);
+    const std::vector<Block> blocks = shape_of(occluder).blocks(occluder);
+    const std::string name = fmt::format("{} {}", name_of(class_of(occluder)), i);
+    for (std::size_t part = 0; part < blocks.size(); ++part) {
+      const std::string of_part = blocks.size() > 1 ? fmt::format(" block {}", part) : "";
+      geoms += block_mjcf(name + of_part, pose, blocks[part]);
+    }
+  }
+  return geoms;
 }
 
 /// Lowest and highest node, m.
@@ -165,12 +164,9 @@ GroundText height_field_mjcf(const Terrain& terrain) {
 
 std::string world_mjcf(const WorldConfig& world, const std::filesystem::path& rover_include,
                        std::uint64_t seed) {
-  const Terrain terrain(world);
+  const Terrain terrain = terrain_of(world);
   std::string geoms = posts_mjcf(world, terrain) + trunks_mjcf(world, terrain, seed);
-  for (std::size_t i = 0; i < world.boxes.size(); ++i) {
-    geoms += carton(fmt::format("box {}", i), world.boxes[i]);
-  }
-  geoms += obstacles_mjcf(world, terrain);
+  geoms += occluders_mjcf(world, terrain);
   const auto [asset, ground] = terrain.flat() ? plane_mjcf(world) : height_field_mjcf(terrain);
   return fmt::format(R"(<mujoco>
   <include file="{}"/>
@@ -210,7 +206,7 @@ PhysicsWorld::PhysicsWorld(const std::filesystem::path& rover, const WorldConfig
   std::array<char, 1000> reason{};
   model_.reset(mj_loadXML(file.name().c_str(), nullptr, reason.data(), reason.size()));
   if (!model_) fail("{}: is not a valid MJCF model: {}", rover.string(), reason.data());
-  if (!world.terrain.flat()) raise_ground(Terrain(world));
+  if (!world.terrain.flat()) raise_ground(terrain_of(world));
   state_.reset(mj_makeData(model_.get()));
   if (!state_) fail("{}: no memory for the physics' state", rover.string());
 }

@@ -14,7 +14,7 @@ namespace vinebench::sim {
 
 class Terrain;
 
-/// The MJCF text of a world: ground, posts, trunks and carton boxes as static geoms, and the rover
+/// The MJCF text of a world: ground, posts, trunks and occluders as static geoms, and the rover
 /// by include. `rover_include` is the rover's MJCF file relative to the text's folder. `seed`
 /// selects, as in build_scene, the missing vines.
 std::string world_mjcf(const WorldConfig& world, const std::filesystem::path& rover_include,

@@ -79,7 +79,7 @@ struct Rover::Physics {
 Rover::Physics::Physics(const RoverConfig& rover, const WorldConfig& world_config,
                         std::uint64_t seed)
     : config(rover),
-      terrain(world_config),
+      terrain(terrain_of(world_config)),
       world(rover.model, world_config, seed),
       drive{rover.wheel_radius, rover.half_track, rover.half_wheelbase},
       step_length(from_seconds(world.model().opt.timestep)) {

@@ -13,8 +13,7 @@
 #include <vector>
 
 #include "core/util/error.h"
-#include "sim/scene/mesh_builder.h"
-#include "sim/vineyard/props.h"
+#include "sim/scene/block_mesh.h"
 
 namespace vinebench::sim {
 namespace {

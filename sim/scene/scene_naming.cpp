@@ -20,11 +20,16 @@ Thing thing_of(const Material& material) {
     case Label::kTag:
       return Thing::kTag;
     case Label::kBox:
+    case Label::kCrate:
       return Thing::kBox;
     case Label::kPerson:
       return Thing::kPerson;
     case Label::kRover:
       return Thing::kRover;
+    case Label::kTarpaulin:
+    case Label::kLooseLeaf:
+    case Label::kOccluder:
+      return Thing::kOccluder;
     default:
       return Thing::kCover;
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 namespace vinebench::sim {
 
@@ -16,6 +17,20 @@ double label_share(const cv::Mat& labels, Label wanted) {
     count += std::count(row, row + labels.cols, static_cast<std::uint8_t>(wanted));
   }
   return static_cast<double>(count) / static_cast<double>(labels.total());
+}
+
+Occlusion occlusion_in(const cv::Mat& labels, const std::vector<OccluderClass>& classes) {
+  Occlusion occlusion;
+  for (const OccluderClass one : classes) {
+    occlusion.share(one) = label_share(labels, label_of(one));
+  }
+  return occlusion;
+}
+
+std::vector<OccluderClass> occluder_classes(const WorldConfig& world) {
+  std::set<OccluderClass> classes;
+  for (const Occluder& occluder : world.occluders) classes.insert(class_of(occluder));
+  return {classes.begin(), classes.end()};
 }
 
 bool is_tag_visible(const WorldConfig::Tag& tag, const PinholeCamera& camera,

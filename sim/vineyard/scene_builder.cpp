@@ -8,7 +8,7 @@
 #include "sim/plants/grapevine.h"
 #include "sim/plants/plant_cache.h"
 #include "sim/vineyard/ground.h"
-#include "sim/vineyard/obstacles.h"
+#include "sim/vineyard/occluders/occluders.h"
 #include "sim/vineyard/props.h"
 #include "sim/vineyard/trellis.h"
 #include "sim/world/terrain.h"
@@ -69,12 +69,11 @@ Scene build_scene(const WorldConfig& world, std::uint64_t seed,
   scene.seed = seed;
   scene.light = daylight(world.sun, world.sky);
   scene.wind = make_wind(world.wind, seed);
-  const Terrain terrain(world);
+  const Terrain terrain = terrain_of(world);
   add_vines(scene, world, terrain, seed, cache);
   add_trellis(scene, world, terrain, seed);
   add_tags(scene, world);
-  add_boxes(scene, world, seed);
-  add_obstacles(scene, world, terrain, seed);
+  add_occluders(scene, world, terrain, seed);
   add_ground_cover(scene, world, terrain, seed);
   add_ground(scene, world, terrain, seed);
   add_backdrop(scene, world, terrain, seed);

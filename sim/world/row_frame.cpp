@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace vinebench::sim {
 namespace {
@@ -14,9 +15,9 @@ constexpr double kAloneSpacing = 2.5;   // m, of a single row
 constexpr double kLeastSpacing = 0.25;  // m
 
 /// The rows' places across the frame, in order; empty where one is not parallel to it.
-std::vector<double> offsets(const WorldConfig& world, const RowFrame& frame) {
+std::vector<double> offsets(const std::vector<RowConfig>& rows, const RowFrame& frame) {
   std::vector<double> places;
-  for (const WorldConfig::Row& row : world.rows) {
+  for (const RowConfig& row : rows) {
     const Eigen::Vector2d start = frame.from_world(row.start), end = frame.from_world(row.end);
     if (std::abs(end.y() - start.y()) > kParallel * (end - start).norm()) return {};
     places.push_back((start.y() + end.y()) / 2);
@@ -38,12 +39,12 @@ std::optional<double> even_spacing(const std::vector<double>& places) {
 
 }  // namespace
 
-RowFrame row_frame(const WorldConfig& world) {
+RowFrame row_frame(const std::vector<RowConfig>& rows) {
   RowFrame frame;
-  if (world.rows.empty()) return frame;
-  frame.origin = world.rows.front().start;
-  frame.along = (world.rows.front().end - frame.origin).normalized();
-  const std::vector<double> places = offsets(world, frame);
+  if (rows.empty()) return frame;
+  frame.origin = rows.front().start;
+  frame.along = (rows.front().end - frame.origin).normalized();
+  const std::vector<double> places = offsets(rows, frame);
   const std::optional<double> spacing = places.empty() ? std::nullopt : even_spacing(places);
   frame.regular = spacing.has_value();
   if (spacing) {
@@ -51,7 +52,7 @@ RowFrame row_frame(const WorldConfig& world) {
   } else {
     frame.along = Eigen::Vector2d::UnitX();
   }
-  for (const WorldConfig::Row& row : world.rows) {
+  for (const RowConfig& row : rows) {
     frame.rows.extend(frame.from_world(row.start)).extend(frame.from_world(row.end));
   }
   return frame;

@@ -4,8 +4,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <vector>
 
-#include "sim/world/world.h"
+#include "sim/world/rows.h"
 
 namespace vinebench::sim {
 
@@ -29,6 +30,7 @@ struct RowFrame {
   Eigen::Vector2d middle() const { return to_world(rows.center()); }
 };
 
-RowFrame row_frame(const WorldConfig& world);
+/// Of these rows; the world's axes where there is none.
+RowFrame row_frame(const std::vector<RowConfig>& rows);
 
 }  // namespace vinebench::sim

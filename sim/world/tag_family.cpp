@@ -83,4 +83,9 @@ cv::Mat TagFamily::image(int id) const {
   return cv::Mat(image->height, image->width, CV_8UC1, image->buf, stride).clone();
 }
 
+double tag_board_scale(const std::string& name) {
+  const TagFamily family(name);
+  return static_cast<double>(family.modules() + 2 * kTagBoardRim) / family.border_modules();
+}
+
 }  // namespace vinebench::sim

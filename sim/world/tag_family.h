@@ -34,4 +34,10 @@ class TagFamily {
   std::shared_ptr<apriltag_family> family_;
 };
 
+inline constexpr int kTagBoardRim = 1;               ///< modules of white around the print
+inline constexpr double kTagBoardThickness = 0.005;  ///< m
+
+/// Side of a tag's board, in sides of the black square. Throws Error for an unknown family.
+double tag_board_scale(const std::string& family);
+
 }  // namespace vinebench::sim

@@ -29,8 +29,9 @@ std::uint64_t key_of(std::int64_t x, std::int64_t y) {
 
 }  // namespace
 
-Terrain::Terrain(const WorldConfig& world)
-    : config_(world.terrain), ground_(world.ground), frame_(row_frame(world)) {
+Terrain::Terrain(const TerrainConfig& config, const GroundConfig& ground,
+                 const std::vector<RowConfig>& rows)
+    : config_(config), ground_(ground), frame_(row_frame(rows)) {
   const double uphill = config_.slope_heading_deg * kRadians - frame_.heading();
   slope_ = config_.slope_percent / 100 * Eigen::Vector2d(std::cos(uphill), std::sin(uphill));
   const auto seed = static_cast<std::uint64_t>(config_.seed);

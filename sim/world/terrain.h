@@ -5,9 +5,10 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/geometry/pose.h"
 #include "core/util/random.h"
+#include "sim/world/ground_config.h"
 #include "sim/world/row_frame.h"
-#include "sim/world/world.h"
 
 namespace vinebench::sim {
 
@@ -20,7 +21,8 @@ inline constexpr double kRowEnd = 0.6;
 /// grid the slope goes on without bumps. Heights are computed, not stored: cheap to construct.
 class Terrain {
  public:
-  explicit Terrain(const WorldConfig& world);
+  Terrain(const TerrainConfig& config, const GroundConfig& ground,
+          const std::vector<RowConfig>& rows);
 
   bool flat() const { return config_.flat(); }
   const RowFrame& frame() const { return frame_; }
@@ -59,8 +61,8 @@ class Terrain {
   double fade(const Eigen::Vector2d& p) const;
   double slope(const Eigen::Vector2d& p) const { return slope_.dot(p - frame_.rows.center()); }
 
-  WorldConfig::Terrain config_;
-  WorldConfig::Ground ground_;
+  TerrainConfig config_;
+  GroundConfig ground_;
   RowFrame frame_;
   Eigen::Vector2d slope_;  ///< rise over run in the frame
   Eigen::Vector2d low_, cell_;

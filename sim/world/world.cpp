@@ -8,7 +8,6 @@
 
 #include "core/util/error.h"
 #include "core/util/random.h"
-#include "sim/vineyard/props.h"
 #include "sim/world/row_frame.h"
 #include "sim/world/tag_family.h"
 #include "sim/world/terrain.h"
@@ -57,19 +56,6 @@ void hang(WorldConfig::Tag& tag, const TrellisPost& post, const WorldConfig::Row
   tag.facing_deg = std::atan2(facing.y(), facing.x()) / kRadians;
 }
 
-/// A box on uneven ground is sunk until no corner of it hangs.
-double lowest_ground(const Terrain& terrain, const WorldConfig::Box& box) {
-  const Eigen::Rotation2Dd turn(box.yaw_deg * kRadians);
-  double lowest = terrain.height(box.position);
-  for (const double x : {-0.5, 0.5}) {
-    for (const double y : {-0.5, 0.5}) {
-      const Eigen::Vector2d corner = turn * Eigen::Vector2d(x * box.size.x(), y * box.size.y());
-      lowest = std::min(lowest, terrain.height(box.position + corner));
-    }
-  }
-  return lowest;
-}
-
 }  // namespace
 
 std::string WorldConfig::tag_problem(const std::string& family, int id) {
@@ -93,7 +79,7 @@ std::pair<std::string, std::string> WorldConfig::placing_problem() const {
   if (!has_sound_rows()) {
     return {"rows", fmt::format("expected at least one row, each of at least {} m", kShortestRow)};
   }
-  if (ground.aisles == Ground::Aisles::kGrass && !block && !row_frame(*this).regular) {
+  if (ground.aisles == Ground::Aisles::kGrass && !block && !row_frame(rows).regular) {
     return {"ground", "grass in the aisles needs rows that are parallel and evenly spaced"};
   }
   const int count = static_cast<int>(rows.size()) + (block ? block->rows : 0);
@@ -130,7 +116,7 @@ std::pair<std::string, std::string> WorldConfig::size_problem() const {
                                  "vines.spacing larger or the rows fewer",
                                  count, kMostVines)};
   }
-  const sim::Terrain ground_now(*this);
+  const sim::Terrain ground_now = terrain_of(*this);
   if (const double area = ground_now.box().volume(); area > kMostGround) {
     return {"rows", fmt::format("the rows lie on {:.0f} m^2 of ground, expected at most {:.0f}",
                                 area, kMostGround)};
@@ -160,7 +146,7 @@ void WorldConfig::place() {
     fail("world {}: {}: {}", name, key, problem);
   }
   expand_block();
-  const sim::Terrain terrain_now(*this);
+  const sim::Terrain terrain_now = terrain_of(*this);
   const std::vector<TrellisPost> posts = trellis_posts(*this);
   for (Tag& tag : tags) {
     Eigen::Vector2d foot = tag.position.head<2>();
@@ -171,7 +157,6 @@ void WorldConfig::place() {
     }
     tag.ground = terrain_now.height(foot);
   }
-  for (Box& box : boxes) box.ground = lowest_ground(terrain_now, box);
 }
 
 std::vector<TrellisPost> trellis_posts(const WorldConfig& world) {
@@ -237,9 +222,8 @@ Pose tag_pose(const WorldConfig::Tag& tag) {
           tag.position + tag.ground * Eigen::Vector3d::UnitZ()};
 }
 
-Pose box_pose(const WorldConfig::Box& box) {
-  const Eigen::Vector3d centre(box.position.x(), box.position.y(), box.ground + box.size.z() / 2);
-  return {from_roll_pitch_yaw({0, 0, box.yaw_deg * kRadians}), centre};
+Terrain terrain_of(const WorldConfig& world) {
+  return Terrain(world.terrain, world.ground, world.rows);
 }
 
 std::vector<WorldTag> world_tags(const WorldConfig& world) {
@@ -256,9 +240,9 @@ Site site_of(const WorldConfig& world) {
   for (const WorldConfig::Row& row : world.rows) site.rows.push_back({row.start, row.end});
   site.vines = vine_positions(world);
   site.posts = post_positions(world);
-  for (const WorldConfig::Box& box : world.boxes) {
-    site.objects.push_back(
-        {Label::kBox, box.position, box.size.head<2>(), box.yaw_deg, box.colour});
+  for (const Occluder& occluder : world.occluders) {
+    site.objects.push_back({class_of(occluder), occluder.position, size_of(occluder).head<2>(),
+                            occluder.yaw_deg, colour_of(occluder)});
   }
   site.tags = world_tags(world);
   site.vine_spacing = world.vines.spacing;

@@ -16,87 +16,27 @@
 #include "core/truth/site.h"
 #include "sim/scene/scene.h"
 #include "sim/world/daylight.h"
+#include "sim/world/ground_config.h"
+#include "sim/world/occluder_lists.h"
+#include "sim/world/rows.h"
+#include "sim/world/terrain.h"
 #include "sim/world/vines.h"
 
 namespace vinebench::sim {
 
 /// A vineyard as its YAML file describes it. World frame: x east, y north, z up; m.
 struct WorldConfig {
-  /// Where things may stand, m from the origin.
-  static constexpr Range kPlace = Range::between(-5000, 5000);
   // What a laptop can still hold and draw; a larger vineyard is simulated a part at a time.
   static constexpr double kMostVines = 20'000;
   static constexpr double kMostRow = 20'000;       ///< m, of all rows together
   static constexpr double kMostGround = 200'000;   ///< m^2, of shaped ground
   static constexpr double kMostCells = 3'000'000;  ///< of the ground
 
-  /// One row of the trellis.
-  struct Row {
-    Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< m; its first post
-    Eigen::Vector2d end = Eigen::Vector2d::Zero();    ///< m; its last post
-    template <class Archive>
-    void serialize(Archive& archive) {
-      archive("start", start, kPlace);
-      archive("end", end, kPlace);
-      archive.require((end - start).norm() > 0.1, "end", "expected a row of at least 0.1 m");
-    }
-  };
+  using Row = RowConfig;
   using Vines = VinesConfig;
-  /// Rows side by side, each `spacing` to the left of the one before.
-  struct Block {
-    int rows = 1;
-    double length = 30;                                ///< m
-    double spacing = 2.5;                              ///< m between rows
-    double heading_deg = 0;                            ///< from east over north, along the rows
-    Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< m, start of the first row
-    template <class Archive>
-    void serialize(Archive& archive) {
-      archive("rows", rows, Range::between(1, 500));
-      archive("length", length, Range::between(0.1, 2000));
-      archive("spacing", spacing, Range::between(0.3, 50));
-      archive("heading_deg", heading_deg, Range::between(-360, 360));
-      archive("origin", origin, kPlace);
-    }
-  };
-  /// The ground's shape: a slope with bumps on it, and ruts where wheels run.
-  struct Terrain {
-    std::int64_t seed = 1;
-    double amplitude = 0;          ///< m, of the largest bumps up or down; 0 is even ground
-    double wavelength = 3;         ///< m, from bump to bump
-    double rut_depth = 0;          ///< m, of the wheel tracks
-    double slope_percent = 0;      ///< rise over run
-    double slope_heading_deg = 0;  ///< uphill, from east over north
-    double cell = 0.1;             ///< m, side of a cell of the height field
-    double margin = 6;  ///< m of ground round the rows that is shaped and can be driven on
-    bool flat() const { return amplitude == 0 && rut_depth == 0 && slope_percent == 0; }
-    template <class Archive>
-    void serialize(Archive& archive) {
-      archive("seed", seed, Range::non_negative());
-      archive("amplitude", amplitude, Range::between(0, 0.5));
-      archive("wavelength", wavelength, Range::between(0.5, 100));
-      archive("rut_depth", rut_depth, Range::between(0, 0.3));
-      archive("slope_percent", slope_percent, Range::between(0, 30));
-      archive("slope_heading_deg", slope_heading_deg, Range::between(-360, 360));
-      archive("cell", cell, Range::between(0.05, 0.5));
-      archive("margin", margin, Range::between(2, 30));
-    }
-  };
-  /// What covers the ground.
-  struct Ground {
-    enum class Aisles { kSoil, kGrass };
-    Aisles aisles = Aisles::kSoil;
-    double bare_strip = 0.8;    ///< m, width of the strip without grass under the vines
-    double track_gauge = 1.25;  ///< m between the middles of the wheel tracks
-    double track_width = 0.28;  ///< m
-    friend std::vector<std::string> yaml_names(Aisles) { return {"soil", "grass"}; }
-    template <class Archive>
-    void serialize(Archive& archive) {
-      archive("aisles", aisles);
-      archive("bare_strip", bare_strip, Range::between(0, 5));
-      archive("track_gauge", track_gauge, Range::between(0, 5));
-      archive("track_width", track_width, Range::between(0.05, 2));
-    }
-  };
+  using Block = BlockConfig;
+  using Terrain = TerrainConfig;
+  using Ground = GroundConfig;
   struct Trellis {
     enum class Brace { kNone, kStrut, kAnchor };
     double post_spacing = 2.0;                      ///< m; one always stands at either end of a row
@@ -173,45 +113,6 @@ struct WorldConfig {
       archive.require(problem.empty(), "id", problem);
     }
   };
-  struct Box {
-    std::string name = "carton";
-    Eigen::Vector3d size{0.6, 0.4, 0.4};                 ///< m, along its own x, y, z
-    Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m, middle of its foot
-    double yaw_deg = 0;
-    Eigen::Vector3d colour{0.42, 0.29, 0.18};  ///< sRGB, 0 to 1
-    bool printed = false;                      ///< a maker's mark, lines of text, symbols
-    std::int64_t print_seed = 0;               ///< which print
-    double ground = 0;                         ///< m, height of the ground below; set by place()
-    template <class Archive>
-    void serialize(Archive& archive) {
-      archive("name", name);
-      archive("size", size, Range::between(0.01, 10));
-      archive("position", position, kPlace);
-      archive("yaw_deg", yaw_deg, Range::between(-360, 360));
-      archive("colour", colour, Range::between(0, 1));
-      archive("printed", printed);
-      archive("print_seed", print_seed, Range::non_negative());
-    }
-  };
-  /// Who and what else may stand in the way.
-  struct Obstacle {
-    enum class Kind { kPerson, kCrate };
-    Kind kind = Kind::kPerson;
-    Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m, middle of its foot
-    double yaw_deg = 0;                                  ///< where a person looks
-    double height = 1.75;                                ///< m; a crate's is 0.30 m
-    Eigen::Vector3d colour{0.16, 0.30, 0.55};            ///< sRGB, 0 to 1; of the shirt or crate
-    friend std::vector<std::string> yaml_names(Kind) { return {"person", "crate"}; }
-    template <class Archive>
-    void serialize(Archive& archive) {
-      archive("kind", kind);
-      archive("position", position, kPlace);
-      archive("yaw_deg", yaw_deg, Range::between(-360, 360));
-      archive("height", height, Range::between(0.5, 2.5));
-      archive("colour", colour, Range::between(0, 1));
-    }
-  };
-
   std::string name = "world";
   double ground_size = 40;     ///< m, side of the square of ground around the rows' middle
   std::optional<Block> block;  ///< rows in regular order; place() turns it into `rows`
@@ -221,8 +122,7 @@ struct WorldConfig {
   Terrain terrain;
   Ground ground;
   std::vector<Tag> tags;
-  std::vector<Box> boxes;
-  std::vector<Obstacle> obstacles;
+  std::vector<Occluder> occluders;
   SunConfig sun;
   SkyConfig sky;
   WindConfig wind;
@@ -238,8 +138,7 @@ struct WorldConfig {
     archive("terrain", terrain);
     archive("ground", ground);
     archive("tags", tags);
-    archive("boxes", boxes);
-    archive("obstacles", obstacles);
+    serialize_occluders(archive, occluders, true);
     archive("sun", sun);
     archive("sky", sky);
     archive("wind", wind);
@@ -309,8 +208,8 @@ VineKind vine_at(const WorldConfig& world, std::uint64_t seed, std::size_t place
 /// Tag frame: x right and y down on the printed face, z into the tag.
 Pose tag_pose(const WorldConfig::Tag& tag);
 
-/// Frame of a box: its centre, z up.
-Pose box_pose(const WorldConfig::Box& box);
+/// The surface of its ground.
+Terrain terrain_of(const WorldConfig& world);
 
 /// The tags whose pose the SLAM system is told, with the errors of their survey.
 std::vector<RegisteredTag> registered_tags(const WorldConfig& world);

@@ -95,27 +95,29 @@ Eigen::Vector2d somewhere(const WorldRecipe& recipe, const RowFrame& frame,
 void add_cartons(WorldConfig& world, const WorldRecipe& recipe, const RowFrame& frame) {
   RandomSequence random(RandomStream(static_cast<std::uint64_t>(recipe.seed), "cartons"));
   for (int i = 0; i < recipe.cartons; ++i) {
-    WorldConfig::Box box;
+    Occluder box;
     box.name = fmt::format("carton {}", i);
     box.position = somewhere(recipe, frame, random);
     box.yaw_deg = std::round(random.uniform(-180, 180));
     const double size = random.uniform(0.8, 1.2);
-    box.size = (size * Eigen::Vector3d(50, 35, 40)).array().round() / 100;
+    box.size = ((size * Eigen::Vector3d(50, 35, 40)).array().round() / 100).matrix();
     box.printed = i % 2 == 1;
     box.print_seed = i;
-    world.boxes.push_back(std::move(box));
+    world.occluders.push_back(std::move(box));
   }
 }
 
 void add_people(WorldConfig& world, const WorldRecipe& recipe, const RowFrame& frame) {
   RandomSequence random(RandomStream(static_cast<std::uint64_t>(recipe.seed), "people"));
   for (int i = 0; i < recipe.people; ++i) {
-    WorldConfig::Obstacle person;
+    Occluder person;
+    person.shape = Occluder::Shape::kPerson;
     person.position = somewhere(recipe, frame, random);
     person.yaw_deg = std::round(random.uniform(-180, 180));
     person.height = std::round(random.uniform(160, 186)) / 100;
-    for (int c = 0; c < 3; ++c) person.colour[c] = std::round(random.uniform(10, 75)) / 100;
-    world.obstacles.push_back(person);
+    Eigen::Vector3d& shirt = person.colour.emplace();
+    for (int c = 0; c < 3; ++c) shirt[c] = std::round(random.uniform(10, 75)) / 100;
+    world.occluders.push_back(person);
   }
 }
 
@@ -142,7 +144,7 @@ WorldConfig make_world(const WorldRecipe& recipe) {
   WorldConfig laid = world;
   laid.place();
   world.tags = tags_for(recipe, laid);
-  const RowFrame frame = row_frame(laid);
+  const RowFrame frame = row_frame(laid.rows);
   add_cartons(world, recipe, frame);
   add_people(world, recipe, frame);
   laid = world;

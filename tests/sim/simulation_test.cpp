@@ -84,6 +84,23 @@ class SimulationTest : public testing::Test {
   test::TestFolder folder_;
 };
 
+TEST_F(SimulationTest, CratesAndPersonsCountWithoutAnyCartonOrTagCamera) {
+  SimulationConfig with = config();
+  std::string rig = kSmallRig;
+  rig.replace(rig.find("tag_cameras: [side]"), 19, "tag_cameras: []");
+  with.rover.rig = folder_.write("no-tags.yaml", rig);
+  with.duration = 0.01;
+  // 0.45 m and more before the front pair, to the right and to the left of its middle.
+  with.world.occluders = {{.shape = Occluder::Shape::kCrate, .position = {0.9, -0.35}},
+                          {.shape = Occluder::Shape::kPerson, .position = {0.9, 0.35}}};
+  const std::vector<Sample> samples = run(with);
+  ASSERT_EQ(samples.size(), 1u);
+  const Occlusion& left = samples[0].truth.occlusion.at(0);
+  EXPECT_GT(left.share(OccluderClass::kCrate), 0.01);
+  EXPECT_GT(left.share(OccluderClass::kPerson), 0.05);
+  EXPECT_EQ(left.share(OccluderClass::kCarton), 0);
+}
+
 TEST_F(SimulationTest, SameBytesForOneAndTwoThreadsWithEveryEffectOn) {
   SimulationConfig all = config();
   all.duration = 0.2;

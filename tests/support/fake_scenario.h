@@ -16,8 +16,8 @@ inline harness::ScenarioConfig scenario() {
   world.tags.push_back({});
   world.tags.back().id = 7;
   world.tags.back().position = {1.3, 0, 0.5};
-  world.boxes.push_back({});
-  world.boxes.back().position = {-1.4, 0};
+  world.occluders.push_back({});
+  world.occluders.back().position = {-1.4, 0};
   return scenario;
 }
 

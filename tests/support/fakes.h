@@ -51,7 +51,11 @@ class Source : public FrameSource {
     }
     const double t = to_seconds(sample.frame.stamp);
     const double share = t >= 8 && t <= 12 ? 0.95 : 0.0;
-    sample.truth = {circle(sample.frame.stamp), true, {share, share, 0.0}, {}, {}, {}};
+    sample.truth.T_world_body = circle(sample.frame.stamp);
+    sample.truth.occlusion.resize(3);
+    for (const std::size_t camera : {0, 1}) {
+      sample.truth.occlusion[camera].share(OccluderClass::kCarton) = share;
+    }
     if (t <= 2 || t >= 18) sample.truth.visible_tags = {0};
     ++index_;
     return sample;
@@ -122,7 +126,7 @@ inline harness::Trial trial() {
   trial.site.vine_spacing = 1;
   trial.site.tags = {
       {"tag36h11", 7, 0.161, {from_roll_pitch_yaw({0, 0, -std::numbers::pi / 2}), {1.3, 0, 0.5}}}};
-  trial.site.objects = {{Label::kBox, {-1.4, 0}, {0.6, 0.4}}};
+  trial.site.objects = {{OccluderClass::kCarton, {-1.4, 0}, {0.6, 0.4}}};
   return trial;
 }
 

@@ -78,7 +78,7 @@ std::map<Key, Runs> find_masks(const RenderedImage& image, const SceneIndex& sce
 bool has_outline(Category category) {
   return category == Category::kBunch || category == Category::kPlant ||
          category == Category::kPost || category == Category::kTag || category == Category::kBox ||
-         category == Category::kPerson;
+         category == Category::kPerson || category == Category::kOccluder;
 }
 
 void measure_outline(const TruthView& view, const SceneIndex& scene, ThingLabel& thing) {

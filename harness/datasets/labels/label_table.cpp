@@ -28,7 +28,11 @@ const std::array<Entry, kLabels>& entries() {
        {"tag", {255, 255, 255}, Category::kTag},
        {"box", {220, 150, 80}, Category::kBox},
        {"rover", {220, 40, 40}, Category::kRover},
-       {"person", {250, 170, 190}, Category::kPerson}}};
+       {"person", {250, 170, 190}, Category::kPerson},
+       {"crate", {200, 110, 60}, Category::kBox},
+       {"tarpaulin", {70, 110, 220}, Category::kOccluder},
+       {"loose_leaf", {160, 220, 30}, Category::kOccluder},
+       {"occluder", {110, 110, 160}, Category::kOccluder}}};
   return kEntries;
 }
 
@@ -54,8 +58,8 @@ std::string label_table_text() {
 
 const char* category_name(Category category) {
   static constexpr std::array<const char*, kCategories> kNames{
-      "bunch", "plant",  "trunk", "cane", "leaf",  "post",   "tag",
-      "box",   "person", "rover", "wire", "grass", "ground", "sky"};
+      "bunch",  "plant", "trunk", "cane",  "leaf",   "post", "tag",     "box",
+      "person", "rover", "wire",  "grass", "ground", "sky",  "occluder"};
   return kNames.at(static_cast<std::size_t>(category));
 }
 

@@ -11,7 +11,7 @@
 
 namespace vinebench::harness {
 
-inline constexpr std::size_t kLabels = 13;
+inline constexpr std::size_t kLabels = 17;
 
 /// "sky", "ground" and so on.
 const char* label_name(Label label);
@@ -37,9 +37,10 @@ enum class Category {
   kWire,
   kGrass,
   kGround,
-  kSky
+  kSky,
+  kOccluder
 };
-inline constexpr std::size_t kCategories = 14;
+inline constexpr std::size_t kCategories = 15;
 
 inline int category_id(Category category) {
   return static_cast<int>(category) + 1;
@@ -51,7 +52,7 @@ Category category_of(Label label);
 
 /// A thing can be counted; wire, grass, ground and sky cannot.
 inline bool is_thing(Category category) {
-  return category < Category::kWire;
+  return category < Category::kWire || category == Category::kOccluder;
 }
 
 }  // namespace vinebench::harness

@@ -59,11 +59,11 @@ expectations: {losses_max: 0, blind: {cameras: front_left}}
   EXPECT_EQ(scenario.seed, 5);
   EXPECT_EQ(scenario.simulation.world.name, "small");
   EXPECT_EQ(scenario.simulation.rover.model, fs::absolute(folder_ / "rover.xml"));
-  ASSERT_EQ(scenario.simulation.world.boxes.size(), 2u);
-  EXPECT_EQ(scenario.simulation.world.boxes[1].position, Eigen::Vector2d(1, 2));
+  ASSERT_EQ(scenario.simulation.world.occluders.size(), 2u);
+  EXPECT_EQ(scenario.simulation.world.occluders[1].position, Eigen::Vector2d(1, 2));
   ASSERT_EQ(scenario.simulation.world.tags.size(), 2u);
   EXPECT_EQ(scenario.simulation.world.tags[1].id, 4);
-  EXPECT_TRUE(scenario.boxes.empty());
+  EXPECT_TRUE(scenario.occluders.empty());
   EXPECT_EQ(scenario.expectations.losses_max, 0);
   EXPECT_FALSE(scenario.expectations.coverage_min);
   EXPECT_EQ(scenario.expectations.blind->seconds, 3);
@@ -102,7 +102,7 @@ slam: {cameras: front}
   EXPECT_EQ(scenario.simulation.sensors.wheels.counts_per_turn, 99);
   EXPECT_EQ(scenario.simulation.world.name, "small");  // merged with the base's world
   EXPECT_EQ(scenario.simulation.world.sun.elevation_deg, 20);
-  EXPECT_EQ(scenario.simulation.world.boxes.size(), 1u);  // the world's own; lists are replaced
+  EXPECT_EQ(scenario.simulation.world.occluders.size(), 1u);  // the world's own; lists are replaced
   EXPECT_EQ(scenario.simulation.route.waypoints.size(), 1u);
   EXPECT_EQ(scenario.simulation.rover.model, fs::absolute(folder_ / "rover.xml"));
 }
@@ -118,7 +118,7 @@ TEST_F(ScenarioTest, ABaseMayHaveABaseAndAnotherWorldReplacesIt) {
   EXPECT_EQ(scenario.name, "middle");
   EXPECT_EQ(scenario.seed, 5);
   EXPECT_EQ(scenario.simulation.world.name, "other");
-  EXPECT_TRUE(scenario.simulation.world.boxes.empty());
+  EXPECT_TRUE(scenario.simulation.world.occluders.empty());
 }
 
 TEST_F(ScenarioTest, ErrorsNameTheFileOfTheBaseOrOfTheScenario) {

@@ -15,6 +15,11 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
+/// Most of both front cameras' images.
+void cover_front(Tick& tick, OccluderClass occluder) {
+  for (const std::size_t camera : {0, 1}) tick.truth.occlusion[camera].share(occluder) = 0.9;
+}
+
 /// Twenty seconds straight east at 0.5 m/s, 10 frames a second, with a pair and a side camera in
 /// clear view and a tag in view from 5 s to 6 s. No degradation.
 class DiagnosisTest : public testing::Test {
@@ -29,7 +34,7 @@ class DiagnosisTest : public testing::Test {
       tick.index = i;
       tick.stamp = stamp_of_frame(i, 10);
       tick.truth.T_world_body.translation.x() = 0.05 * static_cast<double>(i);
-      tick.truth.box_share = {0, 0, 0};
+      tick.truth.occlusion.resize(3);
       tick.truth.blur_time = {0, 0, 0};
       tick.delivered = {true, true, true};
       tick.estimate.status = TrackingStatus::kTracking;
@@ -83,7 +88,7 @@ TEST_F(DiagnosisTest, AGoodRunHasNothingToExplain) {
 TEST_F(DiagnosisTest, WeakTrackingBehindACartonIsOcclusion) {
   meanwhile([](Tick& tick) {
     weaken(tick);
-    tick.truth.box_share = {0.9, 0.9, 0};
+    cover_front(tick, OccluderClass::kCarton);
     tick.estimate.cameras[0].features = 20;  // not a lack of texture: a carton occludes it
   });
   const auto list = found();
@@ -97,7 +102,21 @@ TEST_F(DiagnosisTest, WeakTrackingBehindACartonIsOcclusion) {
   EXPECT_EQ(list[0].usual_inliers, 180);
   EXPECT_EQ(list[0].error_growth, 0);
   EXPECT_THAT(format_diagnosis(record_, list),
-              HasSubstr("10.00 to 12.00 s: occlusion in front_left (100 % of the time)"));
+              HasSubstr("10.00 to 12.00 s: occlusion by carton in front_left (100 % of the time)"));
+}
+
+TEST_F(DiagnosisTest, TheClassThatCoversMostIsNamed) {
+  meanwhile([](Tick& tick) {
+    weaken(tick);
+    // Together 0.6, past the half at which a camera counts as occluded; neither is alone.
+    tick.truth.occlusion[0].share(OccluderClass::kCrate) = 0.2;
+    tick.truth.occlusion[0].share(OccluderClass::kPerson) = 0.4;
+  });
+  const auto list = found();
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0].cause, Cause::kOcclusion);
+  EXPECT_EQ(list[0].occluder, OccluderClass::kPerson);
+  EXPECT_THAT(format_diagnosis(record_, list), HasSubstr("occlusion by person in front_left"));
 }
 
 TEST_F(DiagnosisTest, LosingTrackIsSuffering) {
@@ -164,7 +183,7 @@ TEST_F(DiagnosisTest, AMiscalibratedRigIsBlamedForWhatNothingElseExplains) {
   trial_.miscalibrated = true;
   slide();
   EXPECT_THAT(causes(), ElementsAre(Cause::kCalibrationError));
-  meanwhile([](Tick& tick) { tick.truth.box_share = {0.9, 0.9, 0}; });
+  meanwhile([](Tick& tick) { cover_front(tick, OccluderClass::kCarton); });
   EXPECT_THAT(causes(), ElementsAre(Cause::kOcclusion));
 }
 
@@ -218,7 +237,7 @@ TEST_F(DiagnosisTest, TagsMayBeMissedOrWrong) {
 TEST_F(DiagnosisTest, SeveralCausesComeStrongestFirst) {
   meanwhile([](Tick& tick) {
     weaken(tick);
-    tick.truth.box_share = {0.9, 0.9, 0};
+    cover_front(tick, OccluderClass::kCarton);
     if (tick.index <= 110) tick.delivered[0] = false;  // 11 of 21 ticks
   });
   EXPECT_THAT(causes(), ElementsAre(Cause::kOcclusion, Cause::kDroppedImages));

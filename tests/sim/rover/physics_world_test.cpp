@@ -113,10 +113,10 @@ TEST(PhysicsWorldTest, NoPartOfTheRoverIsInAImage) {
 
 TEST(PhysicsWorldTest, ObstaclesStandWhereTheWorldSays) {
   WorldConfig world = one_row();
-  world.boxes.resize(2);  // duplicate names are allowed
-  world.boxes[1].position = {2, 3};
-  world.boxes[1].size = {0.6, 0.4, 0.3};
-  world.boxes[1].yaw_deg = 90;
+  world.occluders.resize(2);  // duplicate names are allowed
+  world.occluders[1].position = {2, 3};
+  world.occluders[1].size = {0.6, 0.4, 0.3};
+  world.occluders[1].yaw_deg = 90;
   PhysicsWorld physics(kModels / "rover.xml", world);
   physics.refresh();
   const int post = physics.find(mjOBJ_GEOM, "post 0");
@@ -124,7 +124,7 @@ TEST(PhysicsWorldTest, ObstaclesStandWhereTheWorldSays) {
                Eigen::Vector3d(0, 10, world.trellis.post_height / 2))
                   .norm(),
               0, 1e-9);
-  const int box = physics.find(mjOBJ_GEOM, "box 1");
+  const int box = physics.find(mjOBJ_GEOM, "carton 1");
   EXPECT_NEAR((vector_of(&physics.state().geom_xpos[3 * box]) - Eigen::Vector3d(2, 3, 0.15)).norm(),
               0, 1e-9);
   // Turned by 90 deg, its long side (x) lies along the world's y.

@@ -290,9 +290,9 @@ TEST(RoverTest, FollowsARouteWithinACentimetre) {
 
 TEST(RoverTest, ABoxIsInTheWay) {
   WorldConfig world = field();
-  world.boxes.resize(1);
-  world.boxes[0].size = {0.4, 0.6, 0.6};
-  world.boxes[0].position = {1, 0};
+  world.occluders.resize(1);
+  world.occluders[0].size = {0.4, 0.6, 0.6};
+  world.occluders[0].position = {1, 0};
   Rover rover(csl_rover(), world, {0, 0, 0}, 1);
   std::vector<ImuSample> imu;
   std::vector<WheelSample> wheels;

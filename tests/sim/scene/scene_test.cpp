@@ -12,6 +12,8 @@
 #include "sim/assets/asset_file.h"
 #include "sim/plants/grapevine.h"
 #include "sim/vineyard/props.h"
+#include "sim/world/occluder_pose.h"
+#include "sim/world/tag_family.h"
 #include "sim/world/world.h"
 #include "tests/support/tag_reading.h"
 #include "tests/support/test_folder.h"
@@ -32,10 +34,10 @@ WorldConfig small_world() {
   world.tags[0].id = 7;
   world.tags[0].position = {0.06, -0.36, 0.5};
   world.tags[0].facing_deg = 90;
-  world.boxes.resize(1);
-  world.boxes[0].size = {0.5, 1.25, 0.8};
-  world.boxes[0].position = {5, 0.3};
-  world.boxes[0].yaw_deg = 30;
+  world.occluders.resize(1);
+  world.occluders[0].size = {0.5, 1.25, 0.8};
+  world.occluders[0].position = {5, 0.3};
+  world.occluders[0].yaw_deg = 30;
   return world;
 }
 
@@ -110,16 +112,16 @@ TEST_F(SceneTest, TheBoxStandsAtItsPose) {
   const Scene scene = build_scene(world, 1, folder_ / "cache");
   const std::vector<Instance> boxes = instances_of(scene, Label::kBox);
   ASSERT_EQ(boxes.size(), 1u);
+  const Pose foot = occluder_pose(world.occluders[0], terrain_of(world));
   Eigen::AlignedBox3d own;
   for (const Primitive& primitive :
        scene.models.at(static_cast<std::size_t>(boxes[0].model)).levels.at(0).primitives) {
     for (const Vertex& v : primitive.vertices) {
-      own.extend(box_pose(world.boxes[0]).inverse() *
-                 (boxes[0].T_world_model * v.position.cast<double>()));
+      own.extend(foot.inverse() * (boxes[0].T_world_model * v.position.cast<double>()));
     }
   }
-  EXPECT_LT((own.max() - world.boxes[0].size / 2).norm(), 1e-6);
-  EXPECT_LT((own.min() + world.boxes[0].size / 2).norm(), 1e-6);
+  EXPECT_LT((own.max() - Eigen::Vector3d(0.25, 0.625, 0.8)).norm(), 1e-6);
+  EXPECT_LT((own.min() - Eigen::Vector3d(-0.25, -0.625, 0)).norm(), 1e-6);
 }
 
 TEST_F(SceneTest, WiresRunAlongTheRowsAtTheirHeights) {

@@ -27,6 +27,24 @@ TEST(LabelShareTest, CountsPixels) {
   EXPECT_DOUBLE_EQ(label_share(labels(cv::Rect(0, 0, 10, 10)), Label::kBox), 0.5);
 }
 
+TEST(OcclusionInTest, CountsEachClassOfTheWorldForItself) {
+  cv::Mat labels(10, 20, CV_8UC1, cv::Scalar(static_cast<int>(Label::kGround)));
+  labels(cv::Rect(0, 0, 5, 10)) = static_cast<int>(Label::kPerson);
+  labels(cv::Rect(5, 0, 2, 10)) = static_cast<int>(Label::kCrate);
+  WorldConfig world;
+  world.occluders.resize(3);
+  world.occluders[0].shape = Occluder::Shape::kPerson;
+  world.occluders[1].shape = Occluder::Shape::kCrate;
+  world.occluders[2].shape = Occluder::Shape::kPerson;
+  const std::vector<OccluderClass> classes = occluder_classes(world);
+  EXPECT_EQ(classes, (std::vector{OccluderClass::kCrate, OccluderClass::kPerson}));
+  const Occlusion seen = occlusion_in(labels, classes);
+  EXPECT_DOUBLE_EQ(seen.share(OccluderClass::kPerson), 0.25);
+  EXPECT_DOUBLE_EQ(seen.share(OccluderClass::kCrate), 0.1);
+  EXPECT_DOUBLE_EQ(seen.share(OccluderClass::kCarton), 0);
+  EXPECT_DOUBLE_EQ(seen.total(), 0.35);
+}
+
 /// A tag of 0.2 m at (0, 0, 1) that faces -y, in front of a camera of 752 x 480 with f = 263 px.
 class TagVisibleTest : public testing::Test {
  protected:

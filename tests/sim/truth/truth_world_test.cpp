@@ -139,11 +139,13 @@ bool may_show(Thing thing, Label label) {
     case Thing::kTag:
       return label == Label::kTag;
     case Thing::kBox:
-      return label == Label::kBox;
+      return label == Label::kBox || label == Label::kCrate;
     case Thing::kPerson:
       return label == Label::kPerson;
     case Thing::kRover:
       return label == Label::kRover;
+    case Thing::kOccluder:
+      return label == Label::kTarpaulin || label == Label::kLooseLeaf || label == Label::kOccluder;
     case Thing::kNone:
       return label == Label::kSky || label == Label::kWire;
   }
@@ -152,8 +154,9 @@ bool may_show(Thing thing, Label label) {
 
 TEST_F(TruthWorldTest, LabelsInstancesDepthAndNormalsAgreeWithTheGeometry) {
   WorldConfig world = csl_vineyard();
-  world.boxes.push_back({.name = "crate of tools", .position = {1.2, 0}});
-  world.obstacles.push_back({.position = {2.5, 0.05}});
+  world.occluders.push_back({.name = "box of tools", .position = {1.2, 0}});
+  world.occluders.push_back(
+      {.shape = Occluder::Shape::kPerson, .position = {2.5, 0.05}});
   GlRenderer renderer(grow(world), {});
   std::map<Thing, int> seen;
   int bunches = 0, ground = 0, upright = 0;
@@ -219,7 +222,7 @@ TEST_F(TruthWorldTest, UnevenGroundIsWhereTheTerrainSays) {
   world.place();
   // The finest level of the ground reaches 4 m for 750 px, so 4.2 m here; coarser ones cut bumps.
   GlRenderer renderer(grow(world), {.lod_scale = 3});
-  const Terrain terrain(world);
+  const Terrain terrain = terrain_of(world);
   int compared = 0;
   const TruthView v = view(renderer, in_aisle(-0.3, 0, 0.1, 0.3));
   for (int y = 0; y < camera_.height; ++y) {

@@ -88,7 +88,8 @@ TEST_F(BrokenWorldsTest, NumbersThatAreNone) {
 }
 
 TEST_F(BrokenWorldsTest, AnInfiniteNumberInCodeIsAnErrorToo) {
-  WorldConfig::Obstacle obstacle;
+  Occluder obstacle;
+  obstacle.shape = Occluder::Shape::kPerson;
   obstacle.height = std::numeric_limits<double>::infinity();
   EXPECT_THAT(error_of([&] { validate(obstacle); }), HasSubstr("height: expected a number"));
   obstacle.height = std::nan("");
@@ -123,7 +124,7 @@ TEST_F(BrokenWorldsTest, TheLargestThatIsAllowedIsLaidOut) {
   const auto file = folder_.write("world.yaml", "block: {rows: 66, length: 300, spacing: 2}\n");
   const WorldConfig world = load_world(file);
   EXPECT_EQ(vine_positions(world).size(), 66u * 300u);
-  EXPECT_LE(Terrain(world).nodes(), WorldConfig::kMostCells);
+  EXPECT_LE(terrain_of(world).nodes(), WorldConfig::kMostCells);
 }
 
 TEST_F(BrokenWorldsTest, FilesThatAreNamedButMissingOrFolders) {

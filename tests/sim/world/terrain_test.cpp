@@ -13,6 +13,7 @@
 #include "sim/rover/physics_world.h"
 #include "sim/rover/rover.h"
 #include "sim/vineyard/ground.h"
+#include "sim/world/world.h"
 
 namespace vinebench::sim {
 namespace {
@@ -78,7 +79,7 @@ double drawn_height(const Scene& scene, const Eigen::Vector2d& p) {
 
 TEST(TerrainTest, IsOneSurfaceInPhysicsAndImage) {
   const WorldConfig world = bumpy();
-  const Terrain terrain(world);
+  const Terrain terrain = terrain_of(world);
   PhysicsWorld physics(kSource / "models/csl-rover/rover.xml", world);
   physics.refresh();
   Scene scene;
@@ -99,7 +100,7 @@ TEST(TerrainTest, IsOneSurfaceInPhysicsAndImage) {
 TEST(TerrainTest, HasTheBumpsAskedForOnItsSlope) {
   WorldConfig world = bumpy();
   world.terrain.rut_depth = 0;
-  const Terrain terrain(world);
+  const Terrain terrain = terrain_of(world);
   const double heading = world.terrain.slope_heading_deg * 3.14159265358979 / 180;
   const Eigen::Vector2d uphill(std::cos(heading), std::sin(heading));
   double low = 0, high = 0;
@@ -119,8 +120,8 @@ TEST(TerrainTest, WheelTracksAreLowerThanTheMiddleOfTheAisle) {
   WorldConfig world = bumpy();
   world.terrain.amplitude = 0;
   world.terrain.slope_percent = 0;
-  const Terrain terrain(world);
-  const RowFrame frame = row_frame(world);
+  const Terrain terrain = terrain_of(world);
+  const RowFrame frame = row_frame(world.rows);
   // Rows lie at y = 0, 2 and 4 m of the frame; tracks 1.25 / 2 m either side of y = 1 and 3 m.
   const double half = world.ground.track_gauge / 2;
   for (const double aisle : {1.0, 3.0}) {
@@ -132,7 +133,7 @@ TEST(TerrainTest, WheelTracksAreLowerThanTheMiddleOfTheAisle) {
 
 TEST(TerrainTest, GoesOnBeyondItsGridAsItsSlopeAlone) {
   const WorldConfig world = bumpy();
-  const Terrain terrain(world);
+  const Terrain terrain = terrain_of(world);
   const Eigen::Vector2d far = terrain.frame().middle() + Eigen::Vector2d(500, 0);
   EXPECT_NEAR(terrain.height(far), 0.04 * 500 * std::cos(70 * 3.14159265358979 / 180), 1e-9);
 }
@@ -140,7 +141,7 @@ TEST(TerrainTest, GoesOnBeyondItsGridAsItsSlopeAlone) {
 TEST(TerrainTest, EvenGroundIsAPlane) {
   WorldConfig world;
   world.rows = {{{0, 0}, {4, 0}}};
-  const Terrain terrain(world);
+  const Terrain terrain = terrain_of(world);
   EXPECT_TRUE(terrain.flat());
   EXPECT_EQ(terrain.height({1.234, 0.7}), 0);
   EXPECT_THAT(world_mjcf(world, "rover.xml"), testing::HasSubstr("type=\"plane\""));
@@ -161,7 +162,7 @@ WorldConfig typical() {
 
 TEST(TerrainTest, TheRoverDrivesStraightOverIt) {
   const WorldConfig world = typical();
-  const Terrain terrain(world);
+  const Terrain terrain = terrain_of(world);
   const RoverConfig config = load_rover(kSource / "models/csl-rover/rover.yaml");
   Rover rover(config, world, {5, 1.25, 0}, 1);
   std::vector<ImuSample> imu;

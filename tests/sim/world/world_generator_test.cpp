@@ -46,14 +46,15 @@ TEST(WorldGeneratorTest, WhatItWritesReadsBackAsTheSameWorld) {
 TEST(WorldGeneratorTest, HasTheRowsPlantsAndTagsAskedFor) {
   const WorldConfig world = read_back(small_recipe());
   ASSERT_EQ(world.rows.size(), 3u);
-  EXPECT_NEAR(row_frame(world).spacing, 2, 1e-9);
-  EXPECT_NEAR(row_frame(world).heading(), 25 * 3.14159265358979 / 180, 1e-9);
+  EXPECT_NEAR(row_frame(world.rows).spacing, 2, 1e-9);
+  EXPECT_NEAR(row_frame(world.rows).heading(), 25 * 3.14159265358979 / 180, 1e-9);
   EXPECT_EQ(vine_positions(world).size(), 36u);
   EXPECT_EQ(world.tags.size(), 6u);  // two ends of three rows
   EXPECT_EQ(world.tags[5].id, 5);
-  EXPECT_EQ(world.boxes.size(), 4u);
-  EXPECT_NE(world.boxes[0].printed, world.boxes[1].printed);
-  EXPECT_EQ(world.obstacles.size(), 2u);
+  ASSERT_EQ(world.occluders.size(), 6u);  // the cartons first
+  EXPECT_NE(world.occluders[0].printed, world.occluders[1].printed);
+  EXPECT_EQ(class_of(world.occluders[3]), OccluderClass::kCarton);
+  EXPECT_EQ(class_of(world.occluders[4]), OccluderClass::kPerson);
   EXPECT_FALSE(world.terrain.flat());
 }
 
@@ -64,15 +65,16 @@ TEST(WorldGeneratorTest, CartonsAndPeopleStandInAisles) {
   const WorldConfig world = read_back(recipe);
   const RowIndex rows(world);
   // At most 0.22 of 2 m off the aisle's middle, which is 1 m from either row, and 1 cm rounded.
-  for (const auto& box : world.boxes) EXPECT_GT(rows.distance(box.position), 0.55);
-  for (const auto& person : world.obstacles) EXPECT_GT(rows.distance(person.position), 0.55);
+  for (const Occluder& occluder : world.occluders) {
+    EXPECT_GT(rows.distance(occluder.position), 0.55);
+  }
 }
 
 TEST(WorldGeneratorTest, TheSeedMovesThingsAndNothingElse) {
   WorldRecipe other = small_recipe();
   other.seed = 6;
   const WorldConfig a = make_world(small_recipe()), b = make_world(other);
-  EXPECT_NE(a.boxes[0].position, b.boxes[0].position);
+  EXPECT_NE(a.occluders[0].position, b.occluders[0].position);
   EXPECT_EQ(a.tags.size(), b.tags.size());
   EXPECT_EQ(format_world(small_recipe()), format_world(small_recipe()));
 }

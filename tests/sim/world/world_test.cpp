@@ -92,16 +92,6 @@ TEST(TagPoseTest, AnyHeadingGivesARotation) {
   }
 }
 
-TEST(BoxPoseTest, TheBoxStandsOnTheGroundTurnedByItsYaw) {
-  WorldConfig::Box box;
-  box.size = {0.5, 1.2, 0.8};
-  box.position = {5, 0.3};
-  box.yaw_deg = 90;
-  const Pose pose = box_pose(box);
-  EXPECT_LT((pose.translation - Eigen::Vector3d(5, 0.3, 0.4)).norm(), 1e-12);
-  EXPECT_LT((pose.rotation * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitY()).norm(), 1e-12);
-}
-
 TEST(RegisteredTagsTest, AreThoseThatTheWorldRegisters) {
   WorldConfig world = one_row({0, 0}, {4, 0});
   world.tags.resize(3);
@@ -209,14 +199,14 @@ TEST(BlockTest, BecomesRowsSideBySide) {
 TEST(RowFrameTest, KnowsRowsThatAreEvenlySpacedFromOthers) {
   WorldConfig world;
   world.rows = {{{0, 0}, {0, 5}}, {{-2, 0}, {-2, 5}}, {{-4, 1}, {-4, 4}}};
-  const RowFrame even = row_frame(world);
+  const RowFrame even = row_frame(world.rows);
   EXPECT_TRUE(even.regular);
   EXPECT_NEAR(even.spacing, 2, 1e-12);
   EXPECT_LT((even.from_world({-2, 3}) - Eigen::Vector2d(3, 2)).norm(), 1e-12);
   world.rows[2].start.x() = world.rows[2].end.x() = -4.5;
-  EXPECT_FALSE(row_frame(world).regular);
+  EXPECT_FALSE(row_frame(world.rows).regular);
   world.rows[2] = {{-4, 0}, {-5, 5}};
-  EXPECT_FALSE(row_frame(world).regular);
+  EXPECT_FALSE(row_frame(world.rows).regular);
 }
 
 TEST(RowIndexTest, FindsTheDistanceToTheNearestRow) {
@@ -282,9 +272,6 @@ TEST(PlacingTest, ThingsStandOnUnevenGround) {
   world.terrain.slope_heading_deg = 0;
   world.tags.resize(1);
   world.tags[0].position = {5, 1, 0.5};
-  world.boxes.resize(1);
-  world.boxes[0].size = {0.4, 0.4, 0.4};
-  world.boxes[0].position = {4, 1};
   world.place();
   // Height is 0 in the rows' middle, x = 3 m, and rises by 0.1 m a metre.
   EXPECT_NEAR(tag_pose(world.tags[0]).translation.z(), 0.2 + 0.5, 1e-9);
@@ -302,8 +289,8 @@ TEST(WorldFileTest, TheShippedWorldsAreWhatTheySay) {
   EXPECT_GE(vine_positions(typical).size(), 300u);
   EXPECT_EQ(registered_tags(typical).size(), 20u);
   EXPECT_FALSE(typical.terrain.flat());
-  EXPECT_TRUE(row_frame(typical).regular);
-  EXPECT_NEAR(row_frame(typical).spacing, 2.5, 1e-9);
+  EXPECT_TRUE(row_frame(typical.rows).regular);
+  EXPECT_NEAR(row_frame(typical.rows).spacing, 2.5, 1e-9);
   const WorldConfig many = load("many-rows.yaml");
   EXPECT_EQ(many.rows.size(), 10u);
   EXPECT_EQ(registered_tags(many).size(), 1u);

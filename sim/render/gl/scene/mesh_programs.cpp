@@ -32,6 +32,9 @@ MeshShader shader_for(const Material& material) {
   switch (material.label) {
     case Label::kTag:
     case Label::kBox:
+    case Label::kCrate:
+    case Label::kTarpaulin:
+    case Label::kOccluder:
     case Label::kRover:
       shader.shadows = MeshShader::Shadows::kPixels;
       break;

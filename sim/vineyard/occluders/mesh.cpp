@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/util/error.h"
+#include "sim/assets/asset_file.h"
+#include "sim/vineyard/occluders/occluder_shape.h"
+
+namespace vinebench::sim {
+namespace {
+
+/// Moves the mesh onto its foot and scales it to `size`, axis by axis.
+void fit(Asset& asset, const Eigen::Vector3f& size) {
+  const Eigen::AlignedBox3f box = asset.model.bounds;
+  const Eigen::Vector3f scale = size.cwiseQuotient(box.sizes());
+  const Eigen::Vector3f foot(box.center().x(), box.center().y(), box.min().z());
+  for (LevelOfDetail& level : asset.model.levels) {
+    for (Primitive& primitive : level.primitives) {
+      for (Vertex& vertex : primitive.vertices) {
+        vertex.position = (vertex.position - foot).cwiseProduct(scale);
+        vertex.normal = vertex.normal.cwiseQuotient(scale).normalized();
+      }
+    }
+  }
+}
+
+}  // namespace
+
+OccluderModel mesh_model(const Occluder& occluder, std::uint64_t) {
+  OccluderModel model{.asset = load_asset(*occluder.mesh)};
+  model.asset.update_bounds();
+  if (model.asset.model.bounds.isEmpty() || model.asset.model.bounds.sizes().minCoeff() <= 0) {
+    fail("{}: expected a mesh with a length, a width and a height", occluder.mesh->string());
+  }
+  fit(model.asset, size_of(occluder).cast<float>());
+  for (Material& material : model.asset.materials) {
+    material.label = label_of(class_of(occluder));
+  }
+  return model;
+}
+
+}  // namespace vinebench::sim

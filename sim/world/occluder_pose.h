@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/geometry/pose.h"
+#include "sim/world/occluder.h"
+#include "sim/world/terrain.h"
+
+namespace vinebench::sim {
+
+/// The occluder's frame in the world. A crate leans with the ground; a person stands upright on it;
+/// all else is upright and stands as low as the ground below its lowest corner, so that none hangs.
+Pose occluder_pose(const Occluder& occluder, const Terrain& terrain);
+
+}  // namespace vinebench::sim
