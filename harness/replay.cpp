@@ -62,6 +62,10 @@ std::string format_replay(const Json& metrics) {
       metrics["losses"].get<int>(), millimetres(metrics["ate_rmse_m"]),
       millimetres(metrics["ate_origin_rmse_m"]),
       rpe.is_null() ? "unknown" : fmt::format("{:.2f} %", rpe.get<double>()));
+  if (metrics.value("nees_left_out", 0) > 0) {
+    text +=
+        fmt::format("  covariance not invertible {} frames\n", metrics["nees_left_out"].get<int>());
+  }
   if (metrics.contains("input_faults")) {
     for (const auto& [kind, count] : metrics["input_faults"].items()) {
       text += fmt::format("  fault in the data         {} ({} times)\n", kind, count.get<int>());

@@ -7,6 +7,7 @@
 
 #include "core/util/error.h"
 #include "core/util/files.h"
+#include "core/util/suggestion.h"
 
 namespace vinebench {
 namespace {
@@ -22,11 +23,52 @@ std::string describe(const YAML::Node& node) {
 }
 
 /// Files that one after the other name the next as their base.
-constexpr int kMostBases = 8;
+constexpr std::size_t kMostBases = 8;
+
+/// Maps and lists in each other; no file of ours has more than a dozen.
+constexpr std::size_t kMostLevels = 64;
+
+/// Parts of one document, an alias counted as what it stands for.
+constexpr int kMostParts = 1'000'000;
+
+/// Rejects trees that are no trees: an alias may stand inside of what it names, and some lines of
+/// aliases to aliases stand for more parts than fit into memory.
+class TreeCheck {
+ public:
+  explicit TreeCheck(std::string source) : source_(std::move(source)) {}
+
+  void check(const YAML::Node& node) {
+    if (++parts_ > kMostParts) {
+      fail("{}: expected at most {} parts, aliases counted as what they stand for", place(node),
+           kMostParts);
+    }
+    if (!node.IsMap() && !node.IsSequence()) return;
+    for (const YAML::Node& outer : path_) {
+      if (outer.is(node)) fail("{}: an alias inside of what it names", place(node));
+    }
+    if (path_.size() == kMostLevels) {
+      fail("{}: expected at most {} levels of maps and lists", place(node), kMostLevels);
+    }
+    path_.push_back(node);
+    for (const auto& item : node) check(node.IsMap() ? item.second : item);
+    path_.pop_back();
+  }
+
+ private:
+  std::string place(const YAML::Node& node) const {
+    return fmt::format("{}:{}", source_, node.Mark().line + 1);
+  }
+
+  std::string source_;
+  std::vector<YAML::Node> path_;  ///< from the root to the node under check
+  int parts_ = 0;
+};
 
 YAML::Node parse(const std::filesystem::path& file) {
   try {
-    return YAML::Load(read_file(file));
+    YAML::Node tree = YAML::Load(read_file(file));
+    TreeCheck(file.string()).check(tree);
+    return tree;
   } catch (const YAML::ParserException& error) {
     fail("{}:{}: is not valid YAML: {}", file.string(), error.mark.line + 1, error.msg);
   }
@@ -86,7 +128,7 @@ YamlDocument YamlDocument::load(const std::filesystem::path& file) {
 }
 
 void YamlDocument::inherit(const std::string& key, const std::vector<std::string>& parts,
-                           int depth) {
+                           std::vector<std::filesystem::path> derived) {
   const YAML::Node named = std::as_const(root_)[key];
   if (!named.IsDefined()) return;
   const std::filesystem::path own = file_of("");
@@ -97,10 +139,16 @@ void YamlDocument::inherit(const std::string& key, const std::vector<std::string
   if (!std::filesystem::is_regular_file(file, ignored)) {
     fail("{}: {}: expected a file, found none at '{}'", place, key, file.string());
   }
-  if (depth >= kMostBases)
+  derived.push_back(own);
+  const bool circle = std::ranges::any_of(derived, [&](const std::filesystem::path& other) {
+    return std::filesystem::equivalent(file, other, ignored);
+  });
+  if (circle) fail("{}: {}: '{}' is derived from this file", place, key, file.string());
+  if (derived.size() > kMostBases) {
     fail("{}: {}: expected at most {} files in a row", place, key, kMostBases);
+  }
   YamlDocument base = load(file);
-  base.inherit(key, parts, depth + 1);
+  base.inherit(key, parts, derived);
   for (const std::string& part : parts) base.include(part);
   root_.remove(key);
   base.overlay(base.root_, root_, "", own);
@@ -110,6 +158,11 @@ void YamlDocument::inherit(const std::string& key, const std::vector<std::string
 /// Merges the items of `source`, which come from `file`, into `target`.
 void YamlDocument::overlay(YAML::Node target, const YAML::Node& source, const std::string& prefix,
                            const std::filesystem::path& file) {
+  // Aliases of both files together can make a tree that ends nowhere.
+  if (std::ranges::count(prefix, '.') >= static_cast<std::ptrdiff_t>(kMostLevels)) {
+    fail("{}:{}: expected at most {} levels of maps and lists", file.string(),
+         source.Mark().line + 1, kMostLevels);
+  }
   std::set<std::string> present;
   for (const auto& item : std::as_const(target)) present.insert(item.first.as<std::string>(""));
   for (const auto& item : source) {
@@ -144,6 +197,7 @@ void YamlDocument::set(const std::string& key, const std::string& value) {
   YAML::Node parsed;
   try {
     parsed = YAML::Load(value);
+    TreeCheck("--set " + key).check(parsed);
   } catch (const YAML::ParserException& error) {
     fail("--set {}: '{}' is not valid YAML: {}", key, value, error.msg);
   }
@@ -199,6 +253,7 @@ void YamlReader::finish() {
     if (!known_.contains(key)) {
       std::string expected;
       for (const std::string& k : known_) expected += (expected.empty() ? "" : ", ") + k;
+      expected += did_you_mean(key, {known_.begin(), known_.end()});
       violations_.push_back(fmt::format("{}: {}: unknown key, expected one of: {}",
                                         document_.place_of(full(key), place), full(key), expected));
     } else if (!seen.insert(key).second) {
@@ -283,6 +338,7 @@ void YamlReader::read_name(const YAML::Node& node, const std::string& key,
     list += (i ? ", " : "") + names[i];
   }
   violation(key, node, "expected one of: " + list);
+  if (node.IsScalar()) violations_.back() += did_you_mean(node.Scalar(), names);
 }
 
 }  // namespace vinebench

@@ -26,7 +26,8 @@ class YamlReader;
 /// from the command line.
 class YamlDocument {
  public:
-  /// Throws Error if the file cannot be read or is not valid YAML (with the line).
+  /// Throws Error if the file cannot be read, is not valid YAML, has an alias inside of what it
+  /// refers to, or more than 64 levels (with the line).
   static YamlDocument load(const std::filesystem::path& file);
 
   /// Replaces the top-level scalar `key`, a file name relative to this file, by that file's
@@ -38,7 +39,7 @@ class YamlDocument {
   /// have a base; `parts` are included in it. No effect if the key is absent. Throws Error for a
   /// missing file and for bases that go round in a circle.
   void inherit(const std::string& key, const std::vector<std::string>& parts) {
-    inherit(key, parts, 0);
+    inherit(key, parts, {});
   }
 
   /// Sets a dotted key ("slam.tracking.radius", "route.2.speed") to the YAML value `value`. An
@@ -52,7 +53,8 @@ class YamlDocument {
 
  private:
   friend class YamlReader;
-  void inherit(const std::string& key, const std::vector<std::string>& parts, int depth);
+  void inherit(const std::string& key, const std::vector<std::string>& parts,
+               std::vector<std::filesystem::path> derived);
   void overlay(YAML::Node target, const YAML::Node& source, const std::string& prefix,
                const std::filesystem::path& file);
   std::filesystem::path file_of(const std::string& key) const;

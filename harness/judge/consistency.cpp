@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/judge/consistency.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 
@@ -22,9 +24,8 @@ bool begins_in_the_world(const RunRecord& record) {
   });
 }
 
-/// Nothing where the covariance cannot be inverted, or nothing is known.
+/// Nothing where the covariance cannot be inverted.
 std::optional<double> nees(const Tick& tick) {
-  if (!tick.truth.known || !tick.estimate.T_map_body) return std::nullopt;
   const Eigen::LDLT<Matrix6d> solver(tick.estimate.covariance);
   if (!solver.isPositive() || solver.vectorD().minCoeff() <= 0) return std::nullopt;
   const Pose error = tick.estimate.T_map_body->inverse() * tick.truth.T_world_body;
@@ -38,18 +39,32 @@ std::optional<double> nees(const Tick& tick) {
 std::optional<Consistency> check_consistency(const RunRecord& record) {
   if (!begins_in_the_world(record)) return std::nullopt;
   Consistency found;
-  int frames = 0;
+  bool any_covariance = false;
   for (const Tick& tick : record.ticks) {
+    if (!tick.truth.known || !tick.estimate.T_map_body) continue;
+    any_covariance = any_covariance || !tick.estimate.covariance.isZero(0);
     const auto error = nees(tick);
-    if (!error) continue;
-    ++frames;
+    if (!error) {
+      ++found.not_invertible;
+      continue;
+    }
+    ++found.frames;
     found.nees_mean += *error;
     found.within_95 += *error <= kChiSquared6 ? 1 : 0;
   }
-  if (frames == 0) return std::nullopt;
-  found.nees_mean /= frames;
-  found.within_95 /= frames;
+  if (!any_covariance) return std::nullopt;
+  if (found.frames == 0) return found;
+  found.nees_mean /= found.frames;
+  found.within_95 /= found.frames;
   return found;
+}
+
+std::string format_left_out(const std::optional<Consistency>& consistency) {
+  if (!consistency || consistency->not_invertible == 0) return "";
+  return fmt::format(
+      "consistency: {} of {} frames with a pose are left out, for their covariance "
+      "cannot be inverted\n",
+      consistency->not_invertible, consistency->frames + consistency->not_invertible);
 }
 
 }  // namespace vinebench::harness

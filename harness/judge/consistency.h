@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "harness/run/run_record.h"
 
@@ -12,13 +13,18 @@ namespace vinebench::harness {
 /// and Kirubarajan 2001, Sect. 5.4) of the live poses, six degrees of freedom. 6 on average if the
 /// covariances are consistent, less if they are too large.
 struct Consistency {
-  double nees_mean = 0;
-  double within_95 =
-      0;  ///< share of the frames below 12.59, the 95 % quantile of chi-square, 0 to 1
+  int frames = 0;          ///< with a pose and an invertible covariance
+  double nees_mean = 0;    ///< of these; 0 if there are none
+  double within_95 = 0;    ///< share of them below 12.59, the 95 % quantile of chi-square, 0 to 1
+  int not_invertible = 0;  ///< frames with a pose that are left out because of their covariance
 };
 
 /// Of all frames with a pose and a covariance. Empty unless a registered tag was in view at the
-/// first pose: only then the map frame is aligned with the world.
+/// first pose: only then the map frame is aligned with the world. Empty too for a system that gives
+/// no covariance at all.
 std::optional<Consistency> check_consistency(const RunRecord& record);
+
+/// Readable line on the frames that are left out because of their covariance; empty without any.
+std::string format_left_out(const std::optional<Consistency>& consistency);
 
 }  // namespace vinebench::harness

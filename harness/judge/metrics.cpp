@@ -77,6 +77,21 @@ Json blind_metrics(const OcclusionSegment& blind) {
           {"inliers_drop", or_null(blind.inliers_drop())}};
 }
 
+double cpu_of_process() {
+  double seconds = 0;
+  for (const auto who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    getrusage(who, &usage);
+    for (const timeval& time : {usage.ru_utime, usage.ru_stime}) {
+      seconds += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    }
+  }
+  return seconds;
+}
+
+/// A process that a shell became by `exec` inherits the shell's time and that of its children.
+const double kCpuAtStart = cpu_of_process();
+
 }  // namespace
 
 Json result_metrics(const Trial& trial, const RunRecord& record, const RunResults& results) {
@@ -88,7 +103,7 @@ Json result_metrics(const Trial& trial, const RunRecord& record, const RunResult
   metrics["lost_frames"] = results.lost_frames;
   metrics["losses"] = results.losses;
   add_errors(metrics, results);
-  if (results.consistency) {
+  if (results.consistency && results.consistency->frames > 0) {
     metrics["nees_mean"] = results.consistency->nees_mean;
     metrics["nees_within_95"] = results.consistency->within_95;
   }
@@ -133,15 +148,7 @@ double peak_rss_mib() {
 }
 
 double cpu_seconds() {
-  double seconds = 0;
-  for (const auto who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
-    rusage usage{};
-    getrusage(who, &usage);
-    for (const timeval& time : {usage.ru_utime, usage.ru_stime}) {
-      seconds += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-    }
-  }
-  return seconds;
+  return cpu_of_process() - kCpuAtStart;
 }
 
 Json checks_json(const std::vector<Check>& checks) {

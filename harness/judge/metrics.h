@@ -25,7 +25,8 @@ double percentile(std::vector<double> samples, double share);
 /// Peak memory of this process, MiB.
 double peak_rss_mib();
 
-/// CPU time of this process' threads and of child processes that have been waited for, s.
+/// CPU time of this process' threads and of child processes that have been waited for, s, since the
+/// program started (the process may have been a shell before).
 double cpu_seconds();
 
 /// Conversion of checked expectations to metrics.json and back.

@@ -118,5 +118,88 @@ TEST_F(YamlTest, IncludedFilesKeepTheirOwnPlaces) {
       testing::ThrowsMessage<Error>(testing::HasSubstr("outer.yaml:2: inner: expected a file")));
 }
 
+TEST_F(YamlTest, SuggestsTheNearestKeyAndName) {
+  EXPECT_THAT(error_of("cuont: 4\n"), testing::HasSubstr("; did you mean 'count'?"));
+  EXPECT_THAT(error_of("inner: {radios: 4}\n"), testing::HasSubstr("; did you mean 'radius'?"));
+  EXPECT_THAT(error_of("zebra: 4\n"), testing::Not(testing::HasSubstr("did you mean")));
+  EXPECT_THAT(error_of("colour: geen\n"),
+              testing::HasSubstr("found 'geen'; did you mean 'green'?"));
+}
+
+TEST_F(YamlTest, CyclicAliasesAreErrors) {
+  EXPECT_THAT(error_of("on: true\ninner: &a\n  radius: 1\n  again: *a\n"),
+              testing::HasSubstr("bad.yaml:2: an alias inside of what it names"));
+  EXPECT_THAT(error_of("list: &a [{radius: 1}, [*a]]\n"),
+              testing::HasSubstr("bad.yaml:1: an alias inside of what it names"));
+  YamlDocument document = YamlDocument::load(write("outer.yaml", "on: true\n"));
+  EXPECT_THAT([&] { document.set("inner", "&a {again: *a}"); },
+              testing::ThrowsMessage<Error>(testing::HasSubstr("--set inner:1: an alias inside")));
+}
+
+TEST_F(YamlTest, CyclicAliasesInABaseAreErrors) {
+  // Joining the two would go down for ever.
+  const char* cyclic = "inner: &a {again: *a}\n";
+  write("base.yaml", cyclic);
+  EXPECT_THAT(test::error_of([&] {
+                YamlDocument::load(write("own.yaml", std::string("base: base.yaml\n") + cyclic))
+                    .inherit("base", {});
+              }),
+              testing::HasSubstr("own.yaml:2: an alias inside of what it names"));
+  EXPECT_THAT(test::error_of([&] {
+                YamlDocument::load(write("own.yaml", "base: base.yaml\n")).inherit("base", {});
+              }),
+              testing::HasSubstr("base.yaml:1: an alias inside of what it names"));
+}
+
+TEST_F(YamlTest, AliasesThatBecomeACircleByJoiningAreErrors) {
+  // a, b and c of the base are one map. Joined to it, p.q gets an r that is p, and then p is joined
+  // to itself.
+  write("base.yaml", "a: &x {}\nb: *x\nc: *x\n");
+  YamlDocument document = YamlDocument::load(
+      write("own.yaml", "base: base.yaml\na: {p: &s {q: {}}}\nb: {p: {q: {r: *s}}}\nc: {p: *s}\n"));
+  EXPECT_THAT([&] { document.inherit("base", {}); },
+              testing::ThrowsMessage<Error>(testing::HasSubstr("own.yaml:2: expected at most 64")));
+}
+
+TEST_F(YamlTest, DepthAndSizeAreLimited) {
+  std::string deep = "1";
+  for (int i = 0; i < 70; ++i) deep = "[" + deep + "]";
+  EXPECT_THAT(error_of("list: " + deep + "\n"), testing::HasSubstr("at most 64 levels"));
+  // Ten aliases of ten of ten ...: a line each, 10^9 parts.
+  std::string text = "l0: &l0 [1]\n";
+  for (int i = 1; i < 10; ++i) {
+    text += fmt::format("l{0}: &l{0} [", i);
+    for (int j = 0; j < 10; ++j) text += fmt::format("{}*l{}", j ? ", " : "", i - 1);
+    text += "]\n";
+  }
+  EXPECT_THAT(error_of(text), testing::HasSubstr("at most 1000000 parts"));
+}
+
+TEST_F(YamlTest, BasesThatLeadBackAreErrors) {
+  write("a.yaml", "# a comment\nbase: b.yaml\n");
+  write("b.yaml", "base: a.yaml\n");
+  const std::filesystem::path file = write("own.yaml", "base: a.yaml\n");
+  EXPECT_THAT([&] { YamlDocument::load(file).inherit("base", {}); },
+              testing::ThrowsMessage<Error>(
+                  testing::AllOf(testing::HasSubstr("b.yaml:1: base: "),
+                                 testing::HasSubstr("a.yaml' is derived from this file"))));
+  EXPECT_THAT(
+      [&] { YamlDocument::load(write("own.yaml", "base: own.yaml\n")).inherit("base", {}); },
+      testing::ThrowsMessage<Error>(testing::HasSubstr("own.yaml:1: base: ")));
+}
+
+TEST_F(YamlTest, BasesInARowAreLimited) {
+  write("0.yaml", "on: true\n");
+  for (int i = 1; i <= 9; ++i) {
+    write(fmt::format("{}.yaml", i), fmt::format("base: {}.yaml\n", i - 1));
+  }
+  const std::filesystem::path folder = write("8.yaml", "base: 7.yaml\n").parent_path();
+  YamlDocument eight = YamlDocument::load(folder / "8.yaml");  // with eight bases
+  eight.inherit("base", {});
+  EXPECT_TRUE(eight.read<Outer>().on);
+  EXPECT_THAT([&] { YamlDocument::load(folder / "9.yaml").inherit("base", {}); },
+              testing::ThrowsMessage<Error>(testing::HasSubstr("at most 8 files in a row")));
+}
+
 }  // namespace
 }  // namespace vinebench

@@ -142,7 +142,7 @@ TEST_F(ScenarioTest, ErrorsNameTheFileOfTheBaseOrOfTheScenario) {
   EXPECT_THAT(error_with("", "base: nowhere.yaml\n"),
               testing::HasSubstr("derived.yaml:1: base: expected a file, found none at"));
   EXPECT_THAT(error_with("", "base: derived.yaml\n"),
-              testing::HasSubstr("base: expected at most 8 files in a row"));
+              testing::HasSubstr("is derived from this file"));
 }
 
 TEST_F(ScenarioTest, ResolvedTextIsTheSameScenario) {

@@ -47,6 +47,31 @@ TEST(ConsistencyTest, FramesWithoutPoseTruthOrCovarianceAreLeftOut) {
   EXPECT_NEAR(check_consistency(record)->nees_mean, 1, 1e-9);
 }
 
+TEST(ConsistencyTest, CountsWhatItLeavesOutForItsCovariance) {
+  RunRecord record = record_of({0.01, 0.05, 0.05, 0.05});
+  record.ticks[1].estimate.T_map_body.reset();  // has no pose: not counted
+  record.ticks[2].estimate.covariance.setZero();
+  record.ticks[3].estimate.covariance(0, 0) = 0;  // of rank five
+  const auto found = check_consistency(record);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->frames, 1);
+  EXPECT_EQ(found->not_invertible, 2);
+  EXPECT_EQ(format_left_out(found),
+            "consistency: 2 of 3 frames with a pose are left out, for their covariance cannot be "
+            "inverted\n");
+}
+
+TEST(ConsistencyTest, SaysSoWhereNoCovarianceCanBeInverted) {
+  RunRecord record = record_of({0.01, 0.01});
+  for (Tick& tick : record.ticks) tick.estimate.covariance(0, 0) = -1e-4;
+  ASSERT_TRUE(check_consistency(record));
+  EXPECT_EQ(check_consistency(record)->frames, 0);
+  EXPECT_EQ(check_consistency(record)->not_invertible, 2);
+  for (Tick& tick : record.ticks) tick.estimate.covariance.setZero();  // a system without any
+  EXPECT_FALSE(check_consistency(record));
+  EXPECT_EQ(format_left_out(std::nullopt), "");
+}
+
 TEST(ConsistencyTest, NeedsARegisteredTagInTheFirstFrame) {
   RunRecord record = record_of({0.01, 0.01});
   record.tags[0].registered = false;
