@@ -43,7 +43,7 @@ class Check {
     card_ = read_card(folder_);
     if (!card_.complete) {
       report_.notes.push_back(
-          fmt::format("{}recording was interrupted; what there is of it was checked",
+          fmt::format("{}recording was interrupted; the existing part was checked",
                       prefix_.empty() ? "" : prefix_ + ": "));
     }
     check_files();
@@ -67,7 +67,7 @@ class Check {
   void check_files() {
     const fs::path list = folder_ / FileManifest::kName;
     if (card_.complete && xxh128(read_file(list)) != card_.files_xxh128) {
-      fault(FileManifest::kName, "is not the list that dataset.yaml has the hash of");
+      fault(FileManifest::kName, "does not match its hash in dataset.yaml");
     }
     std::set<std::string> listed{DatasetCard::kName, FileManifest::kName};
     for (const ListedFile& file : read_manifest(list)) {
@@ -77,10 +77,11 @@ class Check {
       if (!fs::is_regular_file(folder_ / file.name, ignored)) {
         fault(file.name, "is missing");
       } else if (xxh128_of_file(folder_ / file.name) != file.hash) {
-        fault(file.name, "is damaged: its hash is not that of the list");
+        fault(file.name, "is damaged: its hash differs from the list");
       }
     }
-    if (!card_.complete || !card_.sequences.empty()) return;  // lists are named when they are whole
+    if (!card_.complete || !card_.sequences.empty())
+      return;  // incomplete lists are not in the manifest
     for (const std::string& name : files_below(folder_)) {
       if (!listed.contains(name) && !name.ends_with(kPartial)) {
         fault(name, "is not in the list of files");
@@ -96,16 +97,15 @@ class Check {
       frame.T_world_body.rotation =
           Eigen::Quaterniond(row.number(9), row.number(6), row.number(7), row.number(8));
       if (row.number(0) != static_cast<double>(sequence_.frames.size())) {
-        fault("frames.csv",
-              fmt::format("expected number {} in its place", sequence_.frames.size()));
+        fault("frames.csv", fmt::format("expected number {} here", sequence_.frames.size()));
       }
       if (!sequence_.frames.empty() && frame.stamp <= sequence_.frames.back().stamp) {
         fault("frames.csv",
               fmt::format("frame {}: its stamp does not ascend", sequence_.frames.size()));
       }
       if (std::abs(frame.T_world_body.rotation.norm() - 1) > 1e-9) {
-        fault("frames.csv",
-              fmt::format("frame {}: its quaternion is no unit one", sequence_.frames.size()));
+        fault("frames.csv", fmt::format("frame {}: its quaternion is not of unit length",
+                                        sequence_.frames.size()));
       }
       sequence_.frames.push_back(frame);
     }
@@ -116,7 +116,7 @@ class Check {
     }
   }
 
-  /// What every format says of itself: its lists, and label images of some frames.
+  /// The checks of every format: its lists, and label images of some frames.
   void check_formats() {
     std::vector<DatasetFault> faults;
     std::vector<const DatasetFormat*> formats;

@@ -13,17 +13,16 @@ namespace vinebench::harness {
 
 struct DatasetReport {
   std::vector<DatasetFault> faults;
-  std::vector<std::string> notes;  ///< what is no fault, such as an interruption
+  std::vector<std::string> notes;  ///< remarks that are not faults, such as an interruption
   std::int64_t sequences = 0;
   std::int64_t frames = 0;
-  std::int64_t files = 0;         ///< whose hashes were compared
-  std::int64_t label_images = 0;  ///< that were held against depth and calibration
+  std::int64_t files = 0;         ///< with compared hashes
+  std::int64_t label_images = 0;  ///< compared with depth and calibration
 };
 
-/// Checks a data set that `vinebench record` made: that every file is there with the hash that the
-/// list says and none beside them, that each format's check holds, and at some frames that
-/// of its label images. Of an
-/// interrupted one, what there is. Throws Error for a folder that is no such data set.
+/// Checks a data set of `vinebench record`: that every listed file exists with its hash and there
+/// are no others, that each format's check holds, and at some frames that of its label images. Of
+/// an interrupted one, what there is. Throws Error for a folder that is no such data set.
 DatasetReport check_dataset(const std::filesystem::path& folder);
 
 }  // namespace vinebench::harness

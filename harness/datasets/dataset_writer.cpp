@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// frames.csv; also what says that a frame is whole in all formats, as it stands last among them.
+/// frames.csv. It is written last, so a frame in it is complete in all formats.
 class FrameList : public FormatWriter {
  public:
   explicit FrameList(const fs::path& file) : list_(file) {
@@ -79,7 +79,7 @@ DatasetWriter::DatasetWriter(const fs::path& folder, const RecordingNotes& notes
   claim_folder(folder);
   try {
     begin(chosen, source.scene());
-  } catch (const Error&) {  // a format that does not go with the rig: the folder stays as it was
+  } catch (const Error&) {  // a format that is incompatible with the rig: the folder is unchanged
     clear_folder(folder);
     throw;
   }

@@ -11,21 +11,20 @@
 
 namespace vinebench::harness {
 
-/// Records a run of a scenario as one sequence: the formats side by side, each in a folder of its
-/// name; beside them frames.csv (number, frame of the run, stamp and true pose), calibration.yaml
-/// (the cameras as they truly are), scenario.resolved.yaml, the list of files and dataset.yaml.
+/// Records a run of a scenario as one sequence: one folder for each format; beside them frames.csv
+/// (number, frame of the run, stamp and true pose), calibration.yaml (the true cameras),
+/// scenario.resolved.yaml, the list of files and dataset.yaml.
 class DatasetWriter : public Sink {
  public:
-  /// Throws Error for a folder that is not empty or cannot be written to, a camera that is none,
-  /// and formats that do not go with the rig. The source must outlive the writer; so many of its
-  /// frames are planned.
+  /// Throws Error for a folder that is not empty or cannot be written to, an unknown camera, and
+  /// formats that are incompatible with the rig. The source must outlive the writer.
   DatasetWriter(const std::filesystem::path& folder, const RecordingNotes& notes,
                 const SimulatedSource& source, const RecordOptions& options, std::int64_t planned);
 
-  /// Frames that the options leave out are passed over. Throws when the disk is full; what is there
-  /// stays readable.
+  /// Frames not selected by the options are skipped. Throws if the disk is full; what has been
+  /// written remains readable.
   void on_tick(const Sample& sample, const Estimate& estimate) override;
-  /// Whether the recording is complete shows by the number of frames.
+  /// The number of frames determines whether the recording is complete.
   void on_finish(const SlamSummary& summary) override;
 
   std::int64_t frames() const { return frames_; }
@@ -46,7 +45,7 @@ class DatasetWriter : public Sink {
   std::unique_ptr<DatasetEncoder> encoder_;
 };
 
-/// Hash of all that makes a recording what it is.
+/// Hash of all inputs of a recording.
 std::string settings_hash(const RecordingNotes& notes, const RecordOptions& options);
 
 }  // namespace vinebench::harness

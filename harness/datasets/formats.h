@@ -9,20 +9,21 @@
 
 namespace vinebench::harness {
 
-/// Every format, in the order in which data sets have them. This is the one list of them.
+/// The list of all formats, in the order of data sets.
 const std::vector<DatasetFormat>& dataset_formats();
 
-/// The format of that name. Throws Error for a name that is none's.
+/// The format of that name. Throws Error for an unknown name.
 const DatasetFormat& format_named(const std::string& name);
 
 /// Names of the formats that this build can write.
 std::vector<std::string> all_formats();
 
 /// Names of formats, each once, in the list's order; "--format" is the option that errors name.
-/// Throws Error that lists what there is.
+/// Throws Error that lists the known formats.
 std::vector<std::string> parse_formats(const std::vector<std::string>& names);
 
-/// What the formats ask of the simulation. Throws Error for a camera that the rig does not have.
+/// The data that the formats require of the simulation. Throws Error for a camera that the rig does
+/// not have.
 CapturePlan plan_of(const RecordOptions& options, const Rig& rig);
 
 }  // namespace vinebench::harness

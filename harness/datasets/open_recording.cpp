@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "a format's folder or another's".
+/// The layouts of all readable formats, for messages.
 std::string known_layouts() {
   std::vector<std::string> layouts;
   for (const DatasetFormat& format : dataset_formats()) {
@@ -26,7 +26,7 @@ std::string known_layouts() {
   return fmt::format("{}", fmt::join(layouts, " or "));
 }
 
-/// The format whose reader recognises a folder; null where none does.
+/// The format whose reader detects a folder; null if none does.
 const DatasetFormat* format_of(const fs::path& folder) {
   for (const DatasetFormat& format : dataset_formats()) {
     if (format.reader.read && format.reader.recognises(folder)) return &format;
@@ -34,7 +34,7 @@ const DatasetFormat* format_of(const fs::path& folder) {
   return nullptr;
 }
 
-/// The first image of each camera that can be read must have the size of its calibration.
+/// The first readable image of each camera must have the size of its calibration.
 void check_sizes(const Recording& recording) {
   for (std::size_t camera = 0; camera < recording.rig.cameras.size(); ++camera) {
     const RigCamera& expected = recording.rig.cameras[camera];
@@ -48,7 +48,7 @@ void check_sizes(const Recording& recording) {
   }
 }
 
-/// A data set of ours has its formats side by side, in folders of their names.
+/// A data set of ours has one folder for each format.
 fs::path readable_part(const fs::path& folder) {
   if (format_of(folder) != nullptr || !has_card(folder)) return folder;
   std::error_code ignored;
@@ -70,7 +70,7 @@ Recording open_recording(const fs::path& named, const RecordingOptions& options)
   const fs::path folder = readable_part(named);
   const DatasetFormat* format = format_of(folder);
   if (format == nullptr) {
-    fail("{}: is no recording: expected {}", folder.string(), known_layouts());
+    fail("{}: is not a recording: expected {}", folder.string(), known_layouts());
   }
   Recording recording = format->reader.read(folder, options);
   recording.name = fs::weakly_canonical(named).filename().string();

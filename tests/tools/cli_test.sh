@@ -109,7 +109,7 @@ expect 2 "eval of unrelated trajectories" "later.tum: fewer than three" -- \
 expect 0 "help of replay" "DATASET" "--groundtruth" "--rig" -- replay --help
 mkdir -p "$work/empty" "$work/kitti/image_l" "$work/kitti/image_r" "$work/euroc/mav0/cam0"
 expect 2 "replay of nothing" "none: expected a folder" -- replay "$work/none"
-expect 2 "replay of an empty folder" "is no recording: expected an EuRoC/ASL folder" "KITTI" -- \
+expect 2 "replay of an empty folder" "is not a recording: expected an EuRoC/ASL folder" "KITTI" -- \
   replay "$work/empty"
 echo "20 0 15 0 0 20 11 0 0 0 1" >"$work/kitti/calib.txt"
 expect 2 "replay with a short matrix" "calib.txt:1: expected 12 numbers" "found 11" -- \
@@ -144,7 +144,7 @@ expect 0 "comparison" "row: B is unknown" "one pair" -- compare "$work/a" "$work
 sed -i 's/"seed": 1/"seed": 2/' "$work/b/metrics.json"
 expect 2 "comparison of unrelated runs" "no scenario and seed is in both folders" -- \
   compare "$work/a" "$work/b"
-expect 2 "bench of no data set" "is no recording" -- bench slam "$work/empty"
+expect 2 "bench of no data set" "is not a recording" -- bench slam "$work/empty"
 
 echo junk >"$work/junk.map"
 quick_loop=$root/scenarios/quick-loop.yaml

@@ -45,7 +45,7 @@ expect 2 "is not empty" "${record[@]}" --format rgb --out "$work/data"
 expect 2 "unknown format 'eroc', expected some of euroc" "${record[@]}" --format eroc --out "$work/b"
 expect 2 "no camera named 'front'" "${record[@]}" --format rgb --cameras front --out "$work/c"
 expect 2 "--seeds 5..1: expected A..B" "${record[@]}" --format rgb --seeds 5..1 --out "$work/d"
-expect 2 "'grape' is no kind of thing" "${record[@]}" --format coco --labels grape --out "$work/e"
+expect 2 "unknown category 'grape'" "${record[@]}" --format coco --labels grape --out "$work/e"
 expect 2 "none.yaml" "${record[@]}" --format rgb --randomise "$work/none.yaml" --out "$work/f"
 expect 2 "--out" "${record[@]}" --format rgb
 touch "$work/file"

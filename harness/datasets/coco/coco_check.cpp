@@ -38,7 +38,7 @@ class Checker {
     try {
       check_instances();
       check_panoptic();
-    } catch (const Json::exception& error) {  // a key that is missing or of another type
+    } catch (const Json::exception& error) {  // a missing key or a wrong type
       faults_.push_back({file_, error.what()});
     }
     return std::move(faults_);
@@ -57,7 +57,7 @@ class Checker {
       }
       const auto name = image.at("file_name").get<std::string>();
       std::error_code ignored;
-      if (!fs::exists(folder_ / name, ignored)) fault(name + ": there is no such image");
+      if (!fs::exists(folder_ / name, ignored)) fault(name + ": image is missing");
     }
     return sizes;
   }
@@ -79,7 +79,7 @@ class Checker {
       if (!ids.insert(id).second) fault(fmt::format("annotation {} is listed twice", id));
       const auto image = sizes.find(annotation.at("image_id").get<std::int64_t>());
       if (image == sizes.end() || !categories.contains(annotation.at("category_id").get<int>())) {
-        fault(fmt::format("annotation {} names an image or category that is not there", id));
+        fault(fmt::format("annotation {}: unknown image or category", id));
         continue;
       }
       annotation.at("iscrowd").get<int>();
@@ -90,7 +90,7 @@ class Checker {
   void check_mask(const Json& annotation, const cv::Size& size, std::int64_t id) {
     const Json& mask = annotation.at("segmentation");
     if (mask.at("size") != Json::array({size.height, size.width})) {
-      fault(fmt::format("annotation {}: its mask is not of its image's size", id));
+      fault(fmt::format("annotation {}: its mask does not have its image's size", id));
       return;
     }
     Runs runs;
@@ -103,7 +103,7 @@ class Checker {
     const cv::Rect box = box_of(runs, size.height);
     if (annotation.at("area").get<std::int64_t>() != area_of(runs) ||
         annotation.at("bbox") != Json::array({box.x, box.y, box.width, box.height})) {
-      fault(fmt::format("annotation {}: area or box are not those of its mask", id));
+      fault(fmt::format("annotation {}: area or box do not match its mask", id));
     }
   }
 
@@ -118,17 +118,17 @@ class Checker {
       const auto name = annotation.at("file_name").get<std::string>();
       std::map<int, std::int64_t> areas =
           areas_of(cv::imread((folder_ / "panoptic" / name).string()));
-      if (areas.empty()) fault(name + ": is no whole image");
+      if (areas.empty()) fault(name + ": is not a complete image");
       for (const Json& segment : annotation.at("segments_info")) {
         const auto found = areas.find(segment.at("id").get<int>());
         if (found == areas.end() || found->second != segment.at("area").get<std::int64_t>() ||
             !categories.contains(segment.at("category_id").get<int>())) {
-          fault(fmt::format("{}: segment {} is not as the image has it", name,
+          fault(fmt::format("{}: segment {} does not match the image", name,
                             segment.at("id").get<int>()));
         }
         if (found != areas.end()) areas.erase(found);
       }
-      if (!areas.empty()) fault(fmt::format("{}: {} segments are not named", name, areas.size()));
+      if (!areas.empty()) fault(fmt::format("{}: {} segments are not listed", name, areas.size()));
     }
   }
 

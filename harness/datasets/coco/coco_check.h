@@ -9,10 +9,10 @@
 
 namespace vinebench::harness {
 
-/// Reads a COCO folder of ours strictly: ids are unique and known, images are there, every mask
+/// Checks a COCO folder of ours strictly: ids are unique and known, images exist, every mask
 /// decompresses to its image's size, and its area and box are the annotation's; in the first
-/// panoptic images, that each segment has the area that is said of it and no pixel has none.
-/// Throws Error for files that are no JSON.
+/// panoptic images, every segment has its listed area and every pixel a segment. Throws Error for
+/// files that are not valid JSON.
 std::vector<DatasetFault> check_coco(const std::filesystem::path& folder);
 
 }  // namespace vinebench::harness

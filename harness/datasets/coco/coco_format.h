@@ -6,7 +6,7 @@
 
 namespace vinebench::harness {
 
-/// COCO: boxes, masks and panoptic images; of several sequences also the lists of them all.
+/// COCO: boxes, masks and panoptic images; for several sequences also their combined lists.
 DatasetFormat coco_format();
 
 }  // namespace vinebench::harness

@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::int64_t kCameras = 16;              // at most, for ids
 constexpr std::int64_t kThingsPerImage = 100'000;  // likewise
 
-/// What cannot be counted one by one: COCO's crowds.
+/// Not individually countable: COCO's crowds.
 bool is_crowd(Category category) {
   return category == Category::kLeaf || category == Category::kCane;
 }

@@ -13,13 +13,13 @@ namespace vinebench::harness {
 
 struct CocoOptions {
   ImageKind kind = ImageKind::kPng;
-  std::set<Category> categories;    ///< of instances.json; all things where empty
-  std::int64_t first_image_id = 1;  ///< differs from sequence to sequence of one data set
+  std::set<Category> categories;    ///< of instances.json; all things if empty
+  std::int64_t first_image_id = 1;  ///< distinct for the sequences of a data set
 };
 
-/// COCO: images/, instances.json (a box, a run-length mask, visibility and truncation for every
-/// thing; a plant's leaves and canes are crowds), panoptic.json with panoptic/. Until all is
-/// written, what it has of the lists stands in files of one JSON object a line (*.jsonl).
+/// COCO: images/, instances.json (box, mask RLE, visibility and truncation for every thing; a
+/// plant's leaves and canes are crowds), panoptic.json with panoptic/. During the recording the
+/// lists are in files of one JSON object on each line (*.jsonl).
 class CocoWriter : public FormatWriter {
  public:
   CocoWriter(const std::filesystem::path& folder, const RecordingNotes& notes,
@@ -30,7 +30,7 @@ class CocoWriter : public FormatWriter {
   void finish() override;
 
  private:
-  /// What a camera's image says, made beside the others' and put into the lists in order.
+  /// The list items of a camera's image, computed in parallel and appended in order.
   struct Lines {
     std::string image;
     std::string annotations;
@@ -47,13 +47,13 @@ class CocoWriter : public FormatWriter {
   AppendFile images_;
   AppendFile annotations_;
   AppendFile panoptic_;
-  std::vector<Lines> pending_;  ///< of the frame that is being written, by camera
+  std::vector<Lines> pending_;  ///< of the current frame, by camera
 };
 
 /// Numbers of the images of a camera: frame by frame, camera by camera.
 std::int64_t coco_image_id(const CocoOptions& options, std::int64_t frame, std::size_t camera);
 
-/// Ids of images of one sequence stay below this; the next one's begin there.
+/// Upper bound of the image ids of one sequence; the next one begins there.
 inline constexpr std::int64_t kCocoImagesPerSequence = 10'000'000;
 
 }  // namespace vinebench::harness

@@ -6,7 +6,7 @@
 
 namespace vinebench::harness {
 
-/// What DC-VSLAM's own programs read without ROS.
+/// The input of DC-VSLAM's programs without ROS.
 DatasetFormat dcvslam_format();
 
 }  // namespace vinebench::harness

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kPairs = 2;  // all that it knows of
+constexpr std::size_t kPairs = 2;  // supported by DC-VSLAM
 constexpr std::array<std::array<const char*, 2>, kPairs> kFolders{
     {{"left", "right"}, {"leftBack", "rightBack"}}};
 constexpr const char* kTagHeader =
@@ -66,7 +66,7 @@ const Pose& left_camera(const Rig& rig, std::size_t pair) {
   return rig.cameras[static_cast<std::size_t>(rig.stereo_pairs[pair].left)].T_body_cam;
 }
 
-/// With one pair, the second is said to be where the first is.
+/// With one pair, the second has the pose of the first.
 std::string settings(const Rig& rig, std::int64_t frames) {
   const bool dual = pairs_of(rig) == kPairs;
   std::string text = fmt::format(

@@ -7,9 +7,9 @@
 
 namespace vinebench::harness {
 
-/// What DC-VSLAM reads without ROS (its programs SingleCam and DualCam, run in this folder):
+/// DC-VSLAM's input without ROS (its programs SingleCam and DualCam, run in this folder):
 /// config.yaml, the images of the first pair in left and right, of a second one in leftBack and
-/// rightBack; and tags.csv, the tags that are wholly in view, with their true poses and corners
+/// rightBack; and tags.csv, the tags that are completely in view, with their true poses and corners
 /// (bottom left first, then anticlockwise, px).
 class DcvslamWriter : public FormatWriter {
  public:

@@ -9,7 +9,7 @@
 
 namespace vinebench::harness {
 
-/// A tag that is wholly in a tag camera's image, as it truly is.
+/// A tag that is completely in a tag camera's image, with its true pose.
 struct TagInView {
   std::size_t camera = 0;  ///< of the data set
   WorldTag tag;
@@ -18,7 +18,7 @@ struct TagInView {
   std::array<Eigen::Vector2d, 4> corners;
 };
 
-/// What Truth::visible_tags says, by camera.
+/// The tags of Truth::visible_tags, by camera.
 std::vector<TagInView> tags_in_view(const DatasetFrame& frame, const RecordingNotes& notes);
 
 }  // namespace vinebench::harness

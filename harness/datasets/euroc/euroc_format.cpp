@@ -28,7 +28,7 @@ void check_camera(const RecordedSequence& sequence, const std::string& camera,
       faults.push_back({list, fmt::format("{}: no frame has this stamp", row.fields[0])});
     }
     if (!sequence.has(camera + "/data/" + row.fields[1])) {
-      faults.push_back({list, fmt::format("{}: there is no such image", row.fields[1])});
+      faults.push_back({list, fmt::format("{}: image is missing", row.fields[1])});
     }
   }
 }

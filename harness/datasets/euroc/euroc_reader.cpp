@@ -19,13 +19,13 @@ namespace fs = std::filesystem;
 constexpr const char* kFrameList = "frames.csv";
 constexpr double kDefaultRate = 20;  // Hz, of EuRoC's cameras
 
-/// The folder with cam0 in it; a user may name it or the one above.
+/// The folder that contains cam0; the user may name it or its parent.
 fs::path sensor_folder(const fs::path& folder) {
   std::error_code ignored;
   return fs::is_directory(folder / "mav0", ignored) ? folder / "mav0" : folder;
 }
 
-/// cam0, cam1, … as far as they go.
+/// cam0, cam1, … without gaps.
 std::vector<fs::path> camera_folders(const fs::path& sensors) {
   std::vector<fs::path> folders;
   std::error_code ignored;
@@ -50,7 +50,7 @@ ImageList read_images(const fs::path& folder, bool may_be_empty) {
   return list;
 }
 
-/// Our recordings list the frames, since any camera may have missed one; else cam0 tells them.
+/// Our recordings list the frames, because any camera may lack one; otherwise cam0 defines them.
 std::vector<Stamp> read_instants(const fs::path& folder, const ImageList& first_camera) {
   const fs::path file = folder / kFrameList;
   std::error_code ignored;
@@ -66,7 +66,7 @@ std::vector<Stamp> read_instants(const fs::path& folder, const ImageList& first_
   return instants;
 }
 
-/// cam0 and cam1 are a pair, and so are cam2 and cam3; further cameras look for tags.
+/// cam0 and cam1 are a pair, and so are cam2 and cam3; further cameras are tag cameras.
 Rig rig_of_sensors(const std::vector<fs::path>& folders) {
   Rig rig;
   rig.name = "EuRoC";
@@ -95,17 +95,17 @@ Rig read_rig(const fs::path& folder, const std::vector<fs::path>& cameras,
   return rig_of_sensors(cameras);
 }
 
-/// Readings in the order of time, each stamp once.
+/// Readings sorted by time, without duplicate stamps.
 template <class Reading>
 void put_in_order(std::vector<Reading>& readings, const std::string& sensor, Recording& recording) {
   const bool ascending = std::ranges::is_sorted(readings, {}, &Reading::stamp);
   std::ranges::stable_sort(readings, {}, &Reading::stamp);
   const auto repeated = std::ranges::unique(readings, {}, &Reading::stamp);
   std::vector<SourceEvent>& events = recording.frames.front().events;
-  if (!ascending) events.push_back({"stamp_out_of_order", sensor, "readings put in their place"});
+  if (!ascending) events.push_back({"stamp_out_of_order", sensor, "readings sorted"});
   if (!repeated.empty()) {
     events.push_back(
-        {"stamp_repeated", sensor, fmt::format("{} readings left out", repeated.size())});
+        {"stamp_repeated", sensor, fmt::format("{} readings dropped", repeated.size())});
   }
   readings.erase(repeated.begin(), repeated.end());
 }
@@ -132,7 +132,7 @@ void read_imu(const fs::path& folder, Recording& recording) {
   put_in_order(recording.imu, "imu0", recording);
 }
 
-/// Ours alone: angles and speeds of the four wheels.
+/// Our extension: angles and speeds of the four wheels.
 void read_wheels(const fs::path& folder, Recording& recording) {
   std::error_code ignored;
   if (!fs::exists(folder / "data.csv", ignored)) return;
@@ -150,7 +150,7 @@ void read_wheels(const fs::path& folder, Recording& recording) {
   put_in_order(recording.wheels, "wheels0", recording);
 }
 
-/// The state estimate where there is one, else what a motion-capture system saw.
+/// The state estimate if there is one, otherwise motion capture.
 Trajectory read_truth(const fs::path& sensors) {
   for (const char* name : {"state_groundtruth_estimate0", "vicon0"}) {
     const fs::path folder = sensors / name;
@@ -172,7 +172,7 @@ bool is_euroc(const fs::path& folder) {
 
 Recording read_euroc(const fs::path& named, const RecordingOptions& options) {
   const fs::path sensors = sensor_folder(named);
-  // Of a folder that was named as ".../mav0" the one above is meant.
+  // For a folder ".../mav0" its parent is used.
   const bool inner = sensors == named && fs::weakly_canonical(named).filename() == "mav0";
   const fs::path folder = inner ? fs::weakly_canonical(named).parent_path() : named;
   std::vector<fs::path> cameras = camera_folders(sensors);

@@ -9,7 +9,7 @@ namespace vinebench::harness {
 /// Whether a folder has mav0 or cam0.
 bool is_euroc(const std::filesystem::path& folder);
 
-/// Reads an EuRoC/ASL folder, with what our recordings have beside it. Throws Error for a
+/// Reads an EuRoC/ASL folder, including the extensions of our recordings. Throws Error for a
 /// calibration that cannot be used and for lists that are not there or faulty.
 Recording read_euroc(const std::filesystem::path& folder, const RecordingOptions& options);
 

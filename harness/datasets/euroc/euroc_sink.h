@@ -10,13 +10,13 @@
 
 namespace vinebench::harness {
 
-/// Writes a run as one EurocWriter, without a data set's card around it. A replay of it gives the
-/// run's estimate to the bit. A frame is in the lists once its images are whole, so that an
-/// interrupted recording can be read.
+/// Writes a run with one EurocWriter, without dataset.yaml. A replay of it gives the run's estimate
+/// bit by bit. A frame is listed once its images are complete, so that an interrupted recording can
+/// be read.
 class EurocSink : public Sink {
  public:
-  /// Throws Error for a folder that is not empty or cannot be written to. Writing frames throws
-  /// when the disk is full.
+  /// Throws Error for a folder that is not empty or cannot be written to. Writing frames throws if
+  /// the disk is full.
   EurocSink(const std::filesystem::path& folder, const RecordingNotes& notes);
 
   void on_tick(const Sample& sample, const Estimate& estimate) override;

@@ -156,7 +156,7 @@ void EurocWriter::write_truth(const StampedPose& now) {
   poses_.pop_front();
 }
 
-/// With the mean velocity from one pose to another; biases are the sensor models' secret.
+/// With the mean velocity from one pose to another; the sensor models do not expose biases.
 void EurocWriter::append_truth(const StampedPose& at, const StampedPose& from,
                                const StampedPose& to) {
   const double seconds = to_seconds(to.stamp - from.stamp);

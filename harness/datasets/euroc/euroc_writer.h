@@ -12,16 +12,17 @@
 namespace vinebench::harness {
 
 /// EuRoC/ASL: mav0 with cam0, cam1, … in the order of the rig (grey or RGB, PNG), imu0, wheels0,
-/// state_groundtruth_estimate0; beside mav0 times.txt (ns of the frames that both cameras of the
-/// first pair have, for ORB-SLAM3), settings for other SLAM systems, and what is ours: frames.csv
-/// (stamps of all frames, for a camera may miss one), rig.yaml, tags.yaml, slam.yaml.
+/// state_groundtruth_estimate0; beside mav0 times.txt (ns of the frames with images of both cameras
+/// of the first pair, for ORB-SLAM3), settings for other SLAM systems, and our extensions:
+/// frames.csv (stamps of all frames, because a camera may lack one), rig.yaml, tags.yaml,
+/// slam.yaml.
 class EurocWriter : public FormatWriter {
  public:
   EurocWriter(const std::filesystem::path& folder, const RecordingNotes& notes, bool colour);
 
   std::vector<FileTask> files(const std::shared_ptr<const DatasetFrame>& frame) override;
   void commit(const DatasetFrame& frame) override;
-  /// The last true pose waits for the next one, which its speed is computed with.
+  /// A true pose is written with the next one, because its velocity needs both.
   void finish() override;
 
  private:

@@ -13,7 +13,7 @@
 namespace vinebench::harness {
 namespace {
 
-/// Some writers begin with OpenCV's "%YAML:1.0", which is no YAML.
+/// Some writers begin with OpenCV's "%YAML:1.0", which is not valid YAML.
 std::string without_directive(std::string text) {
   if (text.starts_with("%YAML")) text[0] = '#';
   return text;

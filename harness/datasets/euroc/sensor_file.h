@@ -14,9 +14,8 @@
 
 namespace vinebench::harness {
 
-/// A sensor.yaml of an EuRoC/ASL folder. Other people's files have keys that are none of our
-/// business, so unknown ones are let pass; what is read is checked. Throws Error with file and
-/// line.
+/// A sensor.yaml of an EuRoC/ASL folder. Unknown keys are ignored, because files of others have
+/// additional ones; the keys that are read are validated. Throws Error with file and line.
 class SensorFile {
  public:
   explicit SensorFile(std::filesystem::path file);

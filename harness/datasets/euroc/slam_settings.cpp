@@ -14,10 +14,10 @@
 namespace vinebench::harness {
 namespace {
 
-constexpr double kFarthest = 40;      // baselines, beyond which a depth does not count
+constexpr double kFarthest = 40;      // baselines, limit of depths
 constexpr double kLeastNoise = 1e-6;  // other systems divide by it
 
-/// What all of the files tell of.
+/// The common content of all files.
 struct Setup {
   RigCamera left;
   RigCamera right;
@@ -28,7 +28,7 @@ struct Setup {
   Pose T_left_right() const { return left.T_body_cam.inverse() * right.T_body_cam; }
 };
 
-/// With a decimal point, which ORB-SLAM3 insists on.
+/// With a decimal point, which ORB-SLAM3 requires.
 std::string real(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find_first_of(".en") == std::string::npos) text += ".0";
@@ -54,7 +54,7 @@ std::string reals(const std::vector<double>& values) {
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-/// A 4 x 4 matrix as OpenCV's YAML has it.
+/// A 4 x 4 matrix in OpenCV's YAML format.
 std::string opencv_matrix(const std::string& key, const Pose& T) {
   return fmt::format("{}: !!opencv-matrix\n  rows: 4\n  cols: 4\n  dt: f\n  data: [{}]\n", key,
                      reals(row_major(T.matrix())));
@@ -75,7 +75,7 @@ std::string orbslam_camera(const std::string& name, const PinholeCamera& c, bool
   return text;
 }
 
-/// What both kinds of cameras share. A viewer's keys are required even without one.
+/// Keys for rectified and raw cameras. The viewer's keys are required even without a viewer.
 std::string orbslam_common(const Setup& setup) {
   const auto& [gyroscope, accelerometer] = setup.notes.imu;
   std::string text = fmt::format(
@@ -122,7 +122,7 @@ Json basalt_intrinsics(const PinholeCamera& c) {
   return {{"camera_type", "pinhole-radtan8"}, {"intrinsics", values}};
 }
 
-/// Every camera of the rig; Basalt takes as many as it is told of.
+/// Every camera of the rig; Basalt supports any number.
 std::string basalt(const Setup& setup) {
   const Rig rig = setup.notes.rig.make();
   Json value;
@@ -202,7 +202,7 @@ std::string stella_camera(const char* camera, const PinholeCamera& c) {
                      reals({d[0], d[1], d[2], d[3], 0}));
 }
 
-/// A pair that is not rectified needs rotations to a common plane, which stella_vslam is given.
+/// For a pair that is not rectified, stella_vslam needs rotations to a common plane.
 std::string stella(const Setup& setup) {
   const PinholeCamera& c = setup.left.model;
   std::string text = fmt::format(

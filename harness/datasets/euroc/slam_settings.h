@@ -14,10 +14,10 @@ struct SettingsFile {
   std::string text;
 };
 
-/// Settings with which other SLAM systems run on an EuRoC recording: the first pair as their
-/// stereo camera (cam0 and cam1 where the rig begins with it), the body as the inertial unit.
-/// ORB-SLAM3 (v1.0; rectified where the pair is, and raw), Basalt, Kalibr's chains as OpenVINS
-/// reads them, stella_vslam. Throws Error for a rig without a pair.
+/// Settings of other SLAM systems for an EuRoC recording: the first pair as their stereo camera
+/// (cam0 and cam1 if the rig begins with it), the body as the inertial unit. ORB-SLAM3 (v1.0;
+/// rectified if the pair is, and raw), Basalt, Kalibr's chains for OpenVINS, stella_vslam. Throws
+/// Error for a rig without a pair.
 std::vector<SettingsFile> slam_settings(const RecordingNotes& notes);
 
 }  // namespace vinebench::harness

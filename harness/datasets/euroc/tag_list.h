@@ -10,8 +10,8 @@
 
 namespace vinebench::harness {
 
-/// Registered tags as a recording keeps them: `tags`, a list of family, id, size (m), position (m)
-/// and rotation (qx qy qz qw) in the world. Reading what was written gives the same bits.
+/// The registered tags of a recording: `tags`, a list of family, id, size (m), position (m) and
+/// rotation (qx qy qz qw) in the world. Reading restores the same bits.
 std::string format_tags(const std::vector<RegisteredTag>& tags);
 
 /// Throws Error that names file, line and key.

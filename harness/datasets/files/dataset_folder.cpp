@@ -16,7 +16,7 @@ namespace vinebench::harness {
 std::filesystem::path make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) fail("recording {}: cannot be made: {}", folder.string(), error.message());
+  if (error) fail("recording {}: cannot be created: {}", folder.string(), error.message());
   return folder;
 }
 

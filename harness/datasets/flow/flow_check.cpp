@@ -15,9 +15,9 @@ constexpr double kFlowZero = 32768;
 constexpr double kHalfMillimetre = 0.0005 + 1e-6;
 constexpr double kTolerance = 0.1;  // px
 constexpr double kAgreeing = 0.9;   // share of the pixels
-constexpr double kNearest = 0.05;   // m before a camera
+constexpr double kNearest = 0.05;   // m in front of a camera
 
-/// Whether a pixel's thing may move by itself, for all that is known of it.
+/// Whether a pixel's object may move.
 bool may_move(const cv::Mat& semantic, bool windy, int y, int x) {
   if (semantic.empty()) return windy;
   switch (static_cast<Label>(semantic.at<std::uint8_t>(y, x))) {

@@ -28,7 +28,7 @@ FlowTruth flow_between(const DatasetFrame& a, const DatasetFrame& b, std::size_t
                        const Pose& T_body_cam) {
   TruthView from = a.truth.views.at(camera);
   const TruthView& to = b.truth.views.at(camera);
-  from.image.motion = from.image.motion.clone();  // not the frame's own
+  from.image.motion = from.image.motion.clone();  // a copy
   const Pose T_cam_body = T_body_cam.inverse();
   move_rover(from.camera, from.T_world_cam, from.T_world_cam * T_cam_body,
              to.T_world_cam * T_cam_body, from.image.labels, from.image.depth, from.image.motion);
@@ -80,7 +80,7 @@ std::vector<FileTask> FlowWriter::files(const std::shared_ptr<const DatasetFrame
           {fmt::format("flo {}", i), flo, [truth] { return encode_flo(truth().flow); }});
       continue;
     }
-    // All come of one computation; its thread writes the others too.
+    // One computation gives all files; its thread writes the others too.
     const fs::path mask =
         folders_.kitti / "visible" / cameras_[i].name / numbered(before->number, "png");
     tasks.push_back({fmt::format("flow {}", i), kitti, [this, truth, mask, flo] {

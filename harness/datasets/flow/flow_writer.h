@@ -8,12 +8,12 @@
 namespace vinebench::harness {
 
 /// Flow from each frame to the next one of the data set, as 16-bit PNG of KITTI (1/64 px around
-/// 2^15, blue 1 where known) and as Middlebury's .flo, and beside KITTI's a mask of what the next
-/// frame still shows. Throws Error for cameras with distortion.
+/// 2^15, blue 1 where known) and as Middlebury's .flo, and with KITTI's a mask of the points
+/// visible in the next frame. Throws Error for cameras with distortion.
 class FlowWriter : public FormatWriter {
  public:
   struct Folders {
-    std::filesystem::path kitti;  ///< none where empty
+    std::filesystem::path kitti;  ///< none if empty
     std::filesystem::path flo;    ///< likewise
   };
   FlowWriter(const Folders& folders, const RecordingNotes& notes);
@@ -25,7 +25,7 @@ class FlowWriter : public FormatWriter {
   std::shared_ptr<const DatasetFrame> before_;
 };
 
-/// Truth flow of a camera from one frame to the next, the rover's own pixels included.
+/// True flow of a camera from one frame to the next, including the rover's own pixels.
 FlowTruth flow_between(const DatasetFrame& a, const DatasetFrame& b, std::size_t camera,
                        const Pose& T_body_cam);
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kWaitingFrames = 2;
 
-/// Tasks of the same bytes, in the order of the first of each.
+/// Groups tasks with the same bytes, in the order of the first of each.
 std::vector<std::vector<FileTask>> grouped(std::vector<FileTask> tasks) {
   std::vector<std::vector<FileTask>> groups;
   std::map<std::string, std::size_t> group_of;
@@ -50,7 +50,7 @@ void DatasetEncoder::submit(DatasetFrame frame) {
       [this, shared = std::make_shared<const DatasetFrame>(std::move(frame))] { write(shared); });
 }
 
-/// Files first: what is in the lists is on the disk.
+/// Files before lists, so that listed files exist.
 void DatasetEncoder::write(const std::shared_ptr<const DatasetFrame>& frame) {
   std::vector<FileTask> tasks;
   for (const auto& writer : writers_) {
@@ -84,7 +84,7 @@ void DatasetEncoder::write(const std::shared_ptr<const DatasetFrame>& frame) {
   manifest_->add(listed);
 }
 
-/// So that no thread is left alone with a long one at the end; going by the frame before.
+/// Longest tasks first, by the times of the previous frame.
 std::vector<std::size_t> DatasetEncoder::longest_first(const std::vector<TaskGroup>& groups) const {
   std::vector<std::size_t> order(groups.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

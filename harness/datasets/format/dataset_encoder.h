@@ -17,24 +17,24 @@
 
 namespace vinebench::harness {
 
-/// Writes frames in several formats side by side, beside the loop that makes them: the files of a
-/// frame on a few threads, then the formats' lists, frame after frame. Few frames wait, so that
-/// memory is bounded; the loop waits where the disk does not keep up.
+/// Writes frames in several formats, concurrently with the loop that makes them: the files of a
+/// frame on a few threads, then the formats' lists. Few frames are queued, so that memory is
+/// bounded; the loop waits if the disk falls behind.
 class DatasetEncoder {
  public:
   using Writers = std::vector<std::unique_ptr<FormatWriter>>;
 
-  /// Files are listed in the manifest, where there is one, relative to `root`.
+  /// Files are listed in the manifest, if there is one, relative to `root`.
   DatasetEncoder(Writers writers, int threads, const std::filesystem::path& root = {},
                  FileManifest* manifest = nullptr);
 
-  /// Rethrows what went wrong with an earlier frame; nothing is written after that one.
+  /// Rethrows an exception of an earlier frame; nothing is written after that one.
   void submit(DatasetFrame frame);
 
-  /// Waits until all is written and finishes the formats; rethrows likewise.
+  /// Waits until everything is written and finishes the formats; rethrows likewise.
   void finish();
 
-  /// Made so far by the frames' tasks.
+  /// Bytes written so far by the frames' tasks.
   std::uint64_t bytes() const { return bytes_; }
 
  private:
@@ -48,11 +48,11 @@ class DatasetEncoder {
   std::filesystem::path root_;
   FileManifest* manifest_;
   std::atomic<std::uint64_t> bytes_{0};
-  std::map<std::string, double> seconds_;  ///< that a task of this key took last
-  BackgroundWorker worker_;                // last: it must go first
+  std::map<std::string, double> seconds_;  ///< of the last task with this key
+  BackgroundWorker worker_;                // last member: it is destroyed first
 };
 
-/// The images of a frame in memory of their own: a source may use its own for the next frame.
+/// Copies the images of a frame, because a source may reuse its memory.
 DatasetFrame own_frame(const Sample& sample, std::int64_t number);
 
 }  // namespace vinebench::harness

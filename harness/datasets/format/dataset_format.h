@@ -16,15 +16,15 @@
 
 namespace vinebench::harness {
 
-/// What a writer is made of.
+/// The inputs of a writer.
 struct WriterInputs {
   std::filesystem::path folder;  ///< of this format alone: <data set>/<name>
-  const RecordingNotes& notes;   ///< of the chosen cameras
+  const RecordingNotes& notes;   ///< of the selected cameras
   const SceneIndex& scene;
   const RecordOptions& options;
 };
 
-/// Images of the truth that a writer asks for; a simulation renders no others.
+/// Truth images required by a writer; a simulation renders no others.
 struct TruthImages {
   bool labels = false;
   bool depth = false;
@@ -33,7 +33,7 @@ struct TruthImages {
   bool instances = false;
 };
 
-/// Reads a format; all three are there, or none.
+/// Reads a format; all three are set, or none.
 struct FormatReader {
   std::string layout;  ///< what it recognises, for error messages: "an EuRoC folder (mav0)"
   std::function<bool(const std::filesystem::path& folder)> recognises;
@@ -45,25 +45,25 @@ struct FormatReader {
 /// Lists that a data set of several sequences has of them all, in its own folder.
 struct JoinedLists {
   std::vector<std::string> files;  ///< by name
-  /// Makes them in `folder` of what the sequences have in `parts`, relative to it.
+  /// Creates them in `folder` from those of the sequences in `parts`, relative to it.
   std::function<void(const std::filesystem::path& folder, const std::vector<std::string>& parts,
                      const RecordOptions& options)>
       join;
 };
 
-/// All that the harness knows of one format of data sets. What a format does not have stays empty.
+/// The descriptor of a data set format. Members that do not apply are empty.
 struct DatasetFormat {
-  std::string name;         ///< of the option --format, and of its folder in a data set
-  std::string description;  ///< one line, for people
+  std::string name;         ///< for the option --format, and of its folder in a data set
+  std::string description;  ///< one line, human-readable
   TruthImages truth{};
   bool available = true;  ///< whether this build can write it
   /// Its files of a frame can be written when the next one is there: they come after the others'.
   bool looks_back = false;
   /// Throws Error for a rig or options that do not go with the format. May return nothing where
-  /// another format that is asked for too writes its files.
+  /// another requested format writes its files.
   std::function<std::unique_ptr<FormatWriter>(const WriterInputs&)> write;
   FormatReader reader{};
-  /// Holds what the format lists against the frames of its sequence; adds what is wrong.
+  /// Compares the format's lists with the frames of its sequence; adds faults.
   std::function<void(const RecordedSequence&, std::vector<DatasetFault>&)> check{};
   /// Holds one label image against its calibration and other formats' images.
   std::function<void(LabelImages&)> check_image{};

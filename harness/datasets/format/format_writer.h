@@ -14,39 +14,39 @@
 
 namespace vinebench::harness {
 
-/// One frame on its way to the disk. Cameras are those of the data set, in its order.
+/// One frame of a recording. Cameras are those of the data set, in its order.
 struct DatasetFrame {
   std::int64_t number = 0;  ///< in the data set, from 0 on without gaps
-  Frame frame;              ///< as the sensors gave it; images in memory of their own
+  Frame frame;              ///< sensor data; the images are copies
   Truth truth;
 };
 
-/// A file of its own that a format wants of a frame, such as an image.
+/// A file of a frame in a format, such as an image.
 struct FileTask {
   std::string key;  ///< tasks of one frame that have the same key have the same bytes
   std::filesystem::path file;
-  std::function<std::string()> bytes;  ///< called on any thread, beside others
-  /// Where there is one, it takes the bytes in place of a file; called likewise.
+  std::function<std::string()> bytes;  ///< called on any thread, concurrently
+  /// If set, it takes the bytes instead of a file; called likewise.
   std::function<void(const std::string&)> take{};
 };
 
-/// Writes a run in one format into a folder that is its own. All but a FileTask's functions is
-/// called on one thread, frame after frame; what goes wrong throws Error.
+/// Writes a run in one format into its own folder. Everything except a FileTask's functions is
+/// called on one thread, frame after frame. Throws Error.
 class FormatWriter {
  public:
   virtual ~FormatWriter() = default;
-  /// What to write before the frame counts as there; may look back at earlier frames.
+  /// The files of a frame; may use earlier frames.
   virtual std::vector<FileTask> files(const std::shared_ptr<const DatasetFrame>& frame) = 0;
-  /// The frame's files are whole: the lists may name them.
+  /// The frame's files are complete: the lists may name them.
   virtual void commit(const DatasetFrame&) {}
-  /// No frame follows.
+  /// Called after the last frame.
   virtual void finish() {}
 };
 
 /// "000012.png" for number 12 and "png".
 std::string numbered(std::int64_t number, const std::string& ending);
 
-/// A camera's image as PNG: grey as the SLAM core sees it, or in colour. Shared by all formats.
+/// A camera's image as PNG: grey as the SLAM core uses it, or in colour. Shared by all formats.
 FileTask camera_image(const std::shared_ptr<const DatasetFrame>& frame, std::size_t camera,
                       bool colour, std::filesystem::path file);
 

@@ -12,10 +12,10 @@ namespace vinebench::harness {
 /// Writes one file of each camera's image or truth.
 class ImageWriter : public FormatWriter {
  public:
-  /// The bytes for a camera of a frame; a camera that delivered nothing is passed over.
+  /// The bytes for a camera of a frame; a camera without an image is skipped.
   using Encode = std::function<std::string(const DatasetFrame&, std::size_t camera)>;
 
-  /// `name` keeps it apart from other formats; `ending` is the files'.
+  /// `name` distinguishes it from other formats; `ending` is that of the files.
   ImageWriter(const std::filesystem::path& folder, const RecordingNotes& notes, std::string name,
               std::string ending, Encode encode);
 

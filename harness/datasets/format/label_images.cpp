@@ -29,7 +29,7 @@ const cv::Mat& LabelImages::read(const std::string& format, int type) {
   const PinholeCamera& model = camera().model;
   if (image.size() != cv::Size(model.width, model.height) || image.type() != type) {
     image = cv::Mat();
-    fault(format, fmt::format("is no whole image of {} x {} pixels of its kind", model.width,
+    fault(format, fmt::format("is not a complete image of {} x {} pixels of its type", model.width,
                               model.height));
   }
   return image;

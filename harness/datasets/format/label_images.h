@@ -14,11 +14,11 @@
 
 namespace vinebench::harness {
 
-/// The label images that the formats of a sequence have of one camera at one frame, each read from
-/// the disk when a check first asks for it.
+/// The label images of one camera at one frame in the formats of a sequence, read from the disk on
+/// demand.
 class LabelImages {
  public:
-  /// Keeps references to the sequence and to the list that faults go to.
+  /// Keeps references to the sequence and to the list of faults.
   LabelImages(const RecordedSequence& sequence, std::size_t frame, std::size_t camera,
               std::vector<DatasetFault>& faults);
 
@@ -27,7 +27,7 @@ class LabelImages {
   std::size_t camera_index() const { return camera_; }
   const RigCamera& camera() const { return sequence_.rig.cameras[camera_]; }
 
-  /// A format's PNG, colours as BGR; empty where it is not recorded. One that is not whole, or of
+  /// A format's PNG, colours as BGR; empty if it is not recorded. One that is incomplete, or of
   /// another size or type than the calibration's and `type`, is a fault and empty.
   const cv::Mat& read(const std::string& format, int type);
 

@@ -12,7 +12,7 @@
 namespace vinebench::harness {
 namespace {
 
-/// A whole number without sign and nothing else; -1 for other text.
+/// An unsigned integer; -1 for other text.
 std::int64_t whole_number(std::string_view text) {
   std::int64_t value = -1;
   const char* end = text.data() + text.size();
@@ -50,7 +50,7 @@ std::set<Category> parse_categories(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     const auto found = std::ranges::find(known, name);
     if (found == known.end()) {
-      fail("--labels: '{}' is no kind of thing, expected some of {}", name, fmt::join(known, ", "));
+      fail("--labels: unknown category '{}', expected some of {}", name, fmt::join(known, ", "));
     }
     categories.insert(static_cast<Category>(found - known.begin()));
   }

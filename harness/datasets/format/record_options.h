@@ -15,26 +15,26 @@
 
 namespace vinebench::harness {
 
-/// What of a run is recorded, and how.
+/// Which data of a run are recorded, and how.
 struct RecordOptions {
   std::vector<std::string> formats{"euroc"};  ///< of parse_formats(); docs/datasets.md has them
-  std::vector<std::string> cameras;           ///< names of the rig; all where empty
-  std::set<Category> categories;              ///< of COCO's instances; all things where empty
+  std::vector<std::string> cameras;           ///< names of the rig; all if empty
+  std::set<Category> categories;              ///< of COCO's instances; all things if empty
   std::int64_t first = 0;                     ///< frame of the run
   std::int64_t last = std::numeric_limits<std::int64_t>::max();
   std::int64_t every = 1;
-  std::optional<ImageKind> images;  ///< where absent, PNG in rgb and coco, raw in ros
+  std::optional<ImageKind> images;  ///< default: PNG in rgb and coco, raw in ros
   bool colour = false;              ///< euroc, dcvslam, ros in colour; kitti in colour too
-  int threads = 2;                  ///< that encode, beside the simulation's
+  int threads = 2;                  ///< for encoding, in addition to the simulation's
   std::int64_t sequence = 0;        ///< number of the sequence in its data set
 
   bool has(const std::string& format) const { return std::ranges::count(formats, format) > 0; }
-  /// As text, for comparing a recording with one that is to be resumed.
+  /// As text, for comparison when a recording is resumed.
   std::string text() const;
 };
 
-/// CapturePlan::cameras of these names; none where there are no names. `what` names the option in
-/// the error. Throws Error for a camera that the rig does not have.
+/// CapturePlan::cameras of these names; none if there are no names. `what` names the option in the
+/// error. Throws Error for a camera that the rig does not have.
 std::vector<bool> chosen_cameras(const std::vector<std::string>& names, const Rig& rig,
                                  const std::string& what);
 

@@ -11,7 +11,7 @@
 
 namespace vinebench::harness {
 
-/// What a check found wrong: a file, relative to the data set, and what is the matter with it.
+/// A fault found by a check: a file, relative to the data set, and the problem.
 struct DatasetFault {
   std::string file;
   std::string problem;

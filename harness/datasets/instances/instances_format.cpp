@@ -19,7 +19,7 @@ void check_image(LabelImages& images) {
   const cv::Mat& semantic = images.read("semantic", CV_8UC1);
   if (instances.empty() || semantic.empty()) return;
   images.expect_none(
-      "instances", instances.size(), "tells bunches where semantic has none", [&](int y, int x) {
+      "instances", instances.size(), "has bunches where semantic has none", [&](int y, int x) {
         const cv::Vec3b& id = instances.at<cv::Vec3b>(y, x);  // blue, green, red
         const bool part = id[2] != 0 && (id[0] != 0 || id[1] != 0);
         const bool bunch =

@@ -20,7 +20,7 @@ constexpr double kDefaultRate = 10;  // Hz, of KITTI's cameras
 constexpr std::size_t kMatrixSize = 12;
 constexpr std::size_t kCameras = 2;
 
-/// The folders of a stereo pair, and which lines of calib.txt are its cameras'.
+/// The folders of a stereo pair, and its lines of calib.txt.
 struct Layout {
   const char* left;
   const char* right;
@@ -59,7 +59,7 @@ Projection projection_of(const TableRow& row, std::size_t first) {
   return P;
 }
 
-/// The matrices by their number: `P2:` says it, else the line's place does.
+/// The matrices by number: from the label `P2:`, otherwise from the line's position.
 std::map<std::size_t, Projection> read_calibration(const fs::path& file) {
   std::map<std::size_t, Projection> matrices;
   for (const TableRow& row : read_rows(file)) {
@@ -68,12 +68,12 @@ std::map<std::size_t, Projection> read_calibration(const fs::path& file) {
       matrices[matrices.size()] = projection_of(row, 0);
     } else if (label.size() == 3 && label[0] == 'P' && label[2] == ':') {
       matrices[static_cast<std::size_t>(label[1] - '0')] = projection_of(row, 1);
-    }  // others, such as Tr:, are of the laser scanner
+    }  // others, such as Tr:, belong to the laser scanner
   }
   return matrices;
 }
 
-/// The body is at the first camera (P0), the one that poses.txt speaks of.
+/// The body is at the first camera (P0), whose poses are in poses.txt.
 Pose first_camera_mount() {
   return Rig::mount(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
 }
@@ -106,7 +106,7 @@ Rig read_rig(const fs::path& folder, const Layout& layout) {
   return rig;
 }
 
-/// Images by the number that is their name.
+/// Images by the number in their name.
 std::map<std::int64_t, fs::path> images_in(const fs::path& folder) {
   static const std::array<std::string, 7> kinds{".png", ".jpg", ".jpeg", ".pgm",
                                                 ".bmp", ".tif", ".webp"};
@@ -127,7 +127,7 @@ std::map<std::int64_t, fs::path> images_in(const fs::path& folder) {
   return images;
 }
 
-/// A frame for every number from the first to the last of either camera.
+/// One frame for every number from the first to the last of either camera.
 std::vector<RecordedFrame> read_frames(const fs::path& folder, const Layout& layout) {
   const auto left = images_in(folder / layout.left);
   const auto right = images_in(folder / layout.right);
@@ -161,7 +161,7 @@ void read_times(const fs::path& folder, Recording& recording) {
     fail("{}: expected {} lines, one a frame, found {}", file.string(), frames.size(), rows.size());
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i].number(0);  // says where it is none
+    rows[i].number(0);  // throws with the line if it is not a number
     frames[i].stamp = parse_seconds(rows[i].fields[0]);
     if (i > 0 && frames[i].stamp <= frames[i - 1].stamp) {
       rows[i].fault("expected a later time than the line before");
@@ -171,7 +171,7 @@ void read_times(const fs::path& folder, Recording& recording) {
   if (frames.size() > 1) recording.rig.rate_hz = static_cast<double>(frames.size() - 1) / seconds;
 }
 
-/// In the folder itself, or where the original has it: sequences/00 and poses/00.txt.
+/// In the folder itself, or as in the original data set: sequences/00 and poses/00.txt.
 fs::path find_poses(const fs::path& folder) {
   const fs::path whole = fs::weakly_canonical(folder);
   const fs::path original =
@@ -183,13 +183,13 @@ fs::path find_poses(const fs::path& folder) {
   return {};
 }
 
-/// What our recordings have beside KITTI's own; nothing where it is not there.
+/// Extensions of our recordings; optional.
 fs::path ours(const fs::path& file) {
   std::error_code ignored;
   return fs::is_regular_file(file, ignored) ? file : fs::path();
 }
 
-/// The images tell their size; calib.txt does not.
+/// The size is taken from the images; calib.txt does not have it.
 void set_sizes(Recording& recording) {
   for (std::size_t camera = 0; camera < recording.rig.cameras.size(); ++camera) {
     PinholeCamera& model = recording.rig.cameras[camera].model;

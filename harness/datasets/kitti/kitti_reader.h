@@ -9,7 +9,7 @@ namespace vinebench::harness {
 /// Whether a folder has calib.txt or the images of a pair.
 bool is_kitti(const std::filesystem::path& folder);
 
-/// Reads a KITTI odometry folder, with what our recordings have beside it. Throws Error for a
+/// Reads a KITTI odometry folder, including the extensions of our recordings. Throws Error for a
 /// calibration that cannot be used, folders without images and lists of another length.
 Recording read_kitti(const std::filesystem::path& folder, const RecordingOptions& options);
 

@@ -29,7 +29,7 @@ Eigen::Matrix<double, 3, 4> projection(const PinholeCamera& c, double shift) {
   return P;
 }
 
-/// The pair's cameras as P0 and P1, and once more, for the images in colour, as P2 and P3.
+/// The pair's cameras as P0 and P1, and again, for colour images, as P2 and P3.
 std::string calibration(const Rig& rig, const StereoPair& pair) {
   const PinholeCamera& left = rig.cameras[static_cast<std::size_t>(pair.left)].model;
   const PinholeCamera& right = rig.cameras[static_cast<std::size_t>(pair.right)].model;
@@ -45,7 +45,7 @@ std::string calibration(const Rig& rig, const StereoPair& pair) {
 StereoPair rectified_pair(const Rig& rig) {
   if (rig.stereo_pairs.empty()) fail("kitti: expected a stereo pair among the cameras");
   if (!is_rectified(rig, rig.stereo_pairs.front())) {
-    fail("kitti: pair '{}' is not rectified, and the format has no other cameras",
+    fail("kitti: pair '{}' is not rectified, expected a rectified pair",
          rig.stereo_pairs.front().name);
   }
   return rig.stereo_pairs.front();

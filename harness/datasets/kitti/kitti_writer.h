@@ -10,8 +10,8 @@
 namespace vinebench::harness {
 
 /// KITTI odometry of the first pair: image_0 and image_1 (grey), with colour image_2 and image_3
-/// too, calib.txt (P0 to P3), times.txt (s), poses.txt (the left camera against its first place);
-/// and what is ours: rig.yaml with the pair alone, slam.yaml.
+/// too, calib.txt (P0 to P3), times.txt (s), poses.txt (the left camera relative to its first
+/// pose); and our extensions: rig.yaml with the pair only, slam.yaml.
 class KittiWriter : public FormatWriter {
  public:
   /// Throws Error for a rig without a pair, or with one that is not rectified.
@@ -24,7 +24,7 @@ class KittiWriter : public FormatWriter {
   std::filesystem::path folder_;
   bool colour_;
   StereoPair pair_;
-  Pose T_body_left_;  ///< the true one
+  Pose T_body_left_;  ///< true
   AppendFile times_;
   AppendFile poses_;
   std::optional<Pose> T_world_first_;

@@ -13,15 +13,15 @@
 namespace vinebench::harness {
 namespace {
 
-constexpr double kNearest = 0.03;  // m before the camera; nearer points are not in the image
+constexpr double kNearest = 0.03;  // m in front of the camera; nearer points are not in the image
 
-// The low byte of a panoptic id where it is no bunch's part: plants have far fewer bunches.
+// The low byte of a panoptic id that is not a bunch: plants have far fewer bunches.
 constexpr std::int32_t kTrunkPart = 253;
 constexpr std::int32_t kCanePart = 254;
 constexpr std::int32_t kLeafPart = 255;
 constexpr std::int32_t kRoverSegment = 200;  // below 256, as the categories' own ids of stuff
 
-using Key = std::pair<Category, std::int32_t>;  // and the thing's number, 0 of stuff
+using Key = std::pair<Category, std::int32_t>;  // and the thing's number, 0 for stuff
 
 std::int32_t whole_of(std::int32_t number) {
   return number & ~255;
@@ -49,7 +49,7 @@ std::int32_t segment_of(const Key& key, const SceneIndex& scene) {
   }
 }
 
-/// Masks by category and number, in one pass down the columns; sets the pixels' segments.
+/// Masks by category and number, in one column-wise pass; sets the pixels' segments.
 std::map<Key, Runs> find_masks(const RenderedImage& image, const SceneIndex& scene,
                                cv::Mat& segments) {
   std::map<Key, Runs> masks;
@@ -104,7 +104,7 @@ void measure_outline(const TruthView& view, const SceneIndex& scene, ThingLabel&
   thing.visibility = inside == 0 ? 0 : static_cast<double>(shown) / static_cast<double>(inside);
 }
 
-/// All that belongs to one plant, as one thing.
+/// All parts of one plant as one thing.
 std::vector<ThingLabel> whole_plants(const std::vector<ThingLabel>& parts,
                                      const SceneIndex& scene) {
   std::map<std::int32_t, std::vector<Runs>> masks;

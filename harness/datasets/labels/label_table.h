@@ -22,7 +22,7 @@ cv::Vec3b label_colour(std::uint8_t label);
 /// YAML: a list `labels` of `{id, name, colour}`.
 std::string label_table_text();
 
-/// What networks learn to find: categories of COCO, ids from 1 on in this order.
+/// Categories of COCO, ids from 1 on in this order.
 enum class Category {
   kBunch,
   kPlant,

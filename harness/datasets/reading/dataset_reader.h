@@ -34,8 +34,8 @@ class DatasetReader : public FrameSource {
   StageTimes times_;
 };
 
-/// The pose at that time: of the trajectory's nearest pose within a microsecond, else between its
-/// neighbours. Nothing before the first, after the last, and in gaps longer than `max_gap`.
+/// The pose at that time: the nearest pose within a microsecond, otherwise interpolated. Empty
+/// before the first, after the last, and in gaps longer than `max_gap`.
 std::optional<Pose> pose_at(const Trajectory& trajectory, Stamp stamp, Stamp max_gap);
 
 }  // namespace vinebench::harness

@@ -27,13 +27,13 @@ Pose kitti_pose(const TableRow& row) {
   return {Eigen::Quaterniond(R).normalized(), T.col(3)};
 }
 
-/// A stamp of thirteen digits and more: seconds would be of the year 300,000.
+/// A stamp with at least thirteen digits is in ns: as seconds it would be beyond the year 300,000.
 bool has_nanoseconds(const TableRow& row) {
   const std::string& stamp = row.fields.front();
   return stamp.size() >= 13 && stamp.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// Lines belong to frames by their number.
+/// Lines are associated with frames by number.
 Trajectory kitti_truth(const std::vector<TableRow>& rows, Recording& recording) {
   const Pose T_cam_body = recording.T_body_left.inverse();
   // KITTI's world is the first camera's frame; ours has z up.

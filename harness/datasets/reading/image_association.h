@@ -10,7 +10,7 @@
 
 namespace vinebench::harness {
 
-/// What one camera of a recording took, as its list has it.
+/// The image list of one camera of a recording.
 struct ImageList {
   struct Entry {
     Stamp stamp = 0;
@@ -18,22 +18,22 @@ struct ImageList {
   };
   std::string camera;
   std::vector<Entry> entries;
-  int out_of_order = 0;  ///< entries that stood behind a later one; put in their place
-  int repeated = 0;      ///< entries with the stamp of another one, left out
+  int out_of_order = 0;  ///< entries after a later one; sorted
+  int repeated = 0;      ///< entries with a duplicate stamp; dropped
 };
 
-/// Puts a list into the order of time and counts what was wrong.
+/// Sorts a list by time and counts its faults.
 void put_in_order(ImageList& list);
 
-/// Frames at the given instants, which ascend. Each takes of each list the image nearest in time,
-/// at most half a frame away, and no image twice. What finds no frame, what a list has wrong and
-/// gaps between the instants become events.
+/// Frames at the given ascending instants. Each takes from each list the image nearest in time, at
+/// most half a frame period away, and each image is used at most once. Unmatched images, faults of
+/// a list and gaps between the instants become events.
 std::vector<RecordedFrame> associate_images(const std::vector<ImageList>& lists,
                                             const std::vector<Stamp>& instants);
 
 std::vector<Stamp> instants_of(const ImageList& list);
 
-/// The median time between neighbours, ns; 0 for less than two.
+/// The median time between neighbours, ns; 0 for fewer than two.
 Stamp median_period(const std::vector<Stamp>& instants);
 
 }  // namespace vinebench::harness

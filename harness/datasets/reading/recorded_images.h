@@ -8,11 +8,11 @@
 
 namespace vinebench::harness {
 
-/// An image file in eight bits of grey, as the SLAM core would make it grey; empty where the file
-/// is no whole image.
+/// An image file as 8-bit grey, with the SLAM core's conversion; empty if the file is not a
+/// complete image.
 cv::Mat read_grey(const std::filesystem::path& file);
 
-/// Of the first image of that camera that can be read; empty where none can.
+/// Size of the first readable image of that camera; empty if there is none.
 cv::Size first_image_size(const Recording& recording, std::size_t camera);
 
 }  // namespace vinebench::harness

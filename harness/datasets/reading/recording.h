@@ -14,33 +14,32 @@ namespace vinebench::harness {
 /// The images of one instant, by name.
 struct RecordedFrame {
   Stamp stamp = 0;
-  std::vector<std::filesystem::path>
-      images;                       ///< of each camera of the rig; empty where it has none
-  std::vector<SourceEvent> events;  ///< faults that were found when it was put together
+  std::vector<std::filesystem::path> images;  ///< of each camera of the rig; empty if it has none
+  std::vector<SourceEvent> events;            ///< faults found during association
 };
 
 /// The index of a recorded data set, as its format's reader found it; the images themselves stay on
 /// the disk.
 struct Recording {
   std::string name;
-  std::string format;  ///< for people: "EuRoC/ASL", "KITTI odometry"
+  std::string format;  ///< human-readable: "EuRoC/ASL", "KITTI odometry"
   Rig rig;
-  Pose T_body_left;                   ///< the camera whose poses a ground truth in KITTI's form has
+  Pose T_body_left;                   ///< the camera of a ground truth in KITTI format
   std::vector<RecordedFrame> frames;  ///< in ascending order of their stamps
   std::vector<ImuSample> imu;         ///< likewise, in the body frame
   std::vector<WheelSample> wheels;    ///< likewise
-  Trajectory truth;                   ///< T_world_body; empty where there is none
+  Trajectory truth;                   ///< T_world_body; empty if there is none
   std::vector<RegisteredTag> tags;
   std::filesystem::path settings;  ///< SlamConfig of the run that it was recorded from, if any
 };
 
-/// What a user may put in the place of the recording's own.
+/// Files that replace those of the recording.
 struct RecordingOptions {
   std::filesystem::path rig;          ///< RigConfig, camera i is the recording's camera i
   std::filesystem::path groundtruth;  ///< TUM, KITTI (12 numbers a line) or EuRoC (csv)
 };
 
-/// A rig from its file for a recording of so many cameras; it may use fewer. Throws Error.
+/// A rig from its file for a recording with that many cameras; it may use fewer. Throws Error.
 Rig load_rig_for(const std::filesystem::path& file, std::size_t cameras);
 
 }  // namespace vinebench::harness

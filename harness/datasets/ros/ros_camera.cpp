@@ -55,7 +55,7 @@ RosCamera alone(const RigCamera& camera) {
   return ros;
 }
 
-/// Tells the two cameras how their images become those of a rectified pair.
+/// Sets the rectification of the two cameras of a pair.
 void rectify(const Rig& rig, const StereoPair& pair, std::vector<RosCamera>& cameras) {
   const auto left = static_cast<std::size_t>(pair.left);
   const auto right = static_cast<std::size_t>(pair.right);
@@ -76,10 +76,10 @@ void rectify(const Rig& rig, const StereoPair& pair, std::vector<RosCamera>& cam
 std::vector<RosCamera> ros_cameras(const Rig& rig) {
   std::vector<RosCamera> cameras;
   for (const RigCamera& camera : rig.cameras) cameras.push_back(alone(camera));
-  std::set<int> told;  // a camera has one calibration, that of its first pair
+  std::set<int> calibrated;  // a camera has one calibration, that of its first pair
   for (const StereoPair& pair : rig.stereo_pairs) {
-    if (told.contains(pair.left) || told.contains(pair.right)) continue;
-    told.insert({pair.left, pair.right});
+    if (calibrated.contains(pair.left) || calibrated.contains(pair.right)) continue;
+    calibrated.insert({pair.left, pair.right});
     const PinholeCamera& lens = rig.cameras[static_cast<std::size_t>(pair.right)].model;
     if (is_rectified(rig, pair)) {
       cameras[static_cast<std::size_t>(pair.right)].calibration.P =

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kWorld = "world";
 constexpr const char* kBody = "base_link";
-// Not above the body: base_link's place is what a SLAM system is to say.
+// Not a parent of the body: base_link's pose is a SLAM system's output.
 constexpr const char* kTruth = "ground_truth";
 
 std::optional<ImageKind> checked(std::optional<ImageKind> kind) {
@@ -111,7 +111,7 @@ void RosWriter::write_rig(Stamp stamp) {
   bag_.write_latched("/tf_static", mounts);
 }
 
-/// In the order of their stamps, an inertial reading before a wheel's of the same one.
+/// Sorted by stamp; an inertial reading comes before a wheel reading of the same stamp.
 void RosWriter::write_readings(const Frame& frame) {
   auto wheel = frame.wheels.begin();
   for (const ImuSample& reading : frame.imu) {
@@ -138,7 +138,7 @@ void RosWriter::write_wheels(const WheelSample& reading) {
                                             {reading.velocity.begin(), reading.velocity.end()}});
 }
 
-/// Velocities are the mean ones since the frame before.
+/// Velocities are means since the previous frame.
 void RosWriter::write_truth(const StampedPose& now) {
   const RosHeader at = header(now.stamp, kWorld);
   RosOdometry odometry{at, kTruth, message(now.pose), {}, {}};
@@ -168,7 +168,7 @@ void RosWriter::write_image(std::size_t camera, const cv::Mat& image, Stamp stam
   bag_.write(told.info, told.calibration);
 }
 
-/// An ambiguous pose is left out: a message has no place to say so.
+/// Ambiguous poses are left out, because the message cannot mark them.
 void RosWriter::write_tags(const Frame& frame) {
   for (const int index : rig_.tag_cameras) {
     const auto camera = static_cast<std::size_t>(index);

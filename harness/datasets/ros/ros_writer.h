@@ -13,16 +13,16 @@
 
 namespace vinebench::harness {
 
-/// A bag of ROS 1, run.bag: images and calibration of each camera, inertial and wheel readings,
-/// the tags that the SLAM core's detector finds, the clock and the rig's transforms; and the truth,
-/// on a topic and in a frame of its own. docs/datasets.md has topics, types and frames.
+/// A bag of ROS 1, run.bag: images and calibration of each camera, inertial and wheel readings, the
+/// tags that the SLAM core's detector finds, the clock and the rig's transforms; and the truth, on
+/// a separate topic and in a separate frame. docs/datasets.md has topics, types and frames.
 class RosWriter : public FormatWriter {
  public:
-  /// Stamps count from this time, since 0 is none in ROS and faults may make stamps negative.
+  /// Offset of stamps, because 0 means "not set" in ROS and faults may make stamps negative.
   static constexpr Stamp kStart = kNanosecondsPerSecond;
 
-  /// Raw images where `kind` is absent. Throws Error for WebP, which ROS does not know, for what
-  /// ros_cameras() refuses, and where the program was built without ROS's libraries.
+  /// Raw images if `kind` is absent. Throws Error for WebP, which ROS does not support, as
+  /// ros_cameras() does, and if the program was built without ROS's libraries.
   RosWriter(const std::filesystem::path& folder, const RecordingNotes& notes, bool colour,
             std::optional<ImageKind> kind);
 
@@ -32,7 +32,7 @@ class RosWriter : public FormatWriter {
 
  private:
   FileTask image_task(const std::shared_ptr<const DatasetFrame>& frame, std::size_t camera);
-  /// Tells the clock, and with the first time the rig.
+  /// Writes the clock, and at the first time the rig.
   RosHeader header(Stamp stamp, const std::string& frame);
   void write_rig(Stamp stamp);
   void write_readings(const Frame& frame);
@@ -47,10 +47,10 @@ class RosWriter : public FormatWriter {
   bool colour_;
   std::optional<ImageKind> kind_;
   std::vector<RosCamera> cameras_;
-  std::vector<std::string> images_;  ///< of the frame that is being written, a camera each
+  std::vector<std::string> images_;  ///< of the current frame, by camera
   slam::TagDetector detector_;
-  std::optional<StampedPose> before_;  ///< the true pose
-  std::int64_t clock_ = 0;             ///< what was told of it
+  std::optional<StampedPose> before_;  ///< previous true pose
+  std::int64_t clock_ = 0;             ///< last written time
   RosBag bag_;
 };
 

@@ -7,7 +7,7 @@
 
 namespace vinebench::harness {
 
-/// True trajectories in TUM format, `t x y z qx qy qz qw`: body.txt, and of every camera its own.
+/// True trajectories in TUM format, `t x y z qx qy qz qw`: body.txt, and one file for each camera.
 class TumWriter : public FormatWriter {
  public:
   TumWriter(const std::filesystem::path& folder, const RecordingNotes& notes);

@@ -194,7 +194,7 @@ TEST_F(EurocSinkTest, AFolderThatHasSomethingIsAnError) {
   EXPECT_EQ(read_file(root_ / "precious.txt"), "data");
   EXPECT_FALSE(std::filesystem::exists(root_ / "mav0"));
   EXPECT_THAT(error_of([&] { EurocSink(root_ / "precious.txt" / "sub", notes()); }),
-              HasSubstr("cannot be made: Not a directory"));
+              HasSubstr("cannot be created: Not a directory"));
 }
 
 TEST_F(EurocSinkTest, ADiskThatTakesNoMoreIsOneError) {

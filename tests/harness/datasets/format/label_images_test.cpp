@@ -32,8 +32,8 @@ TEST(LabelImagesTest, AnotherSizeOrTypeIsOneFault) {
     EXPECT_TRUE(images.read("depth", CV_16UC1).empty());
     EXPECT_TRUE(images.read("depth", CV_16UC1).empty());
   });
-  EXPECT_THAT(faults, ElementsAre("depth/left/000000.png: is no whole image of 4 x 3 pixels of its "
-                                  "kind"));
+  EXPECT_THAT(faults, ElementsAre("depth/left/000000.png: is not a complete image of 4 x 3 "
+                                  "pixels of its type"));
 }
 
 TEST(LabelImagesTest, CountsWrongPixels) {

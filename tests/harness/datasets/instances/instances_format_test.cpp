@@ -22,7 +22,7 @@ TEST(InstancesFormatTest, BunchesAreWhereSemanticHasThem) {
   semantic.row(1).setTo(static_cast<int>(Label::kLeaf));  // 4 pixels
   folder.put("semantic", semantic);
   EXPECT_THAT(folder.faults_of(instances_format().check_image),
-              testing::ElementsAre("instances/left/000000.png: tells bunches where semantic has "
+              testing::ElementsAre("instances/left/000000.png: has bunches where semantic has "
                                    "none at 4 pixels"));
 }
 

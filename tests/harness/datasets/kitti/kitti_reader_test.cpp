@@ -141,7 +141,8 @@ TEST_F(KittiReaderTest, FoldersWithoutImagesAreErrors) {
   std::filesystem::remove_all(root_ / "image_r");
   EXPECT_THAT(error_of([&] { open_recording(root_); }), HasSubstr("image_r: cannot be read"));
   std::filesystem::create_directories(folder_ / "empty");
-  EXPECT_THAT(error_of([&] { open_recording(folder_ / "empty"); }), HasSubstr("is no recording"));
+  EXPECT_THAT(error_of([&] { open_recording(folder_ / "empty"); }),
+              HasSubstr("is not a recording"));
   EXPECT_THAT(error_of([&] { open_recording(folder_ / "none"); }), HasSubstr("expected a folder"));
 }
 
