@@ -185,8 +185,8 @@ PyFrame next_frame(const Scenario& self) {
 
 py::dict label_names() {
   py::dict names;
-  for (std::size_t i = 0; i < harness::kLabels; ++i)
-    names[py::int_(i)] = harness::label_name(static_cast<Label>(i));
+  for (std::size_t i = 0; i < kLabels; ++i)
+    names[py::int_(i)] = name_of(static_cast<Label>(i));
   return names;
 }
 

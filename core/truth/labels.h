@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace vinebench {
 
@@ -27,6 +29,14 @@ enum class Label : std::uint8_t {
   kLooseLeaf,  ///< a leaf or shoot that was put before the cameras, not of a plant
   kOccluder    ///< other things that were put before the cameras
 };
+inline constexpr std::size_t kLabels = 17;
+
+/// "sky", "ground" and so on: what files store, for a label's number changes when one is inserted.
+/// Throws std::out_of_range for a number that is no label.
+const char* name_of(Label label);
+
+/// The label of that name, if there is one.
+std::optional<Label> label_named(std::string_view name);
 
 /// The kind of an instance.
 enum class Thing {

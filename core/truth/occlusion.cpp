@@ -16,10 +16,10 @@ std::string name_of(OccluderClass occluder) {
 }
 
 Label label_of(OccluderClass occluder) {
-  static constexpr std::array<Label, kOccluderClasses> kLabels{Label::kBox,       Label::kCrate,
-                                                               Label::kPerson,    Label::kTarpaulin,
-                                                               Label::kLooseLeaf, Label::kOccluder};
-  return kLabels.at(static_cast<std::size_t>(occluder));
+  static constexpr std::array<Label, kOccluderClasses> kClasses{
+      Label::kBox,       Label::kCrate,     Label::kPerson,
+      Label::kTarpaulin, Label::kLooseLeaf, Label::kOccluder};
+  return kClasses.at(static_cast<std::size_t>(occluder));
 }
 
 double Occlusion::total() const {

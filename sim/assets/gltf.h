@@ -16,7 +16,7 @@ inline constexpr const char* kLevelsExtension = "MSFT_lod";
 // Data without a glTF representation. Extras of the finest level's node: the distance up to which
 // each level is drawn, m.
 inline constexpr const char* kUntil = "until";
-// Extras of a material.
+// Extras of a material; the label by its name.
 inline constexpr const char* kLabel = "label";
 inline constexpr const char* kTranslucency = "translucency";
 // Attributes of a vertex.

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/util/error.h"
 #include "sim/assets/asset_file.h"
@@ -21,6 +23,11 @@ Eigen::Matrix4f z_up() {
   m(1, 2) = -1;
   return m;
 }
+
+/// What the numbers stood for that files held before they held names.
+constexpr std::array<const char*, 13> kNumberedLabels{"sky",  "ground", "grass", "trunk", "cane",
+                                                      "leaf", "bunch",  "post",  "wire",  "tag",
+                                                      "box",  "rover",  "person"};
 
 class GltfReader {
  public:
@@ -65,11 +72,7 @@ class GltfReader {
     }
     material.cutout = from.alphaMode != "OPAQUE";
     material.double_sided = from.doubleSided;
-    if (from.extras.Has(kLabel)) {
-      const double last = static_cast<int>(Label::kOccluder);
-      material.label =
-          static_cast<Label>(static_cast<int>(number(from.extras.Get(kLabel), kLabel, 0, last)));
-    }
+    if (from.extras.Has(kLabel)) material.label = label(from.extras.Get(kLabel));
     if (from.extras.Has(kTranslucency)) {
       material.translucency =
           static_cast<float>(number(from.extras.Get(kTranslucency), kTranslucency, 0, 1));
@@ -98,6 +101,20 @@ class GltfReader {
       add_node(static_cast<int>(number(ids.Get(i), kLevelsExtension, 0, last)), z_up(), 0, level);
       asset_.model.levels.push_back(std::move(level));
     }
+  }
+
+  Label label(const Value& value) const {
+    if (!value.IsString()) {
+      const double last = static_cast<double>(kNumberedLabels.size()) - 1;
+      return *label_named(
+          kNumberedLabels.at(static_cast<std::size_t>(number(value, kLabel, 0, last))));
+    }
+    const std::string& name = value.Get<std::string>();
+    const std::optional<Label> named = label_named(name);
+    if (!named) {
+      fail("{}: {}: expected a label's name, such as \"leaf\", found \"{}\"", file_, kLabel, name);
+    }
+    return *named;
   }
 
   /// A number within bounds; `what` names it.

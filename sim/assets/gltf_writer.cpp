@@ -114,7 +114,7 @@ class GltfWriter {
     out.alphaMode = material.cutout ? "MASK" : "OPAQUE";
     out.doubleSided = material.double_sided;
     out.extras =
-        Value(Value::Object{{kLabel, Value(static_cast<int>(material.label))},
+        Value(Value::Object{{kLabel, Value(std::string(name_of(material.label)))},
                             {kTranslucency, Value(static_cast<double>(material.translucency))}});
     model_.materials.push_back(out);
   }

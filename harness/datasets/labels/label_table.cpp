@@ -8,39 +8,33 @@ namespace vinebench::harness {
 namespace {
 
 struct Entry {
-  const char* name;
   cv::Vec3b colour;
   Category category;
 };
 
 /// In the order of Label.
 const std::array<Entry, kLabels>& entries() {
-  static const std::array<Entry, kLabels> kEntries{
-      {{"sky", {135, 190, 235}, Category::kSky},
-       {"ground", {150, 110, 70}, Category::kGround},
-       {"grass", {120, 190, 80}, Category::kGrass},
-       {"trunk", {95, 60, 30}, Category::kTrunk},
-       {"cane", {190, 140, 60}, Category::kCane},
-       {"leaf", {30, 130, 40}, Category::kLeaf},
-       {"bunch", {120, 40, 140}, Category::kBunch},
-       {"post", {200, 200, 90}, Category::kPost},
-       {"wire", {90, 90, 110}, Category::kWire},
-       {"tag", {255, 255, 255}, Category::kTag},
-       {"box", {220, 150, 80}, Category::kBox},
-       {"rover", {220, 40, 40}, Category::kRover},
-       {"person", {250, 170, 190}, Category::kPerson},
-       {"crate", {200, 110, 60}, Category::kBox},
-       {"tarpaulin", {70, 110, 220}, Category::kOccluder},
-       {"loose_leaf", {160, 220, 30}, Category::kOccluder},
-       {"occluder", {110, 110, 160}, Category::kOccluder}}};
+  static const std::array<Entry, kLabels> kEntries{{{{135, 190, 235}, Category::kSky},
+                                                    {{150, 110, 70}, Category::kGround},
+                                                    {{120, 190, 80}, Category::kGrass},
+                                                    {{95, 60, 30}, Category::kTrunk},
+                                                    {{190, 140, 60}, Category::kCane},
+                                                    {{30, 130, 40}, Category::kLeaf},
+                                                    {{120, 40, 140}, Category::kBunch},
+                                                    {{200, 200, 90}, Category::kPost},
+                                                    {{90, 90, 110}, Category::kWire},
+                                                    {{255, 255, 255}, Category::kTag},
+                                                    {{220, 150, 80}, Category::kBox},
+                                                    {{220, 40, 40}, Category::kRover},
+                                                    {{250, 170, 190}, Category::kPerson},
+                                                    {{200, 110, 60}, Category::kBox},
+                                                    {{70, 110, 220}, Category::kOccluder},
+                                                    {{160, 220, 30}, Category::kOccluder},
+                                                    {{110, 110, 160}, Category::kOccluder}}};
   return kEntries;
 }
 
 }  // namespace
-
-const char* label_name(Label label) {
-  return entries().at(static_cast<std::size_t>(label)).name;
-}
 
 cv::Vec3b label_colour(std::uint8_t label) {
   return label < kLabels ? entries()[label].colour : cv::Vec3b(0, 0, 0);
@@ -49,9 +43,9 @@ cv::Vec3b label_colour(std::uint8_t label) {
 std::string label_table_text() {
   std::string text = "labels:\n";
   for (std::size_t i = 0; i < kLabels; ++i) {
-    const auto& [name, colour, category] = entries()[i];
-    text += fmt::format("  - {{id: {}, name: {}, colour: [{}, {}, {}]}}\n", i, name, colour[0],
-                        colour[1], colour[2]);
+    const cv::Vec3b& colour = entries()[i].colour;
+    text += fmt::format("  - {{id: {}, name: {}, colour: [{}, {}, {}]}}\n", i,
+                        name_of(static_cast<Label>(i)), colour[0], colour[1], colour[2]);
   }
   return text;
 }

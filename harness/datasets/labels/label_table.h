@@ -11,11 +11,6 @@
 
 namespace vinebench::harness {
 
-inline constexpr std::size_t kLabels = 17;
-
-/// "sky", "ground" and so on.
-const char* label_name(Label label);
-
 /// RGB, for the camera; black for a number that is no Label.
 cv::Vec3b label_colour(std::uint8_t label);
 
