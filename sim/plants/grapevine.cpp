@@ -8,7 +8,7 @@
 
 #include "core/util/random.h"
 #include "sim/plants/grapevine_wood.h"
-#include "sim/textures/textures.h"
+#include "sim/plants/plant_textures.h"
 
 namespace vinebench::sim {
 namespace {

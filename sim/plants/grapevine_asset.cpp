@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 
+#include "sim/plants/grapevine.h"
 #include "sim/plants/grapevine_mesh.h"
-#include "sim/textures/textures.h"
 
 namespace vinebench::sim {
 namespace {
@@ -32,12 +32,6 @@ std::vector<Material> plant_materials() {
 }
 
 }  // namespace
-
-std::vector<Texture> plant_textures(const Cultivar& cultivar, const GrowthStage& stage,
-                                    std::uint64_t seed) {
-  return {bark_texture(seed), cane_texture(seed, stage), leaf_texture(seed, cultivar, stage),
-          bunch_texture(seed, cultivar, stage)};
-}
 
 std::vector<Asset> mesh_grapevines(const std::vector<Grapevine>& plants,
                                    const std::vector<Texture>& textures) {

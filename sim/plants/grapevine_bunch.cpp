@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/util/random.h"
-#include "sim/textures/textures.h"
+#include "sim/plants/plant_textures.h"
 
 namespace vinebench::sim {
 namespace {

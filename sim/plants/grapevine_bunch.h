@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "sim/plants/grapevine.h"
+#include "sim/plants/grapevine_shape.h"
 
 namespace vinebench::sim {
 

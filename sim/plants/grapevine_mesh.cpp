@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "sim/plants/grapevine_bunch.h"
-#include "sim/textures/textures.h"
+#include "sim/plants/plant_textures.h"
 
 namespace vinebench::sim {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "sim/plants/grapevine.h"
 #include "sim/plants/grapevine_light.h"
+#include "sim/plants/grapevine_shape.h"
 
 namespace vinebench::sim {
 

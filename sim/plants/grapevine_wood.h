@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/util/random.h"
-#include "sim/plants/grapevine.h"
+#include "sim/plants/grapevine_shape.h"
 
 namespace vinebench::sim {
 

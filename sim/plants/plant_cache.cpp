@@ -11,6 +11,7 @@
 #include "core/util/random.h"
 #include "sim/assets/asset_file.h"
 #include "sim/plants/grapevine.h"
+#include "sim/plants/plant_textures.h"
 
 namespace vinebench::sim {
 namespace {

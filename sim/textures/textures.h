@@ -6,9 +6,6 @@
 #include <opencv2/core/mat.hpp>
 
 #include "core/util/random.h"
-#include "sim/plants/cultivar.h"
-#include "sim/plants/grapevine_stage.h"
-#include "sim/scene/mesh_builder.h"
 #include "sim/scene/scene.h"
 
 namespace vinebench::sim {
@@ -30,26 +27,6 @@ cv::Mat mix(const cv::Mat& amount, const cv::Mat& a, const cv::Mat& b);
 
 /// CV_32FC3 of 0 to 255 (and 8-bit alpha, opaque where empty) to the CV_8UC4 of a Texture.
 cv::Mat to_rgba(const cv::Mat& rgb, const cv::Mat& alpha = {});
-
-/// Atlas of eight vine leaves, transparent outside the blade: 0 to 3 mature, 4 and 5 old, 6 young,
-/// 7 with autumn colour; at leaf fall 4 to 7 are yellow to brown.
-Texture leaf_texture(std::uint64_t seed, const Cultivar& cultivar = {},
-                     const GrowthStage& stage = {});
-inline constexpr int kLeafVariants = 8;
-TextureCell leaf_cell(int variant);
-
-Texture bark_texture(std::uint64_t seed);
-
-/// Shoots of this year in the left half, canes of last year in the right one.
-Texture cane_texture(std::uint64_t seed, const GrowthStage& stage = {});
-
-/// Packed berries around a bunch in the left half, four berries seen from outside in the right one;
-/// flowers before fruit set.
-Texture bunch_texture(std::uint64_t seed, const Cultivar& cultivar = {},
-                      const GrowthStage& stage = {});
-inline constexpr int kBerryVariants = 4;
-TextureCell berry_cell(int variant);
-TextureCell packed_berries_cell();
 
 Texture soil_texture(std::uint64_t seed);    ///< for kSoilTile metres a side
 inline constexpr double kSoilTile = 2.3;     ///< m; not a multiple of common spacings

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "sim/scene/mesh_builder.h"
 #include "sim/textures/textures.h"
 #include "sim/textures/textures_paint.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/plants/grapevine.h"
-#include "sim/textures/textures.h"
+#include "sim/plants/plant_textures.h"
 
 namespace vinebench::test {
 

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
+#include "sim/plants/plant_textures.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -284,6 +286,12 @@ TextureCell berry_cell(int variant) {
 
 TextureCell packed_berries_cell() {
   return atlas_cell(0, 2, 1, 0.5f / kBunchPixels);
+}
+
+std::vector<Texture> plant_textures(const Cultivar& cultivar, const GrowthStage& stage,
+                                    std::uint64_t seed) {
+  return {bark_texture(seed), cane_texture(seed, stage), leaf_texture(seed, cultivar, stage),
+          bunch_texture(seed, cultivar, stage)};
 }
 
 }  // namespace vinebench::sim
