@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "harness/benchmarks/render_benchmark.h"
+#include <nlohmann/json.hpp>
+
+#include "harness/benchmarks/render_case.h"
 
 namespace vinebench::harness {
 

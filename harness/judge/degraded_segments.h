@@ -37,13 +37,6 @@ struct DegradedSegment {
   double inliers = 0;        ///< of all cameras, mean over the segment
   double usual_inliers = 0;  ///< the run's median
 };
-///< of the rig, affected by the cause; empty: not camera-specific
-double share = 0;          ///< of the segment's ticks in which it is present, 0 to 1
-double error_growth = 0;   ///< m, drift of the live pose during the segment
-int untracked = 0;         ///< frames without a pose supported by cameras
-double inliers = 0;        ///< of all cameras, mean over the segment
-double usual_inliers = 0;  ///< the run's median
-};
 
 /// True velocity of the body at a tick.
 struct TrueMotion {

@@ -1,21 +1,14 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "harness/benchmarks/render_benchmark.h"
+#include "harness/benchmarks/render_case.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
+#include <cmath>
 #include <numbers>
-
-#include "core/util/error.h"
-#include "harness/benchmarks/measurement.h"
-#include "harness/benchmarks/render_report.h"
 
 namespace vinebench::harness {
 namespace {
-
-using testing::HasSubstr;
 
 /// Of the x axis, rad.
 double yaw_of(const Pose& pose) {
@@ -69,42 +62,6 @@ TEST(AisleRouteTest, LiesOnTheGround) {
   EXPECT_NEAR(route[0].translation.z(), -0.1, 1e-9);
   EXPECT_NEAR(route[1].translation.z(), 0.1, 1e-9);
   EXPECT_NEAR((route[0].rotation * Eigen::Vector3d::UnitX()).z(), std::sin(std::atan(0.1)), 1e-9);
-}
-
-TEST(MedianTest, IsTheMiddleValueAndOfTwoTheUpper) {
-  EXPECT_EQ(median(std::vector<double>{5, 1, 9}), 5);
-  EXPECT_EQ(median(std::vector<double>{3, 1, 4, 2}), 3);
-  EXPECT_THROW(median(std::vector<double>{}), Error);
-  const Timing timing = median(std::vector<Timing>{{1, 30}, {2, 20}, {3, 10}});
-  EXPECT_EQ(timing.cpu_ms, 2);
-  EXPECT_EQ(timing.wall_ms, 20);
-}
-
-TEST(MeasureTest, CountsTheTimeOfTheWork) {
-  volatile double sum = 0;
-  const Timing timing = measure([&] {
-    for (int i = 0; i < 1'000'000; ++i) sum = sum + 1;
-  });
-  // A million dependent additions through memory take at least a cycle each: 0.1 ms at 10 GHz.
-  EXPECT_GT(timing.cpu_ms, 0.1);
-  EXPECT_GT(timing.wall_ms, 0.1);
-}
-
-TEST(RenderTableTest, NamesEveryFigure) {
-  const auto world = nlohmann::ordered_json::parse(R"({
-    "name": "small", "rows": 3, "plants": 12,
-    "cameras": [{"camera": "side", "pixels": "64 x 48", "cpu_ms": 12.34, "wall_ms": 11.1}],
-    "frame_wall_ms": {"1": 80.0, "2": 40.0}, "scaling": 2.0,
-    "memory_mib": 321, "build_s": 1.5, "upload_s": 0.5,
-    "mujoco": {"platform": "EGL", "images": [{"camera": "side", "pixels": "64 x 48",
-      "meshes": "finest", "shadows": false, "triangles": 1000, "cpu_ms": 123.4,
-      "wall_ms": 100.0, "throughput_ratio": 10.0}]}})");
-  const std::string table = render_table(world);
-  EXPECT_THAT(table, HasSubstr("small: 3 rows, 12 plants\n"));
-  EXPECT_THAT(table, HasSubstr("side               64 x 48      12.3      11.1\n"));
-  EXPECT_THAT(table, HasSubstr("80.0 ms wall with 1 thread, 40.0 ms wall with 2 threads, x 2.00"));
-  EXPECT_THAT(table, HasSubstr("321 MiB"));
-  EXPECT_THAT(table, HasSubstr("123.4     100.0    finest       no       1000     10.0\n"));
 }
 
 }  // namespace

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/geometry/rig.h"
+#include "sim/render/renderer_config.h"
+#include "sim/world/world.h"
+
+namespace vinebench::harness {
+
+/// Settings of `vinebench bench render` for one world.
+struct RenderBenchmark {
+  std::string name;
+  sim::WorldConfig world;
+  Rig rig;
+  std::vector<Pose> route;  ///< T_world_body of each frame
+  std::uint64_t seed = 1;
+  int threads = 2;
+  sim::RendererConfig renderer;
+  bool mujoco = false;           ///< also measure MuJoCo's own renderer on the same scene
+  std::filesystem::path images;  ///< folder for both renderers' images of one pose, if any
+};
+
+/// Poses of a rover in the middle aisle (in the order of `rows`), which sees most of a world:
+/// `count` poses from one end to the other, alternately looking ahead and back.
+std::vector<Pose> aisle_route(const sim::WorldConfig& world, int count);
+
+}  // namespace vinebench::harness
