@@ -7,13 +7,11 @@
 #include <memory>
 #include <thread>
 
-#include "core/util/error.h"
 #include "core/util/files.h"
 #include "harness/benchmarks/measurement.h"
 #include "harness/benchmarks/render_benchmark.h"
+#include "harness/benchmarks/render_case.h"
 #include "harness/benchmarks/render_report.h"
-#include "harness/experiment/scenario.h"
-#include "sim/config_files.h"
 #include "tools/commands.h"
 #include "tools/gl_variable.h"
 
@@ -23,56 +21,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct BenchArguments {
-  std::vector<std::string> worlds;
-  std::string rig = "models/csl-rover/rig.yaml";
+  harness::RenderSuite suite;
   std::string json;
-  std::string images;
-  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  int frames = 24;
   bool no_mujoco = false;
 };
-
-constexpr const char* kSmallWorld = "worlds/csl-vineyard.yaml";
-constexpr const char* kLargeWorld = "worlds/typical-vineyard.yaml";
-constexpr int kManyRows = 40;
-
-harness::RenderBenchmark benchmark_of(const BenchArguments& arguments, const std::string& file) {
-  harness::RenderBenchmark benchmark;
-  benchmark.world = sim::load_world(file);
-  benchmark.name = benchmark.world.name;
-  benchmark.rig = load_rig(arguments.rig);
-  benchmark.route = harness::aisle_route(benchmark.world, arguments.frames);
-  benchmark.threads = arguments.threads;
-  benchmark.mujoco = !arguments.no_mujoco && benchmark.name == "csl-vineyard";
-  benchmark.images = arguments.images;
-  sim::choose_backend(benchmark.renderer, gl_variable());
-  return benchmark;
-}
-
-/// The large world with many rows more, of which as much is to be seen.
-harness::RenderBenchmark with_many_rows(harness::RenderBenchmark benchmark) {
-  const Override rows = parse_override(fmt::format("block.rows={}", kManyRows));
-  benchmark.world = sim::load_world(kLargeWorld, {rows});
-  benchmark.name += fmt::format(", {} rows", kManyRows);
-  benchmark.route = harness::aisle_route(benchmark.world, static_cast<int>(benchmark.route.size()));
-  return benchmark;
-}
-
-std::vector<harness::RenderBenchmark> benchmarks_of(const BenchArguments& arguments) {
-  std::vector<harness::RenderBenchmark> benchmarks;
-  for (const std::string& file : arguments.worlds) {
-    benchmarks.push_back(benchmark_of(arguments, file));
-  }
-  if (!benchmarks.empty()) return benchmarks;
-  for (const char* file : {kSmallWorld, kLargeWorld}) {
-    if (std::filesystem::exists(file)) continue;
-    fail("bench render: no {} here; run it in the project's folder or name a --world", file);
-  }
-  benchmarks.push_back(benchmark_of(arguments, kSmallWorld));
-  benchmarks.push_back(benchmark_of(arguments, kLargeWorld));
-  benchmarks.push_back(with_many_rows(benchmarks.back()));
-  return benchmarks;
-}
 
 /// CPU time of a frame's images, each by itself, ms.
 double frame_cpu(const Json& world) {
@@ -87,13 +39,16 @@ double growth_percent(const Json& few, const Json& many) {
 }
 
 int bench_render(const BenchArguments& arguments) {
-  Json results{{"frames", arguments.frames}, {"threads", arguments.threads}};
-  for (const harness::RenderBenchmark& benchmark : benchmarks_of(arguments)) {
+  harness::RenderSuite suite = arguments.suite;
+  suite.mujoco = !arguments.no_mujoco;
+  suite.gl_platform = gl_variable();
+  Json results{{"frames", suite.frames}, {"threads", suite.threads}};
+  for (const harness::RenderBenchmark& benchmark : harness::render_cases(suite)) {
     results["worlds"].push_back(harness::measure_rendering(benchmark));
     fmt::print("{}\n", harness::render_table(results["worlds"].back()));
     std::fflush(stdout);
   }
-  if (arguments.worlds.empty()) {
+  if (suite.worlds.empty()) {
     const Json& worlds = results["worlds"];
     const double growth = growth_percent(worlds[1], worlds[2]);
     results["growth_percent"] = growth;
@@ -108,23 +63,24 @@ int bench_render(const BenchArguments& arguments) {
 
 void add_bench_render(CLI::App& bench, Command& chosen) {
   const auto arguments = std::make_shared<BenchArguments>();
+  arguments->suite.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   CLI::App* render = bench.add_subcommand(
       "render", "Rendering, without SLAM, in the middle aisle: medians over the frames");
-  render->add_option("--world", arguments->worlds,
+  render->add_option("--world", arguments->suite.worlds,
                      "World files; csl-vineyard, typical-vineyard and the latter with 40 rows "
                      "where absent");
-  render->add_option("--rig", arguments->rig, "Rig file")->capture_default_str();
+  render->add_option("--rig", arguments->suite.rig, "Rig file")->capture_default_str();
   render->add_option("--json", arguments->json, "Also write the results to this file");
-  render->add_option("--threads", arguments->threads, "Threads, to compare with one")
+  render->add_option("--threads", arguments->suite.threads, "Threads, to compare with one")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
-  render->add_option("--frames", arguments->frames, "Places on the route")
+  render->add_option("--frames", arguments->suite.frames, "Places on the route")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   render->add_flag("--no-mujoco", arguments->no_mujoco,
                    "Leave out MuJoCo's own renderer, which draws csl-vineyard for comparison");
   render
-      ->add_option("--pictures", arguments->images,
+      ->add_option("--pictures", arguments->suite.images,
                    "Folder for the images that the renderers made of the route's first place")
       ->check(CLI::ExistingDirectory);
   render->callback(

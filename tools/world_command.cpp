@@ -4,39 +4,15 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 
-#include "core/util/error.h"
-#include "core/util/files.h"
-#include "sim/config_files.h"
-#include "sim/world/world_generator.h"
+#include "harness/jobs/make_world.h"
 #include "tools/commands.h"
 
 namespace vinebench::tools {
 namespace {
 
-struct WorldArguments {
-  sim::WorldRecipe recipe;
-  std::string out;
-  bool force = false;
-};
-
-int write_world(const WorldArguments& arguments) {
-  const std::filesystem::path file =
-      arguments.out.empty() ? arguments.recipe.name + ".yaml" : arguments.out;
-  const std::string text = sim::format_world(arguments.recipe);
-  std::error_code problem;
-  if (!arguments.force && std::filesystem::exists(file, problem)) {
-    fail("{} exists; give --force to overwrite it", file.string());
-  }
-  write_file_atomically(file, text);
-  const sim::WorldConfig world = sim::load_world(file);
-  fmt::print("{}: {} rows, {} vines, {} posts, {} tags\n", file.string(), world.rows.size(),
-             sim::vine_positions(world).size(), sim::post_positions(world).size(),
-             world.tags.size());
-  return 0;
-}
+using harness::WorldRequest;
 
 /// An option that takes the name of one of an enum's values.
 template <class Enum>
@@ -85,15 +61,19 @@ void add_content(CLI::App& command, sim::WorldRecipe& recipe) {
 }  // namespace
 
 void add_world_command(CLI::App& app, Command& chosen) {
-  const auto arguments = std::make_shared<WorldArguments>();
+  const auto arguments = std::make_shared<WorldRequest>();
   CLI::App* command = app.add_subcommand("world", "Write the file of a new vineyard");
   command->add_option("NAME", arguments->recipe.name, "Name of the world")->required();
   command->add_option("--out", arguments->out, "File to write (default NAME.yaml)");
   command->add_flag("--force", arguments->force, "Overwrite the file where it exists");
   add_layout(*command, arguments->recipe);
   add_content(*command, arguments->recipe);
-  command->callback(
-      [&chosen, arguments] { chosen = [arguments] { return write_world(*arguments); }; });
+  command->callback([&chosen, arguments] {
+    chosen = [arguments] {
+      fmt::print("{}", harness::make_world(*arguments));
+      return 0;
+    };
+  });
 }
 
 }  // namespace vinebench::tools

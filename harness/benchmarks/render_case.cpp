@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/config/override.h"
+#include "core/util/error.h"
+#include "sim/config_files.h"
 #include "sim/world/terrain.h"
 
 namespace vinebench::harness {
@@ -13,7 +16,47 @@ namespace {
 constexpr double kBeside = 1.0;     // m from a single row
 constexpr double kHalfTrack = 0.2;  // m, half of the rover's track
 
+constexpr const char* kSmallWorld = "worlds/csl-vineyard.yaml";
+constexpr const char* kLargeWorld = "worlds/typical-vineyard.yaml";
+constexpr int kManyRows = 40;
+
+RenderBenchmark case_of(const RenderSuite& suite, const std::string& file) {
+  RenderBenchmark benchmark;
+  benchmark.world = sim::load_world(file);
+  benchmark.name = benchmark.world.name;
+  benchmark.rig = load_rig(suite.rig);
+  benchmark.route = aisle_route(benchmark.world, suite.frames);
+  benchmark.threads = suite.threads;
+  benchmark.mujoco = suite.mujoco && benchmark.name == "csl-vineyard";
+  benchmark.images = suite.images;
+  sim::choose_backend(benchmark.renderer, suite.gl_platform);
+  return benchmark;
+}
+
+/// The large world with many more rows, of which as much is visible.
+RenderBenchmark with_many_rows(RenderBenchmark benchmark) {
+  const Override rows = parse_override(fmt::format("block.rows={}", kManyRows));
+  benchmark.world = sim::load_world(kLargeWorld, {rows});
+  benchmark.name += fmt::format(", {} rows", kManyRows);
+  benchmark.route = aisle_route(benchmark.world, static_cast<int>(benchmark.route.size()));
+  return benchmark;
+}
+
 }  // namespace
+
+std::vector<RenderBenchmark> render_cases(const RenderSuite& suite) {
+  std::vector<RenderBenchmark> cases;
+  for (const std::string& file : suite.worlds) cases.push_back(case_of(suite, file));
+  if (!cases.empty()) return cases;
+  for (const char* file : {kSmallWorld, kLargeWorld}) {
+    if (std::filesystem::exists(file)) continue;
+    fail("bench render: no {} here; run it in the project's folder or name a --world", file);
+  }
+  cases.push_back(case_of(suite, kSmallWorld));
+  cases.push_back(case_of(suite, kLargeWorld));
+  cases.push_back(with_many_rows(cases.back()));
+  return cases;
+}
 
 std::vector<Pose> aisle_route(const sim::WorldConfig& world, int count) {
   sim::WorldConfig placed = world;

@@ -30,4 +30,19 @@ struct RenderBenchmark {
 /// `count` poses from one end to the other, alternately looking ahead and back.
 std::vector<Pose> aisle_route(const sim::WorldConfig& world, int count);
 
+/// What `vinebench bench render` measures.
+struct RenderSuite {
+  /// World files; csl-vineyard, typical-vineyard and the latter with many more rows where empty.
+  std::vector<std::string> worlds;
+  std::string rig = "models/csl-rover/rig.yaml";
+  std::string images;  ///< folder, as RenderBenchmark::images
+  int threads = 2;
+  int frames = 24;
+  bool mujoco = true;       ///< also MuJoCo's own renderer, on csl-vineyard
+  std::string gl_platform;  ///< as choose_backend()
+};
+
+/// The worlds of a suite, in order. Throws Error for a file that is not there.
+std::vector<RenderBenchmark> render_cases(const RenderSuite& suite);
+
 }  // namespace vinebench::harness

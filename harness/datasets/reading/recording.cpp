@@ -6,7 +6,7 @@
 
 namespace vinebench::harness {
 
-Rig load_rig_for(const fs::path& file, std::size_t cameras) {
+Rig load_rig_for(const std::filesystem::path& file, std::size_t cameras) {
   Rig rig = load_rig(file);
   if (rig.cameras.size() > cameras) {
     fail("{}: rig '{}' has {} cameras, the recording has {}", file.string(), rig.name,

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/scene/mesh_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace vinebench::sim {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+/// Area of all triangles, and a sixth of the determinants: the volume where the mesh is closed.
+struct Measures {
+  double area = 0;
+  double volume = 0;
+};
+
+Measures measures_of(const Primitive& primitive) {
+  Measures measures;
+  for (std::size_t i = 0; i < primitive.indices.size(); i += 3) {
+    const auto p = [&](std::size_t k) -> Vector3d {
+      return primitive.vertices.at(primitive.indices[i + k]).position.cast<double>();
+    };
+    measures.area += (p(1) - p(0)).cross(p(2) - p(0)).norm() / 2;
+    measures.volume += p(0).dot(p(1).cross(p(2))) / 6;
+  }
+  return measures;
+}
+
+TEST(AxesTest, AreRightHandedWithXTowardsTheHint) {
+  const Axes axes = axes_along({0, 0, 2}, {1, 0, 5});
+  EXPECT_TRUE(axes.z.isApprox(Vector3f::UnitZ()));
+  EXPECT_TRUE(axes.x.isApprox(Vector3f::UnitX()));  // the hint without its share along z
+  EXPECT_TRUE(axes.y.isApprox(Vector3f::UnitY()));
+  const Axes any = axes_along({0, 0, 1}, {0, 0, 1});  // a hint along the direction says nothing
+  EXPECT_NEAR(any.x.dot(any.z), 0, 1e-6f);
+  EXPECT_NEAR(any.x.norm(), 1, 1e-6f);
+}
+
+TEST(TextureCellTest, SpansItsPartOfTheTexture) {
+  const TextureCell cell{{0.5f, 0.25f}, {1.0f, 0.75f}};
+  EXPECT_TRUE(cell.at(0, 0).isApprox(Eigen::Vector2f(0.5f, 0.25f)));
+  EXPECT_TRUE(cell.at(0.5f, 1).isApprox(Eigen::Vector2f(0.75f, 0.75f)));
+}
+
+// A prism of 12 sides inscribed in a cylinder of 0.1 m radius and 2 m length: a side is
+// 2 r sin(15 deg), a cap 12 r^2 sin(30 deg) / 2.
+TEST(MeshBuilderTest, ATubeHasThePrismsArea) {
+  Primitive primitive;
+  MeshBuilder(primitive, 3)
+      .tube({{{0, 0, 0}, {0, 0, 1}, {0, 0, 2}}, {0.1f, 0.1f, 0.1f}}, 12, 1, true);
+  constexpr double kSide = std::numbers::pi / 12;
+  const double expected = 12 * 2 * (2 * 0.1 * std::sin(kSide)) + 6 * 0.01 * std::sin(2 * kSide);
+  EXPECT_NEAR(measures_of(primitive).area, expected, 1e-5);
+  for (const Vertex& vertex : primitive.vertices) EXPECT_EQ(vertex.part, 3);
+}
+
+TEST(MeshBuilderTest, ATubesNormalsPointAwayFromItsPath) {
+  Primitive primitive;
+  MeshBuilder(primitive).tube({{{0, 0, 0}, {0, 0, 1}}, {0.1f, 0.1f}}, 6, 1, false);
+  for (const Vertex& vertex : primitive.vertices) {
+    const Vector3f out(vertex.position.x(), vertex.position.y(), 0);
+    EXPECT_NEAR(vertex.normal.dot(out), 0.1f, 1e-6f);
+  }
+  // v runs along the tube in metres, u once around.
+  EXPECT_NEAR(primitive.vertices.back().uv.y(), 1, 1e-6f);
+  EXPECT_NEAR(primitive.vertices.back().uv.x(), 1, 1e-6f);
+}
+
+TEST(LeafOutlineTest, EveryDetailHasTheSameArea) {
+  for (const float lobes : {0.0f, 0.5f, 1.0f}) {
+    const float area = leaf_outline_area(lobes);
+    for (const int detail : {0, 1, 2}) {
+      Primitive primitive;
+      MeshBuilder builder(primitive);
+      const auto& outline = leaf_outline(detail, lobes);
+      for (const Eigen::Vector2f& p : outline) {
+        builder.vertex({p.x(), p.y(), 0}, Vector3f::UnitZ(), p);
+      }
+      // Signed fans from the first point give the polygon's area, whatever its shape.
+      double twice = 0;
+      for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Eigen::Vector2f& a = outline[i];
+        const Eigen::Vector2f& b = outline[(i + 1) % outline.size()];
+        twice += static_cast<double>(a.x() * b.y() - a.y() * b.x());
+      }
+      EXPECT_NEAR(std::abs(twice) / 2, static_cast<double>(area), 1e-4) << detail << " " << lobes;
+    }
+  }
+  EXPECT_GT(leaf_outline_area(0), leaf_outline_area(1));  // sinuses take area away
+}
+
+TEST(MeshBuilderTest, ADomeIsTheHemisphereThatFacesOutwards) {
+  Primitive primitive;
+  const Vector3f centre(1, 2, 3), outward = Vector3f::UnitY();
+  MeshBuilder(primitive).dome(centre, 0.5f, outward, 24, 12);
+  for (const Vertex& vertex : primitive.vertices) {
+    const Vector3f from_centre = vertex.position - centre;
+    EXPECT_NEAR(from_centre.norm(), 0.5f, 1e-5f);
+    EXPECT_GE(from_centre.dot(outward), -1e-5f);
+  }
+  // Half of 4 pi r^2, a few percent less for the inscribed triangles.
+  EXPECT_NEAR(measures_of(primitive).area, 2 * std::numbers::pi * 0.25, 0.05);
+}
+
+}  // namespace
+}  // namespace vinebench::sim

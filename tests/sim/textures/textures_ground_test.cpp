@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+
+#include "sim/textures/textures.h"
+
+namespace vinebench::sim {
+namespace {
+
+bool same(const Texture& a, const Texture& b) {
+  return a.rgba.size() == b.rgba.size() && cv::norm(a.rgba, b.rgba, cv::NORM_INF) == 0;
+}
+
+TEST(GroundTexturesTest, ASeedIsOneImageThatRepeats) {
+  for (const auto make : {grass_texture, stone_texture}) {
+    const Texture first = make(1);
+    EXPECT_TRUE(first.repeat) << first.name;
+    EXPECT_TRUE(same(first, make(1))) << first.name;
+    EXPECT_FALSE(same(first, make(2))) << first.name;
+  }
+}
+
+// Bushes have no gap at their feet and nothing but sky above their tops.
+TEST(GroundTexturesTest, AHedgeIsOpaqueBelowAndClearAbove) {
+  const Texture hedge = hedge_texture(1);
+  std::vector<cv::Mat> channels;
+  cv::split(hedge.rgba, channels);
+  EXPECT_EQ(cv::mean(channels[3].row(hedge.rgba.rows - 1))[0], 255);
+  EXPECT_LT(cv::mean(channels[3].row(0))[0], 10);
+}
+
+// The tracks and the bare strips are soil, between them stands grass: greener than red.
+TEST(GroundTexturesTest, AnAisleIsBareUnderTheVinesAndGreenInItsMiddle) {
+  const Texture aisle = aisle_texture(1, {});
+  const auto greenness = [&](double from, double to) {
+    const int columns = aisle.rgba.cols;
+    const cv::Scalar mean = cv::mean(
+        aisle.rgba.colRange(static_cast<int>(from * columns), static_cast<int>(to * columns)));
+    return mean[1] - mean[0];
+  };
+  EXPECT_GT(greenness(0.48, 0.52), 0);
+  EXPECT_GT(greenness(0.48, 0.52), greenness(0, 0.05) + 10);
+}
+
+}  // namespace
+}  // namespace vinebench::sim
