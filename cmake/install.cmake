@@ -13,7 +13,8 @@ set_target_properties(vinebench_core PROPERTIES EXPORT_NAME core)
 set_target_properties(vinebench_slam PROPERTIES EXPORT_NAME slam)
 install(TARGETS vinebench_core vinebench_slam EXPORT vinebench INCLUDES DESTINATION ${headers})
 install(EXPORT vinebench NAMESPACE vinebench:: DESTINATION ${package} FILE vinebenchTargets.cmake)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/core ${PROJECT_SOURCE_DIR}/slam DESTINATION ${headers} FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/core ${PROJECT_SOURCE_DIR}/slam DESTINATION ${headers}
+        FILES_MATCHING PATTERN "*.h" PATTERN "truth" EXCLUDE)
 install(FILES ${CMAKE_BINARY_DIR}/generated/vinebench/version.h DESTINATION ${headers}/vinebench)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/vinebenchConfig.cmake.in

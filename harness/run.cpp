@@ -38,15 +38,13 @@ struct Sinks {
 };
 
 /// First the metrics that are a function of the inputs, then times and memory.
-Json complete_metrics(const Json& results, const RunResults& measured, const FrameSource& source,
-                      const SlamSystem& slam, double wall_seconds, const std::string& hash) {
+Json complete_metrics(const Json& results, const FrameSource& source, const SlamSystem& slam,
+                      double wall_seconds, const std::string& hash) {
   StageTimes times = source.times();
   times.merge(slam.times());
   const double simulated = results["frames"].get<double>() / source.rig().rate_hz;
   Json metrics{{"scenario", results["scenario"]}, {"seed", results["seed"]}, {"version", kVersion}};
   metrics.update(results);
-  // Outside what is hashed, so that the hashes of earlier builds stay comparable.
-  if (const auto& of = measured.consistency) metrics["nees_left_out"] = of->not_invertible;
   metrics["real_time_factor"] = simulated / wall_seconds;
   metrics["wall_seconds"] = wall_seconds;
   metrics["cpu_seconds"] = cpu_seconds();
@@ -92,7 +90,8 @@ RunOutcome run_lockstep_and_judge(const Trial& trial, FrameSource& source, SlamS
   sinks.hash.add(figures.dump());
   outcome.hash = sinks.hash.digits();
   outcome.checks = check_expectations(trial.expectations, results);
-  outcome.metrics = complete_metrics(figures, results, source, slam, wall.count(), outcome.hash);
+  outcome.metrics = complete_metrics(figures, source, slam, wall.count(), outcome.hash);
+  add_unhashed_metrics(record, results, outcome.metrics);
   outcome.metrics["expectations"] = checks_json(outcome.checks);
   if (!options.folder.empty()) write_metrics(options.folder, outcome.metrics);
   return outcome;

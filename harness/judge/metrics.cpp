@@ -68,8 +68,7 @@ Json occlusion_metrics(const RunRecord& record) {
 }
 
 Json blind_metrics(const OcclusionSegment& blind) {
-  return {{"occluder", name_of(blind.occluder)},
-          {"seconds", blind.seconds},
+  return {{"seconds", blind.seconds},
           {"metres", blind.metres},
           {"lost_frames", blind.lost_frames},
           {"inliers_clear", blind.inliers_clear},
@@ -116,9 +115,14 @@ Json result_metrics(const Trial& trial, const RunRecord& record, const RunResult
   metrics["features"] = camera_means(record, &CameraCounts::features);
   metrics["inliers"] = camera_means(record, &CameraCounts::inliers);
   for (const Tick& tick : record.ticks) count_events(tick, metrics);
-  if (Json shares = occlusion_metrics(record); !shares.empty()) metrics["occlusion"] = shares;
   if (results.blind) metrics["blind"] = blind_metrics(*results.blind);
   return metrics;
+}
+
+void add_unhashed_metrics(const RunRecord& record, const RunResults& results, Json& metrics) {
+  if (Json shares = occlusion_metrics(record); !shares.empty()) metrics["occlusion"] = shares;
+  if (results.blind) metrics["blind"]["occluder"] = name_of(results.blind->occluder);
+  if (results.consistency) metrics["nees_left_out"] = results.consistency->not_invertible;
 }
 
 double percentile(std::vector<double> samples, double share) {

@@ -16,6 +16,10 @@ using Json = nlohmann::ordered_json;
 /// be measured are null.
 Json result_metrics(const Trial& trial, const RunRecord& record, const RunResults& results);
 
+/// Metrics that came later, which the run's hash leaves out, so that hashes of earlier builds stay
+/// comparable: what covered each camera, by class; frames that the consistency check left out.
+void add_unhashed_metrics(const RunRecord& record, const RunResults& results, Json& metrics);
+
 /// Mean, median and 95th percentile of each stage, ms per call.
 Json timing_metrics(const StageTimes& times);
 

@@ -10,6 +10,7 @@
 
 #include "core/util/error.h"
 #include "sim/config_files.h"
+#include "sim/render/gl/gl_renderer.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::sim {

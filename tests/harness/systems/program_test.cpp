@@ -20,7 +20,8 @@ class ProgramTest : public testing::Test {
             .arguments = {"-c", script},
             .environment = {{"VINEBENCH_WORD", "given"}},
             .folder = folder_.path(),
-            .log = folder_ / "log.txt"};
+            .log = folder_ / "log.txt",
+            .stopped = {}};
   }
   std::string log() const { return read_file(folder_ / "log.txt"); }
 

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "sim/plants/grapevine.h"
+#include "sim/plants/plant_textures.h"
 #include "sim/render/gl/gl_renderer.h"
 #include "tests/support/test_scene.h"
 

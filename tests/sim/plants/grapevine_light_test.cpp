@@ -14,6 +14,7 @@ std::vector<BladePlacement> foliage(int layers) {
     for (int y = -2; y <= 2; ++y) {
       for (int z = 0; z < layers; ++z) {
         BladePlacement leaf;
+        leaf.shading_normal = Eigen::Vector3f::UnitZ();
         leaf.foot = 0.1f * Eigen::Vector3f(static_cast<float>(x), static_cast<float>(y),
                                            static_cast<float>(z));
         leaf.axes = axes_along(Eigen::Vector3f::UnitZ(), Eigen::Vector3f::UnitX());

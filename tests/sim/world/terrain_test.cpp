@@ -149,9 +149,9 @@ TEST(TerrainTest, EvenGroundIsAPlane) {
 
 TEST(TerrainTest, SameSeedSameGround) {
   WorldConfig world = bumpy();
-  const Terrain one(world), same(world);
+  const Terrain one = terrain_of(world), same = terrain_of(world);
   world.terrain.seed = 2;
-  const Terrain other(world);
+  const Terrain other = terrain_of(world);
   EXPECT_EQ(one.node_height(40, 50), same.node_height(40, 50));
   EXPECT_NE(one.node_height(40, 50), other.node_height(40, 50));
 }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "slam/slam.h"
 #include "tests/support/recorded_folders.h"
 
 namespace vinebench::harness {

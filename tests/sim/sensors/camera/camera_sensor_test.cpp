@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/util/error.h"
+#include "sim/render/gl/gl_renderer.h"
 #include "sim/render/image_encoding.h"
 #include "sim/sensors/sensors.h"
 #include "tests/support/chessboard.h"
