@@ -78,7 +78,7 @@ TEST_F(FrameStreamTest, BadRequestsAreOneError) {
   EXPECT_THAT(error_of([&] { FrameStream{request}; }), HasSubstr("no camera named 'top'"));
   request = stream_request();
   request.first = 4000;
-  EXPECT_THAT(error_of([&] { FrameStream{request}; }), HasSubstr("none from 4000 on"));
+  EXPECT_THAT(error_of([&] { FrameStream{request}; }), HasSubstr("no frame from 4000 on"));
   request.last = 3000;
   EXPECT_THAT(error_of([&] { FrameStream{request}; }), HasSubstr("first <= last"));
 }
