@@ -98,7 +98,7 @@ TEST(CompareTest, RunsArePairedByScenarioAndSeed) {
               HasSubstr("none: expected a folder of runs"));
   std::filesystem::create_directories(folder / "empty");
   EXPECT_THAT(test::error_of([&] { pair_runs(folder / "a", folder / "empty"); }),
-              HasSubstr("empty: has no run"));
+              HasSubstr("empty: contains no run"));
   write("b/again", run(2, 0.02));
   EXPECT_THAT(test::error_of([&] { pair_runs(folder / "a", folder / "b"); }),
               HasSubstr("row, seed 2 is duplicate"));

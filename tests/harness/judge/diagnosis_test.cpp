@@ -81,7 +81,7 @@ void weaken(Tick& tick) {
 
 TEST_F(DiagnosisTest, AGoodRunHasNothingToExplain) {
   EXPECT_TRUE(found().empty());
-  EXPECT_THAT(format_diagnosis(record_, {}), HasSubstr("nowhere"));
+  EXPECT_THAT(format_diagnosis(record_, {}), HasSubstr("no degraded segment"));
   EXPECT_TRUE(diagnose({}, {}, trial_).empty());
 }
 

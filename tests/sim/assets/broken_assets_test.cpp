@@ -70,7 +70,7 @@ TEST_F(BrokenAssetsTest, CutShort) {
     problem("short.glb", glb.substr(0, i * glb.size() / 16));
     problem("short.gltf", gltf.substr(0, i * gltf.size() / 16));
   }
-  EXPECT_THAT(problem("short.glb", glb.substr(0, glb.size() - 1)), HasSubstr("cut short"));
+  EXPECT_THAT(problem("short.glb", glb.substr(0, glb.size() - 1)), HasSubstr("is it truncated?"));
 }
 
 /// The chunk of the buffer claims up to 8 bytes more than the file has.

@@ -38,7 +38,8 @@ TEST(PlantCacheTest, PlantsAreKeptAndGrownAnewWhereTheirFileIsDamaged) {
   const std::filesystem::path file = only_file(cache);
   const std::string bytes = read_file(file);
   EXPECT_THAT(bytes, HasSubstr(R"("label":"trunk")"));  // a number would change with the labels
-  EXPECT_EQ(to_glb(cached_plants(vines, 5, cache.path()).grown.at(0)), bytes);
+  EXPECT_EQ(cached_plants(vines, 5, cache.path()).grown.size(), 1u);
+  EXPECT_EQ(read_file(file), bytes);  // read, not grown again
 
   write_file_atomically(file, bytes.substr(0, bytes.size() / 2));
   cached_plants(vines, 5, cache.path());

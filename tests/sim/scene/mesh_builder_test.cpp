@@ -94,18 +94,5 @@ TEST(LeafOutlineTest, EveryDetailHasTheSameArea) {
   EXPECT_GT(leaf_outline_area(0), leaf_outline_area(1));  // sinuses take area away
 }
 
-TEST(MeshBuilderTest, ADomeIsTheHemisphereThatFacesOutwards) {
-  Primitive primitive;
-  const Vector3f centre(1, 2, 3), outward = Vector3f::UnitY();
-  MeshBuilder(primitive).dome(centre, 0.5f, outward, 24, 12);
-  for (const Vertex& vertex : primitive.vertices) {
-    const Vector3f from_centre = vertex.position - centre;
-    EXPECT_NEAR(from_centre.norm(), 0.5f, 1e-5f);
-    EXPECT_GE(from_centre.dot(outward), -1e-5f);
-  }
-  // Half of 4 pi r^2, a few percent less for the inscribed triangles.
-  EXPECT_NEAR(measures_of(primitive).area, 2 * std::numbers::pi * 0.25, 0.05);
-}
-
 }  // namespace
 }  // namespace vinebench::sim
