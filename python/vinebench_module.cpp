@@ -185,8 +185,7 @@ PyFrame next_frame(const Scenario& self) {
 
 py::dict label_names() {
   py::dict names;
-  for (std::size_t i = 0; i < kLabels; ++i)
-    names[py::int_(i)] = name_of(static_cast<Label>(i));
+  for (std::size_t i = 0; i < kLabels; ++i) names[py::int_(i)] = name_of(static_cast<Label>(i));
   return names;
 }
 

@@ -7,8 +7,8 @@
 
 #include "core/util/random.h"
 #include "sim/assets/asset.h"
-#include "sim/scene/mesh_builder.h"
 #include "sim/plants/plant_textures.h"
+#include "sim/scene/mesh_builder.h"
 #include "sim/textures/textures.h"
 #include "sim/vineyard/ground.h"
 #include "sim/world/row_index.h"

@@ -155,8 +155,7 @@ bool may_show(Thing thing, Label label) {
 TEST_F(TruthWorldTest, LabelsInstancesDepthAndNormalsAgreeWithTheGeometry) {
   WorldConfig world = csl_vineyard();
   world.occluders.push_back({.name = "box of tools", .position = {1.2, 0}});
-  world.occluders.push_back(
-      {.shape = Occluder::Shape::kPerson, .position = {2.5, 0.05}});
+  world.occluders.push_back({.shape = Occluder::Shape::kPerson, .position = {2.5, 0.05}});
   GlRenderer renderer(grow(world), {});
   std::map<Thing, int> seen;
   int bunches = 0, ground = 0, upright = 0;
