@@ -27,18 +27,20 @@ function(vinebench_flags target)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   target_compile_features(${target} PUBLIC cxx_std_20)
   vinebench_options(${target})
-  vinebench_precompile(${target} <algorithm> <filesystem> <functional> <map> <memory> <optional> <string>
-                       <vector> <fmt/format.h> <Eigen/Core> <Eigen/Geometry> <opencv2/core.hpp>)
 endfunction()
 
-# vinebench_precompile(TARGET headers...): libraries' headers that most of its files include.
+# Libraries' headers that most files include.
+set(VINEBENCH_COMMON_HEADERS <algorithm> <filesystem> <functional> <map> <memory> <optional> <string> <vector>
+    <fmt/format.h> <Eigen/Core> <Eigen/Geometry> <opencv2/core.hpp>)
+
+# vinebench_precompile(TARGET headers...): precompiles them for a target of many files.
 function(vinebench_precompile target)
   if(VINEBENCH_PRECOMPILE)
     target_precompile_headers(${target} PRIVATE ${ARGN})
   endif()
 endfunction()
 
-# vinebench_module(NAME dependencies...): one static library of every source in this folder and those
+# vinebench_module(NAME PUBLIC dependencies... PRIVATE dependencies...): one static library of every source in this folder and those
 # below it, but for folders that are libraries of their own, and for files that match
 # vinebench_without_NAME, a regular expression.
 function(vinebench_module name)
@@ -48,8 +50,9 @@ function(vinebench_module name)
     list(FILTER sources EXCLUDE REGEX "${vinebench_without_${name}}")
   endif()
   add_library(vinebench_${name} STATIC ${sources})
-  target_link_libraries(vinebench_${name} PUBLIC ${ARGN})
+  target_link_libraries(vinebench_${name} ${ARGN})
   vinebench_flags(vinebench_${name})
+  vinebench_precompile(vinebench_${name} ${VINEBENCH_COMMON_HEADERS})
 endfunction()
 
 # vinebench_shards(PROGRAM): its tests in several processes, because a process with sanitizers
@@ -91,7 +94,7 @@ function(vinebench_tests folder)
   target_link_libraries(${name}_test PRIVATE ${ARGN} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name}_test PRIVATE VINEBENCH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   vinebench_flags(${name}_test)
-  vinebench_precompile(${name}_test <gmock/gmock.h> <gtest/gtest.h>)
+  vinebench_precompile(${name}_test ${VINEBENCH_COMMON_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
   if(VINEBENCH_SANITIZE AND VINEBENCH_SLAM_ONLY)
     vinebench_shards(${name}_test)
   else()

@@ -169,6 +169,7 @@ Scenario open_scenario(const Arguments& arguments) {
   if (arguments.frames) std::tie(request.first, request.last) = *arguments.frames;
   request.every = arguments.every;
   request.threads = arguments.threads;
+  request.machine = harness::machine_of_environment();
   const py::gil_scoped_release others_may_run;
   return {std::make_shared<harness::FrameStream>(request)};
 }

@@ -10,17 +10,17 @@
 #include <Eigen/Core>
 #include <opencv2/core/utility.hpp>
 
-#include "tools/simulation.h"
+#include "tools/commands/simulation.h"
 #include "vinebench/version.h"
 
 namespace vinebench::tools {
 
-std::string versions_text() {
+std::string versions_text(const harness::Machine& machine) {
   std::string text = fmt::format("vinebench {}\n", kVersion);
   const auto add = [&](const char* name, const std::string& version) {
     text += fmt::format("  {:<10} {}\n", name, version);
   };
-  for (const auto& [name, version] : simulation_versions()) add(name.c_str(), version);
+  for (const auto& [name, version] : simulation_versions(machine)) add(name.c_str(), version);
   add("OpenCV", cv::getVersionString());
   add("Eigen",
       fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));

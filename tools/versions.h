@@ -4,9 +4,12 @@
 
 #include <string>
 
+#include "harness/machine.h"
+
 namespace vinebench::tools {
 
-/// The versions of the program and its libraries, one a line.
-std::string versions_text();
+/// The versions of the program and its libraries, one a line. Starts OpenGL where
+/// the program draws.
+std::string versions_text(const harness::Machine& machine);
 
 }  // namespace vinebench::tools

@@ -2,37 +2,46 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "core/util/error.h"
-#include "tools/commands.h"
+#include "tools/arguments/command_line.h"
+#include "tools/arguments/completion.h"
+#include "tools/commands/commands.h"
 #include "tools/versions.h"
 
 namespace vinebench::tools {
 namespace {
 
-int dispatch(int argc, char** argv) {
-  CLI::App app{"Deterministic test bench for multicamera visual SLAM in vineyards", "vinebench"};
-  app.require_subcommand(0, 1);
-  app.set_version_flag("--version", [] { return versions_text(); });  // starts OpenGL
-  Command chosen;
-  add_run_command(app, chosen);
-  add_replay_command(app, chosen);
-  add_record_command(app, chosen);
-  add_check_command(app, chosen);
-  add_eval_command(app, chosen);
-  add_compare_command(app, chosen);
-  add_render_command(app, chosen);
-  add_bench_command(app, chosen);
-  add_world_command(app, chosen);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadInput;
+/// The running program's own file, for its data beside it.
+std::filesystem::path program_file() {
+  std::error_code error;
+  return std::filesystem::read_symlink("/proc/self/exe", error);
+}
+
+int print_completions(const Command& program, std::vector<std::string> words,
+                      const harness::Catalogue& catalogue) {
+  words.erase(words.begin());
+  if (!words.empty() && words.front() == "--") words.erase(words.begin());
+  for (const std::string& candidate : complete(program, words, catalogue)) {
+    fmt::print("{}\n", candidate);
   }
-  if (!chosen) fail("expected a sub-command, such as run or render (see --help)");
-  return chosen();
+  return 0;
+}
+
+int main(const std::vector<std::string>& arguments) {
+  const Surroundings surroundings{harness::Catalogue(harness::data_folders(program_file())),
+                                  harness::machine_of_environment()};
+  const Command commands = program(surroundings);
+  if (!arguments.empty() && arguments.front() == kCompleteCommand) {
+    return print_completions(commands, arguments, surroundings.catalogue);
+  }
+  return run_command_line(commands, arguments, surroundings.catalogue,
+                          [&] { return versions_text(surroundings.machine); });
 }
 
 }  // namespace
@@ -40,7 +49,7 @@ int dispatch(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return vinebench::tools::dispatch(argc, argv);
+    return vinebench::tools::main({argv + 1, argv + argc});
   } catch (const vinebench::Error& error) {
     fmt::print(stderr, "vinebench: {}\n", error.what());
     return vinebench::tools::kBadInput;

@@ -7,7 +7,6 @@
 
 #include "harness/benchmarks/measurement.h"
 #include "harness/datasets/files/image_file.h"
-#include "harness/jobs/run_scenario.h"
 #include "sim/render/mujoco/mujoco_renderer.h"
 
 namespace vinebench::harness {
@@ -66,7 +65,7 @@ nlohmann::ordered_json measure_variant(const RenderBenchmark& benchmark, const s
 }  // namespace
 
 nlohmann::ordered_json measure_mujoco(const RenderBenchmark& benchmark) {
-  const sim::Scene scene = sim::build_scene(benchmark.world, benchmark.seed, default_cache());
+  const sim::Scene scene = sim::build_scene(benchmark.world, benchmark.seed, benchmark.plant_cache);
   nlohmann::ordered_json result{{"platform", sim::MujocoRenderer::platform()}};
   for (const RigCamera& camera : one_of_each_size(benchmark.rig)) {
     for (const Variant& variant : kVariants) {

@@ -11,7 +11,6 @@
 #include "harness/benchmarks/measurement.h"
 #include "harness/datasets/dataset_writer.h"
 #include "harness/datasets/formats.h"
-#include "harness/jobs/run_scenario.h"
 #include "harness/run/lockstep.h"
 #include "harness/run/prefetch.h"
 
@@ -81,9 +80,9 @@ Measured measure_kind(const RecordBenchmark& benchmark, const Kind& kind) {
   options.cameras = kind.cameras;
   const sim::SimulationConfig& simulation = benchmark.scenario.simulation;
   WorkerPool pool(benchmark.threads);
-  const auto source =
-      sim::make_simulation(simulation, static_cast<std::uint64_t>(benchmark.scenario.seed),
-                           default_cache(), pool, plan_of(options, load_rig(simulation.rover.rig)));
+  const auto source = sim::make_simulation(
+      simulation, static_cast<std::uint64_t>(benchmark.scenario.seed), benchmark.plant_cache, pool,
+      plan_of(options, load_rig(simulation.rover.rig)));
   const fs::path folder = benchmark.folder / "recording";
   std::error_code ignored;
   fs::remove_all(folder, ignored);

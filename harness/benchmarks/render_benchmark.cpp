@@ -11,7 +11,6 @@
 #include "harness/benchmarks/measurement.h"
 #include "harness/benchmarks/mujoco_benchmark.h"
 #include "harness/datasets/files/image_file.h"
-#include "harness/jobs/run_scenario.h"
 #include "harness/sets/child_process.h"
 #include "sim/render/gl/gl_renderer.h"
 
@@ -73,8 +72,8 @@ double measure_frames(std::vector<sim::GlRenderer>& renderers, const RenderBench
 Json measure_with_threads(const RenderBenchmark& benchmark, int threads) {
   prepare_software_rendering(threads);
   std::optional<sim::Scene> scene;
-  const Timing built =
-      measure([&] { scene = sim::build_scene(benchmark.world, benchmark.seed, default_cache()); });
+  const Timing built = measure(
+      [&] { scene = sim::build_scene(benchmark.world, benchmark.seed, benchmark.plant_cache); });
   std::vector<sim::GlRenderer> renderers;
   const Timing uploaded = measure([&] {
     for (int i = 0; i < threads; ++i) renderers.emplace_back(*scene, benchmark.renderer);

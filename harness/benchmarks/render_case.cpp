@@ -16,8 +16,6 @@ namespace {
 constexpr double kBeside = 1.0;     // m from a single row
 constexpr double kHalfTrack = 0.2;  // m, half of the rover's track
 
-constexpr const char* kSmallWorld = "worlds/csl-vineyard.yaml";
-constexpr const char* kLargeWorld = "worlds/typical-vineyard.yaml";
 constexpr int kManyRows = 40;
 
 RenderBenchmark case_of(const RenderSuite& suite, const std::string& file) {
@@ -29,14 +27,15 @@ RenderBenchmark case_of(const RenderSuite& suite, const std::string& file) {
   benchmark.threads = suite.threads;
   benchmark.mujoco = suite.mujoco && benchmark.name == "csl-vineyard";
   benchmark.images = suite.images;
-  sim::choose_backend(benchmark.renderer, suite.gl_platform);
+  benchmark.plant_cache = suite.machine.plant_cache;
+  sim::choose_backend(benchmark.renderer, suite.machine.gl_platform);
   return benchmark;
 }
 
 /// The large world with many more rows, of which as much is visible.
-RenderBenchmark with_many_rows(RenderBenchmark benchmark) {
+RenderBenchmark with_many_rows(RenderBenchmark benchmark, const std::string& file) {
   const Override rows = parse_override(fmt::format("block.rows={}", kManyRows));
-  benchmark.world = sim::load_world(kLargeWorld, {rows});
+  benchmark.world = sim::load_world(file, {rows});
   benchmark.name += fmt::format(", {} rows", kManyRows);
   benchmark.route = aisle_route(benchmark.world, static_cast<int>(benchmark.route.size()));
   return benchmark;
@@ -48,13 +47,9 @@ std::vector<RenderBenchmark> render_cases(const RenderSuite& suite) {
   std::vector<RenderBenchmark> cases;
   for (const std::string& file : suite.worlds) cases.push_back(case_of(suite, file));
   if (!cases.empty()) return cases;
-  for (const char* file : {kSmallWorld, kLargeWorld}) {
-    if (std::filesystem::exists(file)) continue;
-    fail("bench render: no {} here; run it in the project's folder or name a --world", file);
-  }
-  cases.push_back(case_of(suite, kSmallWorld));
-  cases.push_back(case_of(suite, kLargeWorld));
-  cases.push_back(with_many_rows(cases.back()));
+  cases.push_back(case_of(suite, suite.small_world));
+  cases.push_back(case_of(suite, suite.large_world));
+  cases.push_back(with_many_rows(cases.back(), suite.large_world));
   return cases;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/geometry/rig.h"
+#include "harness/machine.h"
 #include "sim/render/renderer_config.h"
 #include "sim/world/world.h"
 
@@ -22,7 +23,8 @@ struct RenderBenchmark {
   std::uint64_t seed = 1;
   int threads = 2;
   sim::RendererConfig renderer;
-  bool mujoco = false;           ///< also measure MuJoCo's own renderer on the same scene
+  bool mujoco = false;  ///< also measure MuJoCo's own renderer on the same scene
+  std::filesystem::path plant_cache;
   std::filesystem::path images;  ///< folder for both renderers' images of one pose, if any
 };
 
@@ -32,14 +34,16 @@ std::vector<Pose> aisle_route(const sim::WorldConfig& world, int count);
 
 /// What `vinebench bench render` measures.
 struct RenderSuite {
-  /// World files; csl-vineyard, typical-vineyard and the latter with many more rows where empty.
+  /// World files; the small one, the large one and the latter with many more rows where empty.
   std::vector<std::string> worlds;
-  std::string rig = "models/csl-rover/rig.yaml";
+  std::string small_world;
+  std::string large_world;
+  std::string rig;
   std::string images;  ///< folder, as RenderBenchmark::images
   int threads = 2;
   int frames = 24;
-  bool mujoco = true;       ///< also MuJoCo's own renderer, on csl-vineyard
-  std::string gl_platform;  ///< as choose_backend()
+  bool mujoco = true;  ///< also MuJoCo's own renderer, on csl-vineyard
+  Machine machine;
 };
 
 /// The worlds of a suite, in order. Throws Error for a file that is not there.

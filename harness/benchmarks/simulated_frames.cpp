@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/benchmarks/simulated_frames.h"
 
-#include "harness/jobs/run_scenario.h"
-
 namespace vinebench::harness {
 
-void load_simulated_frames(const ScenarioConfig& scenario, int frames, SlamBenchmark& benchmark) {
+void load_simulated_frames(const ScenarioConfig& scenario, const Machine& machine, int frames,
+                           SlamBenchmark& benchmark) {
   WorkerPool pool(benchmark.threads);
   const auto source = sim::make_simulation(
-      scenario.simulation, static_cast<std::uint64_t>(scenario.seed), default_cache(), pool);
+      scenario.simulation, static_cast<std::uint64_t>(scenario.seed), machine.plant_cache, pool);
   benchmark.name = scenario.name;
   benchmark.rig = source->rig();
   benchmark.tags = sim::registered_tags(scenario.simulation.world);

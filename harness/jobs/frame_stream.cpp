@@ -11,7 +11,6 @@
 #include "harness/datasets/flow/flow_writer.h"
 #include "harness/datasets/format/record_options.h"
 #include "harness/experiment/randomisation.h"
-#include "harness/jobs/run_scenario.h"
 
 namespace vinebench::harness {
 namespace {
@@ -62,7 +61,7 @@ FrameStream::FrameStream(const StreamRequest& request)
                                     request.seed)),
       pool_(std::max(1, request.threads)),
       source_(sim::make_simulation(scenario_.simulation, static_cast<std::uint64_t>(scenario_.seed),
-                                   default_cache(), pool_,
+                                   request.machine.plant_cache, pool_,
                                    plan_of(request, load_rig(scenario_.simulation.rover.rig)))) {
   if (source_->size() == 0) fail("frames: the run has no frame from {} on", request.first);
   ahead_.emplace(*source_);

@@ -14,6 +14,7 @@
 #include "harness/datasets/format/format_writer.h"
 #include "harness/datasets/labels/image_labels.h"
 #include "harness/experiment/scenario.h"
+#include "harness/machine.h"
 #include "harness/run/prefetch.h"
 
 namespace vinebench::harness {
@@ -30,6 +31,7 @@ struct StreamRequest {
   std::int64_t last = std::numeric_limits<std::int64_t>::max();
   std::int64_t every = 1;
   int threads = 2;  ///< worker threads; they change no byte
+  Machine machine;
 };
 
 /// "depth", "labels", "instances", "normals", "things" and "flow".

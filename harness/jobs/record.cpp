@@ -12,7 +12,6 @@
 #include "harness/datasets/files/dataset_folder.h"
 #include "harness/datasets/formats.h"
 #include "harness/experiment/randomisation.h"
-#include "harness/jobs/run_scenario.h"
 #include "harness/run/progress.h"
 
 namespace vinebench::harness {
@@ -29,7 +28,7 @@ std::string name_of_sequence(std::int64_t seed) {
 ScenarioConfig scenario_of(const RecordRequest& request, std::optional<std::int64_t> seed) {
   ScenarioConfig scenario =
       load_drawn_scenario(request.scenario, request.overrides, request.randomisation, seed);
-  sim::choose_backend(scenario.simulation.renderer, request.gl_backend);
+  sim::choose_backend(scenario.simulation.renderer, request.machine.gl_platform);
   return scenario;
 }
 
@@ -47,14 +46,14 @@ bool has_sequence(const fs::path& folder, const std::string& settings) {
 }
 
 /// One sequence; adds to the outcome.
-void record_sequence(const ScenarioConfig& scenario, const fs::path& folder,
-                     const RecordOptions& options, const RecordWatch& watch,
+void record_sequence(const ScenarioConfig& scenario, const fs::path& plant_cache,
+                     const fs::path& folder, const RecordOptions& options, const RecordWatch& watch,
                      RecordOutcome& outcome) {
   WorkerPool pool(options.threads);
   const Rig rig = load_rig(scenario.simulation.rover.rig);
   const auto source =
       sim::make_simulation(scenario.simulation, static_cast<std::uint64_t>(scenario.seed),
-                           default_cache(), pool, plan_of(options, rig));
+                           plant_cache, pool, plan_of(options, rig));
   if (source->size() == 0) {
     fail("--frames: the run has no frame from {} on", options.first);
   }
@@ -127,7 +126,8 @@ RecordOutcome record_one(const RecordRequest& request, const RecordWatch& watch)
     outcome.sequences = outcome.skipped = 1;
     return outcome;
   }
-  record_sequence(scenario, request.out, request.options, watch, outcome);
+  record_sequence(scenario, request.machine.plant_cache, request.out, request.options, watch,
+                  outcome);
   return outcome;
 }
 
@@ -150,7 +150,7 @@ RecordOutcome record_dataset(const RecordRequest& request, const RecordWatch& wa
       ++outcome.skipped;
       continue;
     }
-    record_sequence(scenario, folder, options, watch, outcome);
+    record_sequence(scenario, request.machine.plant_cache, folder, options, watch, outcome);
   }
   const bool complete = outcome.sequences == last - first + 1;
   write_whole(request, sequences, read_card(request.out / sequences.front()), complete);

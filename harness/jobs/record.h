@@ -10,6 +10,7 @@
 
 #include "harness/datasets/format/record_options.h"
 #include "harness/experiment/scenario.h"
+#include "harness/machine.h"
 
 namespace vinebench::harness {
 
@@ -18,7 +19,7 @@ struct RecordRequest {
   std::filesystem::path scenario;
   std::vector<Override> overrides;
   std::filesystem::path randomisation;  ///< distributions that each seed draws keys from; or none
-  std::string gl_backend;  ///< platform where the scenario leaves it open; empty changes nothing
+  Machine machine;
   std::filesystem::path out;
   /// First and last seed. Each is a separate sequence, in a folder `seed_000012` of `out`; if
   /// absent, `out` is the single sequence of the scenario's own seed.

@@ -7,7 +7,6 @@
 #include "core/util/error.h"
 #include "harness/datasets/files/image_file.h"
 #include "harness/datasets/labels/truth_colours.h"
-#include "harness/jobs/run_scenario.h"
 #include "harness/jobs/snapshot.h"
 #include "sim/config_files.h"
 #include "sim/render/factory/make_render_engine.h"
@@ -32,7 +31,7 @@ RigCamera camera_of(const ViewRequest& request) {
 
 sim::RendererConfig renderer_config(const ViewRequest& request) {
   sim::RendererConfig config;
-  sim::choose_backend(config, request.gl_platform);
+  sim::choose_backend(config, request.machine.gl_platform);
   return config;
 }
 
@@ -87,8 +86,8 @@ void write_warps(const ViewRequest& request, sim::RenderEngine& renderer, const 
 
 /// The world, and the rover in it where one is asked for.
 sim::Scene scene_of(const ViewRequest& request, const sim::WorldConfig& world) {
-  sim::Scene scene =
-      sim::build_scene(world, static_cast<std::uint64_t>(request.seed), default_cache());
+  sim::Scene scene = sim::build_scene(world, static_cast<std::uint64_t>(request.seed),
+                                      request.machine.plant_cache);
   if (request.rover.empty()) return scene;
   const auto rover = sim::load_rover(request.rover_file);
   sim::add_rover(scene, rover.model);
@@ -113,7 +112,8 @@ void render_view(const ViewRequest& request) {
   const RigCamera camera = camera_of(request);
   if (request.turntable) {
     const auto seed = static_cast<std::uint64_t>(request.seed);
-    write_image(request.out, turntable(world, seed, camera.model, renderer_config(request)));
+    write_image(request.out, turntable(world, seed, camera.model, renderer_config(request),
+                                       request.machine.plant_cache));
     return;
   }
   check(request);

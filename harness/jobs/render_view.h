@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/config/override.h"
+#include "harness/machine.h"
 
 namespace vinebench::harness {
 
@@ -27,13 +28,13 @@ struct ViewRequest {
   std::string flow_visible;
   std::string rover;
   std::string rover_to;
-  std::string rover_file = "models/csl-rover/rover.yaml";
+  std::string rover_file;  ///< required with `rover`
   std::string disparity;
   double baseline = 0.12;           ///< m
   std::vector<Override> overrides;  ///< of the world
   std::int64_t seed = 1;
-  bool turntable = false;   ///< eight views from all round on one sheet, without a pose
-  std::string gl_platform;  ///< as choose_backend()
+  bool turntable = false;  ///< eight views from all round on one sheet, without a pose
+  Machine machine;
 };
 
 /// Renders the view and writes the files that are named. Throws Error for bad requests and files.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/jobs/run_scenario.h"
 
-#include <cstdlib>
+#include <stdlib.h>
 
 #include "core/config/yaml_writer.h"
 #include "core/util/error.h"
@@ -16,11 +16,6 @@
 
 namespace vinebench::harness {
 namespace {
-
-const char* non_empty(const char* variable) {
-  const char* value = std::getenv(variable);
-  return value != nullptr && *value != '\0' ? value : nullptr;
-}
 
 void expect_no_maps(const MapFiles& maps) {
   if (!maps.load.empty() || !maps.save.empty() || !maps.cloud.empty()) {
@@ -68,23 +63,12 @@ RunOutcome run_other_system(const ScenarioConfig& scenario, FrameSource& source,
 
 }  // namespace
 
-std::filesystem::path default_cache() {
-  if (const char* folder = non_empty("VINEBENCH_CACHE")) return folder;
-  if (const char* folder = non_empty("XDG_CACHE_HOME")) {
-    return std::filesystem::path(folder) / "vinebench";
-  }
-  if (const char* home = non_empty("HOME")) {
-    return std::filesystem::path(home) / ".cache" / "vinebench";
-  }
-  return std::filesystem::temp_directory_path() / "vinebench-cache";
-}
-
 void prepare_scenario_folder(const std::filesystem::path& folder, const ScenarioConfig& scenario) {
   prepare_run_folder(folder, "scenario.resolved.yaml", format_yaml(scenario));
 }
 
-RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options,
-                        const std::optional<RunRecording>& recording) {
+RunOutcome run_scenario(const ScenarioConfig& scenario, const Machine& machine, int threads,
+                        const RunOptions& options, const std::optional<RunRecording>& recording) {
   check_map_folders(options.maps);  // before the vineyard is generated
   const bool ours = !scenario.slam.external && !scenario.slam.plugin;
   if (!ours) expect_no_maps(options.maps);
@@ -97,7 +81,7 @@ RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOp
                 : CapturePlan();
   const auto simulation =
       sim::make_simulation(scenario.simulation, static_cast<std::uint64_t>(scenario.seed),
-                           default_cache(), drawing, plan);
+                           machine.plant_cache, drawing, plan);
   std::optional<Prefetch> ahead;
   if (threads > 1 && scenario.simulation.route.steering == sim::Steering::kTruth) {
     ahead.emplace(*simulation);

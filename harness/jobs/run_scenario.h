@@ -6,13 +6,10 @@
 
 #include "harness/datasets/format/record_options.h"
 #include "harness/experiment/scenario.h"
+#include "harness/machine.h"
 #include "harness/run.h"
 
 namespace vinebench::harness {
-
-/// Folder of the cache of generated plants: $VINEBENCH_CACHE, else $XDG_CACHE_HOME/vinebench, else
-/// ~/.cache/vinebench, else a folder for temporary files.
-std::filesystem::path default_cache();
 
 /// A data set that a run writes beside its results: all cameras and all frames.
 struct RunRecording {
@@ -26,7 +23,8 @@ void prepare_scenario_folder(const std::filesystem::path& folder, const Scenario
 
 /// Builds simulation and SLAM system of a scenario and runs them in lockstep, with recording if
 /// requested. `threads` is the total number of worker threads; it changes no result.
-RunOutcome run_scenario(const ScenarioConfig& scenario, int threads, const RunOptions& options,
+RunOutcome run_scenario(const ScenarioConfig& scenario, const Machine& machine, int threads,
+                        const RunOptions& options,
                         const std::optional<RunRecording>& recording = std::nullopt);
 
 }  // namespace vinebench::harness

@@ -10,7 +10,6 @@
 #include "core/geometry/rig.h"
 #include "core/util/error.h"
 #include "harness/datasets/labels/label_table.h"
-#include "harness/jobs/run_scenario.h"
 #include "sim/render/factory/make_render_engine.h"
 #include "sim/sensors/effects/glare.h"
 
@@ -71,14 +70,14 @@ cv::Mat colour_labels(const cv::Mat& labels) {
 }
 
 cv::Mat turntable(const sim::WorldConfig& world, std::uint64_t seed, const PinholeCamera& camera,
-                  const sim::RendererConfig& config) {
+                  const sim::RendererConfig& config, const std::filesystem::path& plant_cache) {
   constexpr int kViews = 8;
   constexpr int kColumns = 4;
   constexpr double kPitchDown = 22 * kRadians;
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector2d& post : sim::post_positions(world)) box.extend(post);
   const double distance = 1.5 + 0.75 * box.diagonal().norm();
-  const sim::Scene scene = sim::build_scene(world, seed, default_cache());
+  const sim::Scene scene = sim::build_scene(world, seed, plant_cache);
   const auto renderer = sim::make_render_engine(scene, config);
   cv::Mat sheet(camera.height * (kViews / kColumns), camera.width * kColumns, CV_8UC3);
   for (int i = 0; i < kViews; ++i) {

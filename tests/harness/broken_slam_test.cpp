@@ -9,9 +9,9 @@
 #include <set>
 
 #include "harness/experiment/scenario.h"
-#include "harness/jobs/run_scenario.h"
 #include "harness/judge/results.h"
 #include "harness/judge/verdict.h"
+#include "harness/machine.h"
 #include "harness/run/lockstep.h"
 #include "slam/slam.h"
 
@@ -54,8 +54,8 @@ class Drive {
       : scenario_(load_scenario(std::filesystem::path(VINEBENCH_SOURCE_DIR) /
                                 "scenarios/quick-loop.yaml")),
         frames_(*sim::make_simulation(scenario_.simulation,
-                                      static_cast<std::uint64_t>(scenario_.seed), default_cache(),
-                                      pool_)) {}
+                                      static_cast<std::uint64_t>(scenario_.seed),
+                                      machine_of_environment().plant_cache, pool_)) {}
 
   const Rig& rig() const { return frames_.rig(); }
   const slam::SlamConfig& config() const { return scenario_.slam; }

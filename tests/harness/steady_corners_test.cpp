@@ -14,7 +14,7 @@
 
 #include "core/geometry/rig.h"
 #include "harness/benchmarks/render_benchmark.h"
-#include "harness/jobs/run_scenario.h"
+#include "harness/machine.h"
 #include "sim/config_files.h"
 #include "sim/render/gl/gl_renderer.h"
 #include "slam/features/orb_extractor.h"
@@ -62,7 +62,7 @@ class SteadyCornersTest : public testing::TestWithParam<const char*> {
 TEST_P(SteadyCornersTest, RepeatUnderAShiftOfAQuarterPixelNearAndFar) {
   const sim::WorldConfig world = sim::load_world(kSource / "worlds" / GetParam());
   const Rig rig = load_rig(kSource / "models" / "csl-rover" / "rig.yaml");
-  sim::GlRenderer renderer(sim::build_scene(world, 1, default_cache()), {});
+  sim::GlRenderer renderer(sim::build_scene(world, 1, machine_of_environment().plant_cache), {});
   int all = 0, again = 0, by_chance = 0;
   std::array<int, 3> at_depth{};  // below 1 m, 1 to 2 m, 2 to 10 m
   for (const Pose& T_world_body : aisle_route(world, 4)) {

@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/geometry/rig.h"
-#include "harness/jobs/run_scenario.h"
+#include "harness/machine.h"
 #include "sim/config_files.h"
 #include "sim/render/gl/gl_renderer.h"
 #include "sim/world/world.h"
@@ -27,7 +27,7 @@ class WorldImageTest : public testing::Test {
 };
 
 TEST_F(WorldImageTest, TheTagsCornersAreWhereTheSideCameraProjectsThem) {
-  sim::GlRenderer renderer(sim::build_scene(world_, 1, default_cache()), {});
+  sim::GlRenderer renderer(sim::build_scene(world_, 1, machine_of_environment().plant_cache), {});
   const RigCamera& side = rig_.cameras[static_cast<std::size_t>(rig_.tag_cameras.at(0))];
   const sim::WorldConfig::Tag& tag = world_.tags.at(0);
   slam::TagDetector detector({}, sim::registered_tags(world_));

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Bad input of the command line: exit code 2 and one message that names file, line and key. Usage:
-# cli_test.sh VINEBENCH ROOT
+# The command line: each command once on something small, and bad input, which gives exit code 2 and
+# one message that names file, line and key. Usage: cli_test.sh VINEBENCH ROOT
 set -uo pipefail
 vinebench=$1
 root=$2
@@ -86,12 +86,20 @@ expect 2 "unknown --set key" "--set world.sun.elevation=20: world.sun.elevation:
 expect 2 "--set without value" "--set seed: expected KEY=VALUE" -- run "$work/bad.yaml" --set seed
 expect 2 "missing scenario" "$work/none.yaml" -- run "$work/none.yaml"
 expect 2 "no YAML" "is not valid YAML" -- run "$work/rig.yaml" --set 'seed=[1'
-expect 2 "unknown sub-command" "fly" -- fly
-expect 2 "unknown option" "--fly" -- run "$work/bad.yaml" --fly
-expect 2 "no threads" "--threads" -- run "$work/bad.yaml" --threads 0
+expect 2 "unknown command" "vinebench: fly: no such command" -- fly
+expect 2 "mistyped command" "replya: no such command; did you mean 'replay'?" -- replya
+expect 2 "no command" "expected a command" -- 
+expect 2 "unknown option" "run: --sed: no such option; did you mean '--seed'?" -- \
+  run "$work/bad.yaml" --sed 1
+expect 2 "no threads" "--threads" "found 0" -- run "$work/bad.yaml" --threads 0
+expect 2 "mistyped scenario" "did you mean 'occluded-camera'?" -- run ocluded-camera
+expect 2 "mistyped key" "slam.featurs" "did you mean 'features'?" -- \
+  run "$root/scenarios/quick-loop.yaml" --set slam.featurs.features=9
 
 expect 0 "help" "run" "eval" -- --help
 expect 0 "help of run" "--verify-determinism" "--set" -- run --help
+expect 0 "help run" "--verify-determinism" "--set" -- help run
+expect 0 "help bench slam" "DATASET" -- help bench slam
 expect 0 "help of eval" "GROUNDTRUTH" -- eval --help
 expect 0 "version" "vinebench" "MuJoCo" "OpenCV" "Ceres" -- --version
 
@@ -119,7 +127,7 @@ expect 2 "replay without images" "image_l: expected images named by their number
   replay "$work/kitti" --out "$work/out"
 expect 2 "replay of one camera" "expected a cam1 beside cam0" -- \
   replay "$work/euroc" --out "$work/out"
-expect 2 "replay with a missing rig" "rig.yaml: cannot be read" -- \
+expect 2 "replay with a missing rig" "rig.yaml: neither a file nor the name of a rig" -- \
   replay "$work/kitti" --rig "$work/no/rig.yaml" --out "$work/out"
 expect 2 "recording into a full folder" "is not empty; expected a new or an empty folder" -- \
   run "$root/scenarios/quick-loop.yaml" --out "$work/out" --record "$work/kitti"
@@ -164,9 +172,47 @@ for key in '"cpu_ms"' '"frame_wall_ms"' '"scaling"' '"memory_mib"'; do
   grep -qF "$key" "$work/bench.json" || report "bench: its JSON lacks $key"
 done
 expect 2 "bench of a missing world" "none.yaml" -- bench render --world "$work/none.yaml"
+
+# Data by name, from any folder.
 pushd "$work" >/dev/null || exit 1
-expect 2 "bench in another folder" "no worlds/csl-vineyard.yaml here" "--world" -- bench render
+expect 0 "list" "scenarios" "  occluded-camera " "  csl-vineyard " "  csl-rover " "  euroc " -- list
+expect 0 "list of worlds" "Three short rows" -- list worlds
+grep -q "occluded-camera" "$work/stdout" && report "list of worlds: lists scenarios too"
+expect 2 "list of something else" "expected one of scenarios, worlds" -- list tractors
+expect 2 "scenario by name" "output folder" -- run quick-loop --out "$work/file/out"
+expect 0 "new world" "new.yaml" -- world new --rows 2 --length 3 --terrain even
+expect 2 "new world again" "new.yaml" -- world new
+expect 2 "new world of no terrain" "expected one of" "found lunar" -- world other --terrain lunar
+expect 0 "completion of commands" "replay" -- __complete -- re
+expect 0 "completion of scenarios" "occluded-camera" -- __complete -- run oc
+
+# Runs without OpenGL and plants: the fake renderer draws a walled court.
+court=(--set renderer.engine=fake --set duration=1)
+expect 0 "record" "15 frames" -- record quick-loop --format euroc,rgb --out recorded "${court[@]}" \
+  --frames 0..14
+expect 0 "check" "SOUND" -- check recorded
+expect 0 "replay" "frames" "results: " -- replay recorded --out replayed
+expect 0 "bench slam" "% tracked" -- bench slam recorded --frames 12 --json slam.json
+expect 0 "bench record" "pictures/hour" -- bench record --scenario quick-loop "${court[@]}" --frames 3
+"$vinebench" run quick-loop "${court[@]}" --seeds 1..2 --jobs 2 --junit verdicts.xml --out set \
+  >"$work/stdout" 2>"$work/stderr"
+[[ $? -eq 1 ]] || report "set of runs: expected exit code 1, for a drive that ends too early"
+grep -q '<testcase ' verdicts.xml || report "set of runs: verdicts.xml has no case"
+grep -q 'quick-loop' set/table.md || report "set of runs: table.md lacks the scenario"
 popd >/dev/null || exit 1
+
+# Shell completion, as a shell would call it.
+complete_in_bash() {
+  PATH=$(dirname "$vinebench"):$PATH bash -c "
+    source '$root/tools/completion/vinebench.bash'
+    compopt() { :; }
+    COMP_WORDS=($*) COMP_CWORD=\$((\${#COMP_WORDS[@]} - 1))
+    _vinebench && printf '%s\n' \"\${COMPREPLY[@]}\""
+}
+[[ $(complete_in_bash vinebench ben) == bench ]] || report "completion in bash of a command"
+complete_in_bash vinebench run --see | grep -qx -- --seeds || report "completion in bash of an option"
+[[ $(cd "$work" && complete_in_bash vinebench run world.y) == world.yaml ]] ||
+  report "completion in bash of a file"
 
 if [[ $failures -ne 0 ]]; then
   echo "$failures failed"

@@ -15,7 +15,7 @@
 
 #include "core/trajectory.h"
 #include "harness/datasets/open_recording.h"
-#include "harness/jobs/run_scenario.h"
+#include "harness/machine.h"
 #include "tests/support/recorded_folders.h"
 #include "tests/support/small_scenario.h"
 
@@ -189,7 +189,8 @@ TEST_F(RecordedFormatsTest, AReplayGivesTheFramesOfTheRun) {
   record({"euroc", "kitti"});
   const ScenarioConfig scenario = load_scenario(request_.scenario);
   WorkerPool pool(1);
-  const auto source = sim::make_simulation(scenario.simulation, 1, default_cache(), pool);
+  const auto source =
+      sim::make_simulation(scenario.simulation, 1, machine_of_environment().plant_cache, pool);
   const std::vector<Sample> euroc = test::play_all(out() / "euroc");
   const std::vector<Sample> kitti = test::play_all(out() / "kitti");
   ASSERT_EQ(euroc.size(), kFrames);

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace vinebench::harness {
+
+/// What a simulation takes from the machine that it runs on and not from its scenario. Changes no
+/// result.
+struct Machine {
+  std::string gl_platform;  ///< where a scenario leaves it open; automatic if empty
+  std::filesystem::path plant_cache;
+};
+
+/// $VINEBENCH_GL, and $VINEBENCH_CACHE, else $XDG_CACHE_HOME/vinebench, else ~/.cache/vinebench,
+/// else a folder for temporary files. For programs: nothing else reads the environment.
+Machine machine_of_environment();
+
+}  // namespace vinebench::harness

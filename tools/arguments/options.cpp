@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/arguments/options.h"
+
+#include <thread>
+
+namespace vinebench::tools {
+
+Option overrides_option(std::vector<std::string>& texts, const std::string& help) {
+  return {
+      .name = "--set", .target = &texts, .help = help + "; may be repeated", .type = "KEY=VALUE"};
+}
+
+std::vector<Override> parse_overrides(const std::vector<std::string>& texts) {
+  std::vector<Override> overrides;
+  for (const std::string& text : texts) overrides.push_back(parse_override(text));
+  return overrides;
+}
+
+Option threads_option(int& threads) {
+  return {.name = "--threads",
+          .target = &threads,
+          .help = "Threads to share the work; changes no result",
+          .show_default = true,
+          .range = Range::between(1, 256)};
+}
+
+int default_threads() {
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+Option json_option(std::string& file) {
+  return {.name = "--json",
+          .target = &file,
+          .help = "Also write the results to this file",
+          .type = "FILE"};
+}
+
+std::vector<Option> map_options(harness::MapFiles& maps) {
+  return {{.name = "--load-map",
+           .target = &maps.load,
+           .help = "Map of an earlier run to go on with",
+           .type = "FILE",
+           .existing = Existing::kFile},
+          {.name = "--save-map",
+           .target = &maps.save,
+           .help = "File for the map in the end",
+           .type = "FILE"},
+          {.name = "--save-cloud",
+           .target = &maps.cloud,
+           .help = "File for its landmarks (PLY)",
+           .type = "FILE"}};
+}
+
+void append(std::vector<Option>& options, const std::vector<Option>& more) {
+  options.insert(options.end(), more.begin(), more.end());
+}
+
+}  // namespace vinebench::tools

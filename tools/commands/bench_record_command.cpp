@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "core/util/files.h"
+#include "harness/benchmarks/record_benchmark.h"
+#include "tools/arguments/options.h"
+#include "tools/commands/commands.h"
+
+namespace vinebench::tools {
+namespace {
+
+constexpr const char* kDefaultScenario = "occluded-camera";
+
+struct BenchRecordArguments {
+  std::string scenario;
+  std::string json;
+  std::string folder;
+  std::vector<std::string> overrides;
+  int threads = default_threads();
+  std::int64_t frames = 60;
+};
+
+int bench_record(const BenchRecordArguments& arguments, const Surroundings& surroundings) {
+  const std::string scenario = arguments.scenario.empty() ? kDefaultScenario : arguments.scenario;
+  harness::RecordBenchmark benchmark;
+  benchmark.scenario =
+      harness::load_scenario(surroundings.catalogue.find(harness::DataKind::kScenario, scenario),
+                             parse_overrides(arguments.overrides));
+  sim::choose_backend(benchmark.scenario.simulation.renderer, surroundings.machine.gl_platform);
+  benchmark.plant_cache = surroundings.machine.plant_cache;
+  benchmark.frames = arguments.frames;
+  benchmark.threads = arguments.threads;
+  const std::filesystem::path parent = arguments.folder.empty()
+                                           ? std::filesystem::temp_directory_path()
+                                           : std::filesystem::path(arguments.folder);
+  benchmark.folder = parent / fmt::format("vinebench-bench-{}", getpid());
+  const auto result = harness::measure_recording(benchmark);
+  std::error_code ignored;
+  std::filesystem::remove_all(benchmark.folder, ignored);
+  fmt::print("{}", harness::record_table(result));
+  if (!arguments.json.empty()) write_file_atomically(arguments.json, result.dump(2) + "\n");
+  return 0;
+}
+
+}  // namespace
+
+Command bench_record_command(const Surroundings& surroundings) {
+  const auto arguments = std::make_shared<BenchRecordArguments>();
+  return {.name = "record",
+          .description =
+              "What recording costs beside the simulation: images, all labels, training sets",
+          .options = {{.name = "--scenario",
+                       .target = &arguments->scenario,
+                       .help = "Scenario to record (default: occluded-camera)",
+                       .data = harness::DataKind::kScenario},
+                      json_option(arguments->json),
+                      {.name = "--folder",
+                       .target = &arguments->folder,
+                       .help = "Where to record meanwhile (default: the temporary folder)",
+                       .existing = Existing::kFolder},
+                      overrides_option(arguments->overrides, "Set a key of the scenario"),
+                      threads_option(arguments->threads),
+                      {.name = "--frames",
+                       .target = &arguments->frames,
+                       .help = "Frames of the run",
+                       .show_default = true,
+                       .range = Range::between(2, 100000)}},
+          .run = [arguments, surroundings] { return bench_record(*arguments, surroundings); }};
+}
+
+}  // namespace vinebench::tools

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "tools/arguments/command.h"
+
+namespace vinebench::tools {
+
+// The program's commands. Their options' targets live as long as the command.
+
+Command run_command(const Surroundings& surroundings);
+Command replay_command(const Surroundings& surroundings);
+Command record_command(const Surroundings& surroundings);
+Command check_command();
+Command eval_command();
+Command compare_command();
+Command render_command(const Surroundings& surroundings);
+Command world_command();
+Command list_command(const Surroundings& surroundings);
+
+Command bench_render_command(const Surroundings& surroundings);
+Command bench_slam_command(const Surroundings& surroundings);
+Command bench_record_command(const Surroundings& surroundings);
+
+/// All of them, as the program `vinebench`.
+Command program(const Surroundings& surroundings);
+
+}  // namespace vinebench::tools

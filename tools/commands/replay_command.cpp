@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "harness/replay.h"
+#include "tools/arguments/options.h"
+#include "tools/commands/commands.h"
+#include "tools/commands/interactive.h"
+
+namespace vinebench::tools {
+namespace {
+
+struct ReplayArguments {
+  std::string dataset;
+  std::string rig;
+  std::string slam;
+  std::string groundtruth;
+  std::string out;
+  std::vector<std::string> overrides;
+  harness::MapFiles maps;
+  int threads = default_threads();
+};
+
+int replay(const ReplayArguments& arguments) {
+  harness::Recording recording = harness::open_recording(
+      arguments.dataset, {.rig = arguments.rig, .groundtruth = arguments.groundtruth});
+  const slam::SlamConfig slam =
+      harness::replay_settings(recording, arguments.slam, parse_overrides(arguments.overrides));
+  const std::string name = recording.name;
+  const std::string format = recording.format;
+  const std::filesystem::path folder = arguments.out.empty() ? std::filesystem::path("out") / name
+                                                             : std::filesystem::path(arguments.out);
+  harness::prepare_replay_folder(folder, slam);
+  catch_interrupts();
+  harness::RunOptions options = interactive_options(name);
+  options.folder = folder;
+  options.maps = arguments.maps;
+  const harness::RunOutcome outcome =
+      harness::run_replay(std::move(recording), slam, arguments.threads, options);
+  if (outcome.interrupted) return report_interruption(outcome, folder);
+  fmt::print("\n{} ({}): {} frames in {:.0f} s, hash {}\n{}results: {}\n", name, format,
+             outcome.frames, outcome.metrics["wall_seconds"].get<double>(), outcome.hash,
+             harness::format_replay(outcome.metrics), std::filesystem::absolute(folder).string());
+  return 0;
+}
+
+}  // namespace
+
+Command replay_command(const Surroundings&) {
+  const auto arguments = std::make_shared<ReplayArguments>();
+  Command command{
+      .name = "replay",
+      .description =
+          "Run the SLAM core on a recorded data set (EuRoC/ASL or KITTI odometry folder)",
+      .options = {{.name = "DATASET",
+                   .target = &arguments->dataset,
+                   .help = "Folder of the data set",
+                   .required = true},
+                  {.name = "--rig",
+                   .target = &arguments->rig,
+                   .help = "Rig file, or the name of a rig, in place of the data set's calibration",
+                   .data = harness::DataKind::kRig},
+                  {.name = "--slam",
+                   .target = &arguments->slam,
+                   .help =
+                       "Settings of the SLAM core: a file with the keys of a scenario's `slam`"},
+                  {.name = "--groundtruth",
+                   .target = &arguments->groundtruth,
+                   .help = "True poses in place of the data set's: TUM, KITTI or EuRoC file"},
+                  {.name = "--out",
+                   .target = &arguments->out,
+                   .help = "Folder for the results (default: out/<data set's name>)"},
+                  overrides_option(arguments->overrides,
+                                   "Set a key of the settings, e.g. slam.cameras=front"),
+                  threads_option(arguments->threads)},
+      .run = [arguments] { return replay(*arguments); }};
+  append(command.options, map_options(arguments->maps));
+  return command;
+}
+
+}  // namespace vinebench::tools

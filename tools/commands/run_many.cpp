@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/commands/run_many.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <system_error>
+
+#include "core/util/error.h"
+#include "core/util/files.h"
+#include "harness/jobs/run_scenario.h"
+#include "harness/sets/junit.h"
+#include "harness/sets/set_report.h"
+#include "tools/arguments/command.h"
+#include "tools/commands/interactive.h"
+
+namespace vinebench::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Better before the runs than after them.
+void prepare(const ManyRuns& many) {
+  std::error_code error;
+  fs::create_directories(many.out, error);
+  if (error) fail("output folder {}: cannot be made: {}", many.out.string(), error.message());
+  for (const char* name : {"table.md", "summary.json"}) fs::remove(many.out / name, error);
+  if (!many.junit.empty()) write_file_atomically(many.junit, "");
+}
+
+int report(const ManyRuns& many, const std::vector<harness::SeedsSummary>& scenarios) {
+  const std::string table = harness::format_table(scenarios);
+  write_file_atomically(many.out / "table.md", table);
+  write_file_atomically(many.out / "summary.json", harness::summary_json(scenarios).dump(2) + "\n");
+  if (!many.junit.empty()) write_file_atomically(many.junit, harness::format_junit(scenarios));
+  fmt::print("\n{}\n{}results: {}\n", table, harness::format_failures(scenarios),
+             fs::absolute(many.out).string());
+  const bool errors = std::ranges::any_of(scenarios, [](const harness::SeedsSummary& summary) {
+    return std::ranges::any_of(summary.runs,
+                               [](const harness::SetRun& run) { return !run.error.empty(); });
+  });
+  if (errors) return kBadInput;
+  return std::ranges::all_of(scenarios, &harness::SeedsSummary::passed) ? 0 : kExpectationFailed;
+}
+
+}  // namespace
+
+int run_many(const ManyRuns& many) {
+  const std::vector<harness::PlannedRun> plan =
+      harness::plan_set(many.scenarios, many.seeds, many.out);
+  prepare(many);
+  catch_interrupts();
+  harness::SetOptions options;
+  options.jobs = many.jobs;
+  options.threads = many.threads;
+  options.force = many.force;
+  options.run = [&many](const harness::ScenarioConfig& scenario, int threads,
+                        const harness::RunOptions& run) {
+    return harness::run_scenario(scenario, many.machine, threads, run);
+  };
+  options.stopped = interrupted;
+  options.progress = &std::cerr;
+  const harness::SetOutcome outcome = harness::run_set(plan, options);
+  if (outcome.interrupted) {
+    const auto whole = std::ranges::count_if(
+        outcome.runs, [](const harness::SetRun& run) { return !run.metrics.is_null(); });
+    fmt::print(stderr,
+               "vinebench: stopped; {} of {} runs are whole in {}, and the same command goes on\n",
+               whole, plan.size(), many.out.string());
+    return interruption_code();
+  }
+  return report(many, harness::summarise(plan, outcome));
+}
+
+}  // namespace vinebench::tools

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "harness/experiment/scenario.h"
+#include "harness/machine.h"
+
+namespace vinebench::tools {
+
+/// `run` with several scenarios or seeds.
+struct ManyRuns {
+  std::vector<harness::ScenarioConfig> scenarios;
+  harness::Machine machine;
+  std::vector<std::int64_t> seeds;  ///< each scenario's own if empty
+  std::filesystem::path out;
+  std::filesystem::path junit;  ///< none if empty
+  int jobs = 1;
+  int threads = 1;
+  bool force = false;
+};
+
+/// Runs them, prints and writes the table, and returns the exit code.
+int run_many(const ManyRuns& many);
+
+}  // namespace vinebench::tools
