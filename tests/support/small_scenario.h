@@ -21,7 +21,7 @@ inline constexpr double kBaseline = 0.12;  // m
 class SmallScenario : public testing::Test {
  protected:
   SmallScenario() {
-    setenv("VINEBENCH_CACHE", (folder_ / "cache").c_str(), 1);
+    request_.machine.plant_cache = folder_ / "cache";
     folder_.write("rig.yaml", R"(name: small
 rate_hz: 15
 cameras:

@@ -18,6 +18,7 @@ class FrameStreamTest : public test::SmallScenario {
  protected:
   StreamRequest stream_request() const {
     StreamRequest request;
+    request.machine = request_.machine;
     request.scenario = request_.scenario;
     return request;
   }

@@ -15,7 +15,6 @@
 
 #include "core/trajectory.h"
 #include "harness/datasets/open_recording.h"
-#include "harness/machine.h"
 #include "tests/support/recorded_folders.h"
 #include "tests/support/small_scenario.h"
 
@@ -190,7 +189,7 @@ TEST_F(RecordedFormatsTest, AReplayGivesTheFramesOfTheRun) {
   const ScenarioConfig scenario = load_scenario(request_.scenario);
   WorkerPool pool(1);
   const auto source =
-      sim::make_simulation(scenario.simulation, 1, machine_of_environment().plant_cache, pool);
+      sim::make_simulation(scenario.simulation, 1, request_.machine.plant_cache, pool);
   const std::vector<Sample> euroc = test::play_all(out() / "euroc");
   const std::vector<Sample> kitti = test::play_all(out() / "kitti");
   ASSERT_EQ(euroc.size(), kFrames);
