@@ -12,6 +12,9 @@
 namespace vinebench::harness {
 namespace {
 
+using test::render_image;
+using test::SyntheticTexture;
+
 using test::error_of;
 using testing::HasSubstr;
 

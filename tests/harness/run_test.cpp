@@ -21,13 +21,13 @@ namespace fs = std::filesystem;
 
 class RunTest : public testing::Test {
  protected:
-  RunOutcome run(fakes::Slam::Change change = {}, int seed = 1) {
-    fakes::Source source(seed);
-    fakes::Slam slam(std::move(change));
+  RunOutcome run(test::FakeSlam::Change change = {}, int seed = 1) {
+    test::FakeSource source(seed);
+    test::FakeSlam slam(std::move(change));
     RunOptions options;
     options.stopped = stopped_;
     if (!folder_.empty() && fs::exists(folder_)) options.folder = folder_;
-    return run_lockstep_and_judge(fakes::trial(), source, slam, options);
+    return run_lockstep_and_judge(test::fake_trial(), source, slam, options);
   }
   std::string text_of(const char* name) const { return read_file(folder_ / name); }
   std::vector<Json> events() const {
@@ -43,13 +43,13 @@ class RunTest : public testing::Test {
 };
 
 void close_loop(Estimate& estimate) {
-  if (estimate.stamp != fakes::seconds(19)) return;
-  estimate.loop_closure = fakes::closure(fakes::seconds(1), fakes::seconds(19));
+  if (estimate.stamp != test::seconds(19)) return;
+  estimate.loop_closure = test::fake_closure(test::seconds(1), test::seconds(19));
   estimate.loop_closure->correction = 0.05;
 }
 
 TEST_F(RunTest, WritesEveryFile) {
-  fakes::prepare_folder(folder_);
+  test::prepare_fake_folder(folder_);
   const RunOutcome outcome = run(close_loop);
   EXPECT_FALSE(outcome.interrupted);
   EXPECT_EQ(read_tum(folder_ / "groundtruth.tum").size(), 201u);
@@ -95,7 +95,7 @@ TEST_F(RunTest, MetricsHaveEveryKey) {
 }
 
 TEST_F(RunTest, ImagesAreThoseOfTheSource) {
-  fakes::prepare_folder(folder_);
+  test::prepare_fake_folder(folder_);
   run();
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "frames"), {}), 12 * 3);
   const cv::Mat bgr = cv::imread((folder_ / "frames/000200_side.png").string());
@@ -110,19 +110,19 @@ TEST_F(RunTest, ImagesAreLeftAsTheyAreForOtherSinks) {
     }
     std::vector<cv::Vec3b> seen;
   } pixels;
-  fakes::prepare_folder(folder_);
-  fakes::Source source(7, 3);
-  fakes::Slam slam;
+  test::prepare_fake_folder(folder_);
+  test::FakeSource source(7, 3);
+  test::FakeSlam slam;
   RunOptions options;
   options.folder = folder_;
   options.sinks = {&pixels};
-  run_lockstep_and_judge(fakes::trial(), source, slam, options);
+  run_lockstep_and_judge(test::fake_trial(), source, slam, options);
   ASSERT_EQ(pixels.seen.size(), 3u);
   EXPECT_EQ(pixels.seen[2], cv::Vec3b(7, 0, 2));  // red seed, green camera, blue frame
 }
 
 TEST_F(RunTest, EventsTellTheStory) {
-  fakes::prepare_folder(folder_);
+  test::prepare_fake_folder(folder_);
   run([](Estimate& estimate) {
     close_loop(estimate);
     const double t = to_seconds(estimate.stamp);
@@ -187,7 +187,7 @@ TEST_F(RunTest, TheHashSeesEveryPixelAndEstimate) {
   EXPECT_NE(run({}, 2).hash, hash);  // other images
   EXPECT_NE(run(close_loop).hash, hash);
   EXPECT_NE(run([](Estimate& estimate) {
-              if (estimate.stamp == fakes::seconds(5)) {
+              if (estimate.stamp == test::seconds(5)) {
                 estimate.T_map_body->translation.x() += 1e-15;
               }
             }).hash,
@@ -195,11 +195,11 @@ TEST_F(RunTest, TheHashSeesEveryPixelAndEstimate) {
 }
 
 TEST_F(RunTest, AnInterruptedRunKeepsWhatItHas) {
-  fakes::prepare_folder(folder_);
+  test::prepare_fake_folder(folder_);
   run();
   int asked = 0;
   stopped_ = [&] { return ++asked > 20; };
-  fakes::prepare_folder(folder_);
+  test::prepare_fake_folder(folder_);
   const RunOutcome outcome = run();
   EXPECT_TRUE(outcome.interrupted);
   EXPECT_EQ(outcome.frames, 20);
@@ -208,7 +208,7 @@ TEST_F(RunTest, AnInterruptedRunKeepsWhatItHas) {
 }
 
 TEST_F(RunTest, ARunWithoutAnyPoseIsJudged) {
-  fakes::prepare_folder(folder_);
+  test::prepare_fake_folder(folder_);
   const RunOutcome outcome = run([](Estimate& estimate) {
     estimate.T_map_body.reset();
     estimate.status = TrackingStatus::kInitializing;
@@ -221,20 +221,20 @@ TEST_F(RunTest, ARunWithoutAnyPoseIsJudged) {
 
 TEST_F(RunTest, AFolderBelowAFileIsAnError) {
   write_file_atomically(folder_, "a file");
-  EXPECT_THAT([&] { fakes::prepare_folder(folder_ / "run"); },
+  EXPECT_THAT([&] { test::prepare_fake_folder(folder_ / "run"); },
               testing::ThrowsMessage<Error>(testing::AllOf(testing::HasSubstr("output folder"),
                                                            testing::HasSubstr("Not a directory"))));
 }
 
 TEST_F(RunTest, ProgressOnATerminalIsOneLineElsewhereMany) {
   const auto progress = [](bool terminal) {
-    fakes::Source source;
-    fakes::Slam slam;
+    test::FakeSource source;
+    test::FakeSlam slam;
     std::ostringstream out;
     RunOptions options;
     options.progress = &out;
     options.terminal = terminal;
-    run_lockstep_and_judge(fakes::trial(), source, slam, options);
+    run_lockstep_and_judge(test::fake_trial(), source, slam, options);
     return out.str();
   };
   const std::string plain = progress(false);

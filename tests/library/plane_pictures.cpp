@@ -15,8 +15,9 @@ int main(int argc, char** argv) {
   constexpr int kDisparity = 20;  // px
   constexpr int kStep = 2;        // px
   const std::filesystem::path folder = argv[1];
-  const vinebench::SyntheticTexture texture(1);
-  const cv::Mat plane = vinebench::render_image(640 + kDisparity + kStep * kFrames, 400, texture);
+  const vinebench::test::SyntheticTexture texture(1);
+  const cv::Mat plane =
+      vinebench::test::render_image(640 + kDisparity + kStep * kFrames, 400, texture);
   for (const auto& [camera, shift] : {std::pair{"left", 0}, {"right", kDisparity}}) {
     std::filesystem::create_directories(folder / camera);
     for (int i = 0; i < kFrames; ++i) {

@@ -15,6 +15,9 @@
 namespace vinebench::slam {
 namespace {
 
+using test::SyntheticPlane;
+using test::SyntheticTag;
+
 /// The rover's rig with small images.
 Rig small_rig() {
   RigConfig config;

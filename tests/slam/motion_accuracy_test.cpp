@@ -18,9 +18,9 @@
 namespace vinebench::slam {
 namespace {
 
-using testing_support::AisleMap;
-using testing_support::rig_of_pairs;
-using testing_support::SyntheticAisle;
+using test::AisleMap;
+using test::rig_of_pairs;
+using test::SyntheticAisle;
 
 constexpr double kMinShare = 0.4;
 

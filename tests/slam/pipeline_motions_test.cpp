@@ -16,10 +16,10 @@
 namespace vinebench::slam {
 namespace {
 
-using testing_support::angle;
-using testing_support::distance;
-using testing_support::rig_of_pairs;
-using testing_support::SyntheticAisle;
+using test::angle;
+using test::distance;
+using test::rig_of_pairs;
+using test::SyntheticAisle;
 
 SyntheticAisle make_aisle(double noise, std::uint64_t seed, int landmarks, std::size_t pairs = 2) {
   SyntheticAisle aisle(noise, seed, landmarks);

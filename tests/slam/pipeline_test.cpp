@@ -9,7 +9,7 @@
 namespace vinebench::slam {
 namespace {
 
-using testing_support::SyntheticAisle;
+using test::SyntheticAisle;
 
 /// Landmarks of the aisle: more than 100 in view of each pair, and fast.
 constexpr int kLandmarks = 1500;

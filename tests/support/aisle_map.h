@@ -9,7 +9,7 @@
 #include "slam/map/map.h"
 #include "tests/support/synthetic_aisle.h"
 
-namespace vinebench::testing_support {
+namespace vinebench::test {
 
 /// A perfect map of the aisle: keyframes at the true poses, landmarks at the true positions, every
 /// feature associated correctly.
@@ -63,4 +63,4 @@ inline double angle(const Pose& a, const Pose& b) {
   return angle_of(a.rotation.conjugate() * b.rotation);
 }
 
-}  // namespace vinebench::testing_support
+}  // namespace vinebench::test

@@ -74,7 +74,7 @@ class BrokenFiles : public testing::Test {
     return error;
   }
 
-  test::TestFolder folder_;
+  TestFolder folder_;
 };
 
 }  // namespace vinebench::test

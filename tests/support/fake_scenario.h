@@ -5,10 +5,10 @@
 #include "harness/experiment/scenario.h"
 #include "tests/support/fakes.h"
 
-namespace vinebench::fakes {
+namespace vinebench::test {
 
-/// The scenario of fakes::trial().
-inline harness::ScenarioConfig scenario() {
+/// The scenario of fake_trial().
+inline harness::ScenarioConfig fake_scenario() {
   harness::ScenarioConfig scenario;
   scenario.name = "fake";
   sim::WorldConfig& world = scenario.simulation.world;
@@ -21,4 +21,4 @@ inline harness::ScenarioConfig scenario() {
   return scenario;
 }
 
-}  // namespace vinebench::fakes
+}  // namespace vinebench::test

@@ -12,14 +12,14 @@
 #include "harness/report/run_folder.h"
 #include "harness/run/run_record.h"
 
-namespace vinebench::fakes {
+namespace vinebench::test {
 
-inline constexpr double kRate = 10;  // frames a second
+inline constexpr double kFakeRate = 10;  // frames a second
 
-inline Rig rig() {
+inline Rig fake_rig() {
   Rig rig;
   rig.name = "fake";
-  rig.rate_hz = kRate;
+  rig.rate_hz = kFakeRate;
   const PinholeCamera model{.width = 8, .height = 6, .fx = 5, .fy = 5, .cx = 3.5, .cy = 2.5};
   for (const char* name : {"front_left", "front_right", "side"}) {
     rig.cameras.push_back({name, model, Rig::mount({0.1, 0, 0.5}, {0, 0, 0})});
@@ -36,15 +36,15 @@ inline Pose circle(Stamp stamp) {
 
 /// Twenty seconds on the circle; the tag is in view during the first and the last 2 s, cartons
 /// cover the front cameras from 8 s to 12 s.
-class Source : public FrameSource {
+class FakeSource : public FrameSource {
  public:
-  explicit Source(int seed = 1, std::int64_t frames = 201) : seed_(seed), frames_(frames) {}
+  explicit FakeSource(int seed = 1, std::int64_t frames = 201) : seed_(seed), frames_(frames) {}
 
   std::optional<Sample> next() override {
     if (index_ >= frames_) return std::nullopt;
     Sample sample;
     sample.frame.index = index_;
-    sample.frame.stamp = stamp_of_frame(index_, kRate);
+    sample.frame.stamp = stamp_of_frame(index_, kFakeRate);
     for (int camera = 0; camera < 3; ++camera) {
       sample.frame.images.emplace_back(6, 8, CV_8UC3,
                                        cv::Scalar(seed_, camera, double(index_ % 256)));
@@ -65,7 +65,7 @@ class Source : public FrameSource {
   const StageTimes& times() const override { return times_; }
 
  private:
-  Rig rig_ = fakes::rig();
+  Rig rig_ = fake_rig();
   int seed_;
   std::int64_t frames_;
   std::int64_t index_ = 0;
@@ -73,10 +73,10 @@ class Source : public FrameSource {
 };
 
 /// A SLAM system that returns the true path, modified by `change`.
-class Slam : public SlamSystem {
+class FakeSlam : public SlamSystem {
  public:
   using Change = std::function<void(Estimate&)>;
-  explicit Slam(Change change = {}) : change_(std::move(change)) {}
+  explicit FakeSlam(Change change = {}) : change_(std::move(change)) {}
 
   Estimate process(const Frame& frame) override {
     Estimate estimate;
@@ -103,7 +103,7 @@ class Slam : public SlamSystem {
 };
 
 /// The true closure between two stamps, off by `offset` metres along x.
-inline LoopClosure closure(Stamp earlier, Stamp later, double offset = 0) {
+inline LoopClosure fake_closure(Stamp earlier, Stamp later, double offset = 0) {
   LoopClosure closure;
   closure.tag_id = 7;
   closure.earlier = earlier;
@@ -118,7 +118,7 @@ inline Stamp seconds(double s) {
 }
 
 /// A trial for these fakes: one row, one tag of id 7 beside the start.
-inline harness::Trial trial() {
+inline harness::Trial fake_trial() {
   harness::Trial trial;
   trial.name = "fake";
   trial.seed = 1;
@@ -131,11 +131,11 @@ inline harness::Trial trial() {
 }
 
 /// Substitute for the resolved scenario beside a run's results.
-inline constexpr const char* kSettings = "name: \"fake\"\n";
+inline constexpr const char* kFakeSettings = "name: \"fake\"\n";
 
 /// A run folder for these fakes.
-inline void prepare_folder(const std::filesystem::path& folder) {
-  harness::prepare_run_folder(folder, "scenario.resolved.yaml", kSettings);
+inline void prepare_fake_folder(const std::filesystem::path& folder) {
+  harness::prepare_run_folder(folder, "scenario.resolved.yaml", kFakeSettings);
 }
 
-}  // namespace vinebench::fakes
+}  // namespace vinebench::test

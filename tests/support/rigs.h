@@ -6,7 +6,7 @@
 
 #include "slam/camera/stereo_rig.h"
 
-namespace vinebench::testing_support {
+namespace vinebench::test {
 
 /// The rover's rig with its front pair, with front and back pair, or with a third pair: the front
 /// pair rotated to the left.
@@ -28,4 +28,4 @@ inline slam::StereoRig rig_of_pairs(slam::StereoRig rig, std::size_t pairs) {
   return rig;
 }
 
-}  // namespace vinebench::testing_support
+}  // namespace vinebench::test

@@ -10,7 +10,7 @@
 #include "slam/matching/match_refiner.h"
 #include "tests/support/synthetic_texture.h"
 
-namespace vinebench::testing_support {
+namespace vinebench::test {
 
 /// One pair, whose left camera's frame is the body's, in front of a textured plane with the slant
 /// of the ground: in the camera's first frame n . p = 1 with n = (0.1, 0.6, 0.8) / m. The map holds
@@ -111,4 +111,4 @@ struct SlantedPlane {
   }
 };
 
-}  // namespace vinebench::testing_support
+}  // namespace vinebench::test

@@ -15,7 +15,7 @@
 #include "slam/camera/stereo_rig.h"
 #include "slam/map/map.h"
 
-namespace vinebench::testing_support {
+namespace vinebench::test {
 
 /// An aisle of random landmarks on two walls, and the features that a rig would extract there: the
 /// back end is tested on these, without images. World frame: the aisle runs along x at y = 0.
@@ -117,4 +117,4 @@ class SyntheticAisle {
   std::map<slam::Descriptor, int> index_;
 };
 
-}  // namespace vinebench::testing_support
+}  // namespace vinebench::test

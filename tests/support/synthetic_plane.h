@@ -7,7 +7,7 @@
 
 #include "tests/support/synthetic_texture.h"
 
-namespace vinebench {
+namespace vinebench::test {
 
 /// A textured plane in front of a rectified pair. In the left image its disparity is linear: d(x,
 /// y) = at_middle + by_x (x - middle) + by_y (y - middle), px.
@@ -37,4 +37,4 @@ struct SyntheticPlane {
   }
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::test

@@ -14,7 +14,7 @@
 #include "core/geometry/pose.h"
 #include "core/util/random.h"
 
-namespace vinebench {
+namespace vinebench::test {
 
 /// A ray-traced image of a printed tag36h11: each pixel is the mean of 6 x 6 samples.
 class SyntheticTag {
@@ -89,4 +89,4 @@ class SyntheticTag {
   cv::Mat cells_;
 };
 
-}  // namespace vinebench
+}  // namespace vinebench::test

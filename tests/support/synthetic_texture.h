@@ -7,7 +7,7 @@
 
 #include "core/util/random.h"
 
-namespace vinebench {
+namespace vinebench::test {
 
 /// A texture as a function of the plane: noise of several scales, with a steep response curve so
 /// that it has edges like leaves and bark. Defined at every real coordinate, so a shifted, rotated
@@ -75,4 +75,4 @@ cv::Mat render_image(int width, int height, const Grey& grey, double sigma = 0,
   return image;
 }
 
-}  // namespace vinebench
+}  // namespace vinebench::test

@@ -37,8 +37,8 @@ vinebench::harness::RecordingNotes notes() {
 
 /// Whole pixels of one wide image, so that each view is exact.
 cv::Mat view(int shift) {
-  static const cv::Mat wall = vinebench::render_image(kWidth + kShift * kFrames + kDisparity,
-                                                      kHeight, vinebench::SyntheticTexture(3));
+  static const cv::Mat wall = vinebench::test::render_image(
+      kWidth + kShift * kFrames + kDisparity, kHeight, vinebench::test::SyntheticTexture(3));
   return wall.colRange(shift, shift + kWidth);
 }
 

@@ -13,12 +13,12 @@ namespace {
 /// the first frame saw the tag.
 RunRecord record_of(const std::vector<double>& offsets) {
   RunRecord record;
-  record.rig = fakes::rig();
-  record.tags = fakes::trial().site.tags;
+  record.rig = test::fake_rig();
+  record.tags = test::fake_trial().site.tags;
   for (std::size_t i = 0; i < offsets.size(); ++i) {
     Tick tick;
-    tick.stamp = stamp_of_frame(static_cast<std::int64_t>(i), fakes::kRate);
-    tick.truth.T_world_body = fakes::circle(tick.stamp);
+    tick.stamp = stamp_of_frame(static_cast<std::int64_t>(i), test::kFakeRate);
+    tick.truth.T_world_body = test::circle(tick.stamp);
     tick.estimate.T_map_body =
         tick.truth.T_world_body * Pose{Eigen::Quaterniond::Identity(), {-offsets[i], 0, 0}};
     tick.estimate.covariance = Vector6d::Constant(1e-4).asDiagonal();

@@ -25,7 +25,7 @@ void cover_front(Tick& tick, OccluderClass occluder) {
 class DiagnosisTest : public testing::Test {
  protected:
   DiagnosisTest() {
-    record_.rig = fakes::rig();
+    record_.rig = test::fake_rig();
     record_.rig.stereo_pairs = {{"front", 0, 1}};
     for (RigCamera& camera : record_.rig.cameras) camera.model.fx = 300;
     record_.tags = trial_.site.tags;
@@ -71,7 +71,7 @@ class DiagnosisTest : public testing::Test {
     return list;
   }
 
-  Trial trial_ = fakes::trial();
+  Trial trial_ = test::fake_trial();
   RunRecord record_;
 };
 

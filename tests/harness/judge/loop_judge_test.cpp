@@ -10,22 +10,23 @@
 namespace vinebench::harness {
 namespace {
 
-RunRecord record_of(fakes::Slam::Change change) {
-  fakes::Source source;
-  fakes::Slam slam(std::move(change));
-  RunRecorder recorder(source.rig(), fakes::trial().site.tags);
+RunRecord record_of(test::FakeSlam::Change change) {
+  test::FakeSource source;
+  test::FakeSlam slam(std::move(change));
+  RunRecorder recorder(source.rig(), test::fake_trial().site.tags);
   run_lockstep(source, slam, {&recorder});
   return recorder.record();
 }
 
 LoopVerdict verdict_of(double at, const LoopClosure& closure) {
   return judge_loop_closures(record_of([=](Estimate& estimate) {
-    if (estimate.stamp == fakes::seconds(at)) estimate.loop_closure = closure;
+    if (estimate.stamp == test::seconds(at)) estimate.loop_closure = closure;
   }));
 }
 
 TEST(LoopJudgeTest, AgreementWithTheTruthIsCorrect) {
-  const LoopVerdict verdict = verdict_of(19, fakes::closure(fakes::seconds(1), fakes::seconds(19)));
+  const LoopVerdict verdict =
+      verdict_of(19, test::fake_closure(test::seconds(1), test::seconds(19)));
   EXPECT_EQ(verdict.correct(), 1);
   EXPECT_EQ(verdict.wrong(), 0);
   EXPECT_TRUE(verdict.missed.empty());
@@ -35,7 +36,7 @@ TEST(LoopJudgeTest, AgreementWithTheTruthIsCorrect) {
 
 TEST(LoopJudgeTest, TenCentimetresDecide) {
   const auto off_by = [](double metres) {
-    return verdict_of(19, fakes::closure(fakes::seconds(1), fakes::seconds(19), metres));
+    return verdict_of(19, test::fake_closure(test::seconds(1), test::seconds(19), metres));
   };
   EXPECT_EQ(off_by(0.09).correct(), 1);
   EXPECT_EQ(off_by(0.11).wrong(), 1);
@@ -43,7 +44,7 @@ TEST(LoopJudgeTest, TenCentimetresDecide) {
 
 TEST(LoopJudgeTest, TwoDegreesDecide) {
   const auto turned_by = [](double degrees) {
-    LoopClosure closure = fakes::closure(fakes::seconds(1), fakes::seconds(19));
+    LoopClosure closure = test::fake_closure(test::seconds(1), test::seconds(19));
     closure.T_earlier_later.rotation =
         (closure.T_earlier_later.rotation *
          from_roll_pitch_yaw({degrees * std::numbers::pi / 180, 0, 0}))
@@ -56,7 +57,7 @@ TEST(LoopJudgeTest, TwoDegreesDecide) {
 
 TEST(LoopJudgeTest, FramesThatNeverWereAreWrong) {
   const LoopVerdict verdict =
-      verdict_of(19, fakes::closure(fakes::seconds(1) + 5, fakes::seconds(19)));
+      verdict_of(19, test::fake_closure(test::seconds(1) + 5, test::seconds(19)));
   EXPECT_EQ(verdict.wrong(), 1);
 }
 
@@ -71,7 +72,7 @@ TEST(LoopJudgeTest, AReturnWithoutAClosureIsMissed) {
 // distance before that. A closure during the first view does not count for its return.
 TEST(LoopJudgeTest, AClosureSinceTheTagWasLeftBelongsToItsReturn) {
   const auto missed_with = [](double at) {
-    return verdict_of(at, fakes::closure(fakes::seconds(0.5), fakes::seconds(at))).missed.size();
+    return verdict_of(at, test::fake_closure(test::seconds(0.5), test::seconds(at))).missed.size();
   };
   EXPECT_EQ(missed_with(19), 0u);
   EXPECT_EQ(missed_with(16.5), 0u);
@@ -79,7 +80,7 @@ TEST(LoopJudgeTest, AClosureSinceTheTagWasLeftBelongsToItsReturn) {
 }
 
 TEST(LoopJudgeTest, AnotherTagsClosureDoesNotCount) {
-  LoopClosure other = fakes::closure(fakes::seconds(1), fakes::seconds(19));
+  LoopClosure other = test::fake_closure(test::seconds(1), test::seconds(19));
   other.tag_id = 8;
   EXPECT_EQ(verdict_of(19, other).missed.size(), 1u);
 }
@@ -88,8 +89,8 @@ TEST(LoopJudgeTest, AnotherTagsClosureDoesNotCount) {
 // both are registered, the second adds no information; an unregistered tag does.
 TEST(LoopJudgeTest, ARegisteredTagSoonAfterAnotherIsNoReturnOfItsOwn) {
   RunRecord record = record_of([](Estimate& estimate) {
-    if (estimate.stamp != fakes::seconds(17)) return;
-    estimate.loop_closure = fakes::closure(fakes::seconds(1), fakes::seconds(17));
+    if (estimate.stamp != test::seconds(17)) return;
+    estimate.loop_closure = test::fake_closure(test::seconds(1), test::seconds(17));
   });
   for (Tick& tick : record.ticks) {
     const double t = to_seconds(tick.stamp);
@@ -117,8 +118,8 @@ TEST(LoopJudgeTest, ShortGapsBelongToTheVisit) {
   const std::vector<TagVisit> visits = tag_visits(record);
   ASSERT_EQ(visits.size(), 2u);
   EXPECT_EQ(visits[0].last, 40u);
-  EXPECT_EQ(visits[0].longest, fakes::seconds(2));
-  EXPECT_EQ(visits[1].longest, fakes::seconds(1.1));  // frames 189 to 200
+  EXPECT_EQ(visits[0].longest, test::seconds(2));
+  EXPECT_EQ(visits[1].longest, test::seconds(1.1));  // frames 189 to 200
 }
 
 TEST(LoopJudgeTest, AGlimpseNeedNotBeNoticed) {
@@ -132,7 +133,7 @@ TEST(LoopJudgeTest, AGlimpseNeedNotBeNoticed) {
 // A stationary rover whose tag is hidden for a while has closed no loop.
 TEST(LoopJudgeTest, AVisitNeedsAWayWithoutTheTag) {
   RunRecord record = record_of({});
-  for (Tick& tick : record.ticks) tick.truth.T_world_body = fakes::circle(0);
+  for (Tick& tick : record.ticks) tick.truth.T_world_body = test::circle(0);
   EXPECT_EQ(tag_visits(record).size(), 1u);
 }
 

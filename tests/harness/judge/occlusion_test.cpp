@@ -14,7 +14,7 @@ namespace {
 /// Four seconds east at 0.5 m/s, 10 frames a second, 100 inliers in each of two cameras.
 RunRecord clear_drive() {
   RunRecord record;
-  record.rig = fakes::rig();
+  record.rig = test::fake_rig();
   for (std::int64_t i = 0; i <= 40; ++i) {
     Tick tick;
     tick.index = i;
@@ -60,7 +60,7 @@ TEST(LongestOcclusionTest, StandingStillDoesNotCount) {
 }
 
 TEST(FindCamerasTest, AnUnknownNameIsAnError) {
-  EXPECT_THAT(test::error_of([] { find_cameras(fakes::rig(), {"roof"}); }),
+  EXPECT_THAT(test::error_of([] { find_cameras(test::fake_rig(), {"roof"}); }),
               testing::HasSubstr("no camera 'roof'"));
 }
 

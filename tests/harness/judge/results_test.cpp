@@ -13,10 +13,10 @@
 namespace vinebench::harness {
 namespace {
 
-RunRecord record_of(fakes::Slam::Change change) {
-  fakes::Source source;
-  fakes::Slam slam(std::move(change));
-  RunRecorder recorder(source.rig(), fakes::trial().site.tags);
+RunRecord record_of(test::FakeSlam::Change change) {
+  test::FakeSource source;
+  test::FakeSlam slam(std::move(change));
+  RunRecorder recorder(source.rig(), test::fake_trial().site.tags);
   run_lockstep(source, slam, {&recorder});
   return recorder.record();
 }
@@ -48,7 +48,7 @@ Expectations everything() {
 }
 
 Trial asking(const Expectations& expectations) {
-  Trial trial = fakes::trial();
+  Trial trial = test::fake_trial();
   trial.expectations = expectations;
   return trial;
 }
@@ -72,7 +72,7 @@ TEST(ResultsTest, CountsLosses) {
 
 TEST(ResultsTest, InitialisingIsNotLost) {
   const RunResults results = measure(record_of([](Estimate& estimate) {
-                                       if (estimate.stamp > fakes::seconds(1)) return;
+                                       if (estimate.stamp > test::seconds(1)) return;
                                        lose(estimate);
                                        estimate.status = TrackingStatus::kInitializing;
                                      }),
@@ -87,7 +87,7 @@ TEST(ResultsTest, InitialisingIsNotLost) {
 TEST(ResultsTest, LiveAndCorrectedAreJudgedApart) {
   RunRecord record = record_of({});
   for (StampedPose& stamped : record.summary.trajectory) {
-    const Pose world = fakes::circle(0) * stamped.pose;
+    const Pose world = test::circle(0) * stamped.pose;
     stamped.pose = Pose{world.rotation, 1.01 * world.translation};
   }
   const RunResults results = measure(record, {});
@@ -119,7 +119,7 @@ TEST(ResultsTest, StandingInFrontOfTheBoxDoesNotCount) {
 
 // The circle's last point is its first, (1, 0).
 TEST(ResultsTest, MeasuresHowFarFromTheRoutesEndTheBodyStops) {
-  Trial trial = fakes::trial();
+  Trial trial = test::fake_trial();
   EXPECT_FALSE(measure(record_of({}), trial).end_error);
   trial.route_end = {1.03, -0.04};
   const RunResults results = measure(record_of({}), trial);
@@ -145,8 +145,8 @@ TEST(VerdictTest, HoldsForAGoodRun) {
   const RunRecord record = record_of([](Estimate& estimate) {
     const double t = to_seconds(estimate.stamp);
     if (t >= 8 && t <= 12) estimate.cameras[0].inliers = estimate.cameras[1].inliers = 4;
-    if (estimate.stamp == fakes::seconds(19)) {
-      estimate.loop_closure = fakes::closure(fakes::seconds(1), fakes::seconds(19));
+    if (estimate.stamp == test::seconds(19)) {
+      estimate.loop_closure = test::fake_closure(test::seconds(1), test::seconds(19));
     }
   });
   const auto checks = check_expectations(everything(), measure(record, asking(everything())));

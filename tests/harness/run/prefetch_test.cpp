@@ -14,8 +14,8 @@ namespace vinebench::harness {
 namespace {
 
 TEST(PrefetchTest, GivesTheSourcesSamplesInOrder) {
-  fakes::Source alone(1, 20);
-  fakes::Source source(1, 20);
+  test::FakeSource alone(1, 20);
+  test::FakeSource source(1, 20);
   Prefetch ahead(source);
   EXPECT_EQ(ahead.size(), 20);
   for (int i = 0; i < 20; ++i) {
@@ -31,7 +31,7 @@ TEST(PrefetchTest, GivesTheSourcesSamplesInOrder) {
 }
 
 TEST(PrefetchTest, MayBeLeftBeforeTheEnd) {
-  fakes::Source source(1, 20);
+  test::FakeSource source(1, 20);
   {
     Prefetch ahead(source);
     ahead.next();
@@ -40,10 +40,10 @@ TEST(PrefetchTest, MayBeLeftBeforeTheEnd) {
   EXPECT_EQ(source.next()->frame.index, 2);
 }
 
-class Failing : public fakes::Source {
+class Failing : public test::FakeSource {
  public:
   std::optional<Sample> next() override {
-    auto sample = fakes::Source::next();
+    auto sample = test::FakeSource::next();
     if (sample->frame.index == 2) fail("the third one is broken");
     return sample;
   }

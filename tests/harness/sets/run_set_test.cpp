@@ -22,8 +22,8 @@ using testing::HasSubstr;
 /// After the start the estimate is off sideways by `seed` centimetres.
 RunOutcome slide(const ScenarioConfig& scenario, int, const RunOptions& options) {
   const double offset = 0.01 * static_cast<double>(scenario.seed);
-  fakes::Source source;
-  fakes::Slam slam([&](Estimate& estimate) {
+  test::FakeSource source;
+  test::FakeSlam slam([&](Estimate& estimate) {
     if (estimate.stamp > 0) estimate.T_map_body->translation.z() += offset;
   });
   return run_lockstep_and_judge(trial_of(scenario), source, slam, options);
@@ -45,7 +45,7 @@ class RunSetTest : public testing::Test {
   }
 
   test::TestFolder folder_;
-  ScenarioConfig scenario_ = fakes::scenario();
+  ScenarioConfig scenario_ = test::fake_scenario();
   SetOptions options_;
   SetOutcome outcome_;
   std::string progress_;

@@ -22,7 +22,7 @@ using testing::HasSubstr;
 /// The fakes' rig; its first camera is 0.1 m in front of the body and 0.5 m above it.
 RecordingNotes notes() {
   RecordingNotes notes;
-  for (const RigCamera& camera : fakes::rig().cameras) {
+  for (const RigCamera& camera : test::fake_rig().cameras) {
     RigConfig::Camera c;
     c.name = camera.name;
     c.width = 16;
@@ -30,7 +30,7 @@ RecordingNotes notes() {
     c.position = {0.1, 0, 0.5};
     notes.rig.cameras.push_back(c);
   }
-  notes.rig.rate_hz = fakes::kRate;
+  notes.rig.rate_hz = test::kFakeRate;
   return notes;
 }
 
@@ -40,13 +40,13 @@ class ExternalSlamTest : public testing::Test {
   RunOutcome run(const std::string& script) {
     config_.program = folder_.write("slam.sh", "#!/bin/sh\n" + script + "\n");
     fs::permissions(config_.program, fs::perms::owner_all);
-    fakes::prepare_folder(folder_.path());
-    fakes::Source source(1, 21);
+    test::prepare_fake_folder(folder_.path());
+    test::FakeSource source(1, 21);
     const auto slam = make_external_slam(config_, notes(), folder_.path(), stopped_);
     RunOptions options;
     options.folder = folder_.path();
     options.stopped = stopped_;
-    return run_lockstep_and_judge(fakes::trial(), source, *slam, options);
+    return run_lockstep_and_judge(test::fake_trial(), source, *slam, options);
   }
   std::string error(const std::string& script) {
     return test::error_of([&] { run(script); });
@@ -90,8 +90,8 @@ TEST_F(ExternalSlamTest, PosesOfACameraAreJudgedAsTheBodys) {
   config_.poses_of = "front_left";
   std::string poses;
   for (int i = 0; i < 21; ++i) {
-    const Stamp stamp = stamp_of_frame(i, fakes::kRate);
-    const Pose T_world_cam = fakes::circle(stamp) * notes().rig.make().cameras[0].T_body_cam;
+    const Stamp stamp = stamp_of_frame(i, test::kFakeRate);
+    const Pose T_world_cam = test::circle(stamp) * notes().rig.make().cameras[0].T_body_cam;
     poses += format_tum({{stamp, T_world_cam}});
   }
   folder_.write("poses.tum", poses);

@@ -23,7 +23,7 @@ class PluginSlamTest : public testing::Test {
   std::unique_ptr<SlamSystem> load(const std::string& settings = "") {
     PluginSlamConfig config{library("fake_plugin.so"), std::nullopt};
     if (!settings.empty()) config.settings = settings;
-    return load_plugin_slam(config, fakes::rig(), {}, std::nullopt, 1);
+    return load_plugin_slam(config, test::fake_rig(), {}, std::nullopt, 1);
   }
   std::string error(const std::string& settings) {
     return test::error_of([&] {
@@ -34,7 +34,7 @@ class PluginSlamTest : public testing::Test {
   }
   /// Three images of 8 x 6 pixels, one of them missing, and two inertial samples.
   static Frame frame() {
-    Frame frame = fakes::Source().next()->frame;
+    Frame frame = test::FakeSource().next()->frame;
     frame.images[1].release();
     frame.imu.resize(2);
     return frame;
@@ -70,7 +70,7 @@ TEST_F(PluginSlamTest, WhatItSaysOfAFailureIsTheError) {
 TEST_F(PluginSlamTest, WhatIsNoPluginIsAnError) {
   const auto error_with = [](const std::filesystem::path& file) {
     return test::error_of([&] {
-      load_plugin_slam({file, std::nullopt}, fakes::rig(), {}, std::nullopt, 1);
+      load_plugin_slam({file, std::nullopt}, test::fake_rig(), {}, std::nullopt, 1);
     });
   };
   EXPECT_THAT(error_with("/nowhere.so"), HasSubstr("slam.plugin.library: /nowhere.so"));

@@ -10,8 +10,8 @@
 namespace vinebench::slam {
 namespace {
 
-using testing_support::AisleMap;
-using testing_support::SyntheticAisle;
+using test::AisleMap;
+using test::SyntheticAisle;
 
 /// Poses of a drive of 2.4 m.
 std::vector<Pose> drive() {

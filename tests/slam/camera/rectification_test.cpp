@@ -14,6 +14,9 @@
 namespace vinebench::slam {
 namespace {
 
+using test::render_image;
+using test::SyntheticTexture;
+
 constexpr double kWall = 1.5;  // m ahead of the body
 
 PinholeCamera lens(double fx, double fy, double cx, double cy) {

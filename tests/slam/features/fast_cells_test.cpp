@@ -15,6 +15,9 @@
 namespace vinebench::slam {
 namespace {
 
+using test::render_image;
+using test::SyntheticTexture;
+
 /// Contrast of the texture falls from full at the left to a tenth at the right.
 cv::Mat fading_image() {
   const SyntheticTexture texture(11);

@@ -16,6 +16,9 @@
 namespace vinebench::slam {
 namespace {
 
+using test::render_image;
+using test::SyntheticTexture;
+
 constexpr int kWidth = 480;
 constexpr int kHeight = 360;
 

@@ -11,6 +11,9 @@
 namespace vinebench::slam {
 namespace {
 
+using test::render_image;
+using test::SyntheticTexture;
+
 double worst(const cv::Mat& a, const cv::Mat& b) {
   return cv::norm(a, b, cv::NORM_INF);
 }

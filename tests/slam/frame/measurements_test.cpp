@@ -10,7 +10,7 @@
 namespace vinebench::slam {
 namespace {
 
-using testing_support::SyntheticAisle;
+using test::SyntheticAisle;
 
 TEST(MeasurementsTest, MeasuresWithTheRightCameraWhereThereIsADepth) {
   const SyntheticAisle aisle(0, 1, 300);

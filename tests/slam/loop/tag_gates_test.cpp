@@ -9,8 +9,8 @@
 namespace vinebench::slam {
 namespace {
 
-using testing_support::distance;
-using testing_support::SyntheticAisle;
+using test::distance;
+using test::SyntheticAisle;
 
 constexpr int kSide = 4;  // index of the rover's tag camera
 

@@ -15,10 +15,10 @@
 namespace vinebench::slam {
 namespace {
 
+using test::AisleMap;
+using test::SyntheticAisle;
 using testing::AllOf;
 using testing::HasSubstr;
-using testing_support::AisleMap;
-using testing_support::SyntheticAisle;
 
 /// CRC-64/XZ bit by bit, by its definition.
 std::uint64_t slow_crc64(std::string_view bytes) {

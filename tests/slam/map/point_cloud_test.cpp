@@ -11,8 +11,8 @@
 namespace vinebench::slam {
 namespace {
 
-using testing_support::AisleMap;
-using testing_support::SyntheticAisle;
+using test::AisleMap;
+using test::SyntheticAisle;
 
 constexpr std::size_t kVertex = 6 * 4 + 3;  // six floats, three colours
 

@@ -9,8 +9,8 @@
 namespace vinebench::slam {
 namespace {
 
-using testing_support::AisleMap;
-using testing_support::SyntheticAisle;
+using test::AisleMap;
+using test::SyntheticAisle;
 
 TEST(TriangulationTest, RaysMeetWhereTheyCross) {
   const Eigen::Vector3d point(0.3, -0.2, 2.0);

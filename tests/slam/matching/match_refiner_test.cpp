@@ -14,7 +14,7 @@
 namespace vinebench::slam {
 namespace {
 
-class MatchRefinerTest : public testing::Test, protected testing_support::SlantedPlane {};
+class MatchRefinerTest : public testing::Test, protected test::SlantedPlane {};
 
 TEST_F(MatchRefinerTest, MovesMatchesToWhereTheLandmarkIs) {
   const Pose T_map_body{exp_so3({0.01, -0.02, 0}), {0.02, -0.01, 0.1}};

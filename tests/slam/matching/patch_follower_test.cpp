@@ -14,7 +14,7 @@
 namespace vinebench::slam {
 namespace {
 
-class PatchFollowerTest : public testing::Test, protected testing_support::SlantedPlane {
+class PatchFollowerTest : public testing::Test, protected test::SlantedPlane {
  protected:
   PatchFollowerTest() : all_(places.size()) {
     std::iota(all_.begin(), all_.end(), 0);

@@ -11,7 +11,7 @@
 namespace vinebench::slam {
 namespace {
 
-class PatchProjectorTest : public testing::Test, protected testing_support::SlantedPlane {
+class PatchProjectorTest : public testing::Test, protected test::SlantedPlane {
  protected:
   static Observation seen(std::size_t landmark) { return {0, 0, static_cast<int>(landmark)}; }
 

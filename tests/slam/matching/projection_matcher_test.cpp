@@ -9,8 +9,8 @@
 namespace vinebench::slam {
 namespace {
 
-using testing_support::AisleMap;
-using testing_support::SyntheticAisle;
+using test::AisleMap;
+using test::SyntheticAisle;
 
 class ProjectionMatcherTest : public testing::Test {
  protected:

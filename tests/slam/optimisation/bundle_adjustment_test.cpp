@@ -9,10 +9,10 @@
 namespace vinebench::slam {
 namespace {
 
-using testing_support::AisleMap;
-using testing_support::angle;
-using testing_support::distance;
-using testing_support::SyntheticAisle;
+using test::AisleMap;
+using test::angle;
+using test::distance;
+using test::SyntheticAisle;
 
 std::vector<Pose> true_poses() {
   std::vector<Pose> poses;

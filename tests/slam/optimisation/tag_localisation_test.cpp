@@ -11,9 +11,9 @@
 namespace vinebench::slam {
 namespace {
 
-using testing_support::angle;
-using testing_support::distance;
-using testing_support::SyntheticAisle;
+using test::angle;
+using test::distance;
+using test::SyntheticAisle;
 
 constexpr int kSide = 4;  // index of the rover's tag camera
 constexpr double kSize = 0.161;

@@ -11,6 +11,8 @@
 namespace vinebench::slam {
 namespace {
 
+using test::SyntheticPlane;
+
 struct Alignments {
   int tried = 0;
   int found = 0;

@@ -13,6 +13,9 @@
 namespace vinebench::slam {
 namespace {
 
+using test::render_image;
+using test::SyntheticTexture;
+
 constexpr int kWidth = 160;
 constexpr int kHeight = 120;
 constexpr double kNoise = 1.5;  // grey levels

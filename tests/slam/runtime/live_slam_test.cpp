@@ -14,9 +14,9 @@
 namespace vinebench::slam {
 namespace {
 
-using testing_support::angle;
-using testing_support::distance;
-using testing_support::SyntheticAisle;
+using test::angle;
+using test::distance;
+using test::SyntheticAisle;
 
 /// Processes a frame when the test allows it, and records its input.
 class HeldSystem : public SlamSystem {

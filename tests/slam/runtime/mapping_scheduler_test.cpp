@@ -13,10 +13,10 @@
 namespace vinebench::slam {
 namespace {
 
-using testing_support::AisleMap;
-using testing_support::angle;
-using testing_support::distance;
-using testing_support::SyntheticAisle;
+using test::AisleMap;
+using test::angle;
+using test::distance;
+using test::SyntheticAisle;
 
 MappingConfig config(MappingSchedule schedule, int delay = 0) {
   MappingConfig result;

@@ -11,6 +11,10 @@
 namespace vinebench::slam {
 namespace {
 
+using test::render_image;
+using test::SyntheticPlane;
+using test::SyntheticTexture;
+
 constexpr int kX = 150;
 constexpr int kY = 30;
 

@@ -13,6 +13,10 @@
 namespace vinebench::slam {
 namespace {
 
+using test::render_image;
+using test::SyntheticPlane;
+using test::SyntheticTexture;
+
 constexpr double kBaseline = 0.12;             // m
 constexpr double kFocal = 263.2786;            // px
 constexpr double kReach = kFocal * kBaseline;  // px m: disparity times depth

@@ -14,6 +14,9 @@
 namespace vinebench::slam {
 namespace {
 
+using test::render_image;
+using test::SyntheticTexture;
+
 /// '#' is black, '.' white.
 cv::Mat drawn(const std::vector<std::string>& rows) {
   cv::Mat image(static_cast<int>(rows.size()), static_cast<int>(rows[0].size()), CV_8UC1);

@@ -12,6 +12,8 @@
 namespace vinebench::slam {
 namespace {
 
+using test::SyntheticTag;
+
 constexpr double kSize = 0.161;  // m
 
 PinholeCamera camera(const std::array<double, 4>& distortion = {}) {
