@@ -14,6 +14,7 @@
 #include "harness/jobs/run_scenario.h"
 #include "harness/run/lockstep.h"
 #include "harness/run/prefetch.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::harness {
 namespace {

@@ -3,6 +3,7 @@
 #include "harness/benchmarks/simulated_frames.h"
 
 #include "harness/jobs/run_scenario.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::harness {
 
