@@ -13,6 +13,7 @@
 #include "sim/rover/rover_asset.h"
 #include "sim/scene/scene_naming.h"
 #include "sim/truth/truth.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::sim {
 namespace {
@@ -31,6 +32,7 @@ class Simulation : public SimulatedSource {
         pool_(pool),
         plan_(plan),
         occluders_(occluder_classes(config.world)),
+        tags_(world_tags(config.world)),
         nominal_rig_(checked_rig(config)),
         rig_(sim::true_rig(nominal_rig_, config.sensors.calibration, seed)),
         rover_(config.rover, config.world, config.route, seed),
@@ -202,8 +204,8 @@ class Simulation : public SimulatedSource {
     const RigCamera& mounted = rig_.cameras[camera];
     const Pose T_world_cam = rover_.T_world_body(instant) * mounted.T_body_cam;
     std::vector<int> seen;
-    for (std::size_t t = 0; t < config_.world.tags.size(); ++t) {
-      if (is_tag_visible(config_.world.tags[t], mounted.model, T_world_cam, labels)) {
+    for (std::size_t t = 0; t < tags_.size(); ++t) {
+      if (is_tag_visible(tags_[t], mounted.model, T_world_cam, labels)) {
         seen.push_back(static_cast<int>(t));
       }
     }
@@ -226,6 +228,7 @@ class Simulation : public SimulatedSource {
   CapturePlan plan_;
   SceneIndex index_of_scene_;
   std::vector<OccluderClass> occluders_;  ///< classes of the world's
+  std::vector<WorldTag> tags_;
   Rig nominal_rig_;
   Rig rig_;  ///< the true rig
   DrivenRover rover_;

@@ -13,6 +13,7 @@
 #include "harness/datasets/formats.h"
 #include "harness/run/lockstep.h"
 #include "harness/run/prefetch.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::harness {
 namespace {

@@ -13,6 +13,7 @@
 #include "harness/datasets/files/image_file.h"
 #include "harness/sets/child_process.h"
 #include "sim/render/gl/gl_renderer.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::harness {
 namespace {
@@ -83,7 +84,7 @@ Json measure_with_threads(const RenderBenchmark& benchmark, int threads) {
     if (threads > 1) break;
     result["cameras"].push_back(measure_camera(renderers[0], camera, benchmark));
   }
-  result["plants"] = sim::vine_positions(benchmark.world).size();
+  result["plants"] = sim::lay_out(benchmark.world).vines.size();
   result["frame_wall_ms"] = measure_frames(renderers, benchmark);
   result["build_s"] = rounded(built.wall_ms / 1e3);
   result["upload_s"] = rounded(uploaded.wall_ms / 1e3);
@@ -104,7 +105,7 @@ Json measure_rendering(const RenderBenchmark& benchmark) {
     all = in_child(benchmark, [&] { return measure_with_threads(benchmark, benchmark.threads); });
   }
   Json result{{"name", benchmark.name},
-              {"rows", benchmark.world.rows.size()},
+              {"rows", sim::lay_out(benchmark.world).rows.size()},
               {"plants", one["plants"]},
               {"cameras", one["cameras"]}};
   result["frame_wall_ms"]["1"] = one["frame_wall_ms"];

@@ -8,7 +8,7 @@
 #include "core/config/override.h"
 #include "core/util/error.h"
 #include "sim/config_files.h"
-#include "sim/world/terrain.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::harness {
 namespace {
@@ -54,22 +54,20 @@ std::vector<RenderBenchmark> render_cases(const RenderSuite& suite) {
 }
 
 std::vector<Pose> aisle_route(const sim::WorldConfig& world, int count) {
-  sim::WorldConfig placed = world;
-  if (placed.block) placed.place();
-  const std::size_t middle = placed.rows.size() / 2;
-  const sim::WorldConfig::Row& last = placed.rows.at(middle);
-  sim::WorldConfig::Row first = placed.rows.at(middle == 0 ? 0 : middle - 1);
+  const sim::WorldLayout layout = sim::lay_out(world);
+  const std::size_t middle = layout.rows.size() / 2;
+  const sim::RowConfig& last = layout.rows.at(middle);
+  sim::RowConfig first = layout.rows.at(middle == 0 ? 0 : middle - 1);
   const Eigen::Vector2d direction = (last.end - last.start).normalized();
   if ((first.end - first.start).dot(direction) < 0) std::swap(first.start, first.end);
   Eigen::Vector2d start = (first.start + last.start) / 2;
   const Eigen::Vector2d along = (first.end + last.end) / 2 - start;
   if (middle == 0) start += kBeside * Eigen::Vector2d(direction.y(), -direction.x());
   const double heading = std::atan2(along.y(), along.x());
-  const sim::Terrain terrain = sim::terrain_of(placed);
   std::vector<Pose> route;
   for (int i = 0; i < count; ++i) {
     const double yaw = heading + (i % 2 == 1 ? std::numbers::pi : 0);
-    route.push_back(terrain.lie(start + along * ((i + 0.5) / count), yaw, kHalfTrack));
+    route.push_back(layout.terrain.lie(start + along * ((i + 0.5) / count), yaw, kHalfTrack));
   }
   return route;
 }

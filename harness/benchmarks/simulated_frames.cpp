@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/benchmarks/simulated_frames.h"
 
+#include "sim/world/world_layout.h"
+
 namespace vinebench::harness {
 
 void load_simulated_frames(const ScenarioConfig& scenario, const Machine& machine, int frames,

@@ -10,6 +10,7 @@
 #include "core/util/error.h"
 #include "harness/judge/occlusion.h"
 #include "harness/systems/external_slam.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::harness {
 namespace {
@@ -33,7 +34,7 @@ void furnish_world(ScenarioConfig& scenario) {
   sim::append_occluders(world.occluders, std::exchange(scenario.occluders, {}));
   world.tags.insert(world.tags.end(), scenario.tags.begin(), scenario.tags.end());
   scenario.tags.clear();
-  world.place();
+  sim::check_layout(world);
 }
 
 }  // namespace
@@ -82,6 +83,11 @@ Trial trial_of(const ScenarioConfig& scenario) {
   return trial;
 }
 
+std::string resolved_settings(ScenarioConfig scenario) {
+  scenario.simulation.world = sim::written_out(scenario.simulation.world);
+  return format_yaml(scenario);
+}
+
 RecordingNotes notes_of(const ScenarioConfig& scenario) {
   RecordingNotes notes;
   notes.rig = YamlDocument::load(scenario.simulation.rover.rig).read<RigConfig>();
@@ -94,7 +100,7 @@ RecordingNotes notes_of(const ScenarioConfig& scenario) {
   notes.scenario = scenario.name;
   notes.world = scenario.simulation.world.name;
   notes.seed = scenario.seed;
-  notes.settings = format_yaml(scenario);
+  notes.settings = resolved_settings(scenario);
   notes.world_tags = sim::world_tags(scenario.simulation.world);
   notes.true_cameras = sim::true_rig(notes.rig.make(), scenario.simulation.sensors.calibration,
                                      static_cast<std::uint64_t>(scenario.seed))

@@ -53,6 +53,10 @@ struct ScenarioConfig {
 ScenarioConfig load_scenario(const std::filesystem::path& file,
                              const std::vector<Override>& overrides = {});
 
+/// The YAML text of a scenario with all defaults resolved and its world written out. Reading it
+/// gives the same experiment.
+std::string resolved_settings(ScenarioConfig scenario);
+
 /// The context of a scenario's run for the evaluation.
 Trial trial_of(const ScenarioConfig& scenario);
 

@@ -9,6 +9,7 @@
 #include "core/util/error.h"
 #include "core/util/files.h"
 #include "sim/config_files.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::harness {
 
@@ -21,10 +22,10 @@ std::string make_world(const WorldRequest& request) {
     fail("{} exists; give --force to overwrite it", file.string());
   }
   write_file_atomically(file, text);
-  const sim::WorldConfig world = sim::load_world(file);
-  return fmt::format("{}: {} rows, {} vines, {} posts, {} tags\n", file.string(), world.rows.size(),
-                     sim::vine_positions(world).size(), sim::post_positions(world).size(),
-                     world.tags.size());
+  const sim::WorldLayout layout = sim::lay_out(sim::load_world(file));
+  return fmt::format("{}: {} rows, {} vines, {} posts, {} tags\n", file.string(),
+                     layout.rows.size(), layout.vines.size(), layout.posts.size(),
+                     layout.tags.size());
 }
 
 }  // namespace vinebench::harness

@@ -4,7 +4,6 @@
 
 #include <stdlib.h>
 
-#include "core/config/yaml_writer.h"
 #include "core/util/error.h"
 #include "harness/datasets/dataset_writer.h"
 #include "harness/datasets/files/dataset_folder.h"
@@ -13,6 +12,7 @@
 #include "harness/run/prefetch.h"
 #include "harness/systems/external_slam.h"
 #include "harness/systems/plugin_slam.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::harness {
 namespace {
@@ -64,7 +64,7 @@ RunOutcome run_other_system(const ScenarioConfig& scenario, FrameSource& source,
 }  // namespace
 
 void prepare_scenario_folder(const std::filesystem::path& folder, const ScenarioConfig& scenario) {
-  prepare_run_folder(folder, "scenario.resolved.yaml", format_yaml(scenario));
+  prepare_run_folder(folder, "scenario.resolved.yaml", resolved_settings(scenario));
 }
 
 RunOutcome run_scenario(const ScenarioConfig& scenario, const Machine& machine, int threads,

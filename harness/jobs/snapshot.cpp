@@ -12,6 +12,7 @@
 #include "harness/datasets/labels/label_table.h"
 #include "sim/render/factory/make_render_engine.h"
 #include "sim/sensors/effects/glare.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::harness {
 namespace {
@@ -75,7 +76,7 @@ cv::Mat turntable(const sim::WorldConfig& world, std::uint64_t seed, const Pinho
   constexpr int kColumns = 4;
   constexpr double kPitchDown = 22 * kRadians;
   Eigen::AlignedBox2d box;
-  for (const Eigen::Vector2d& post : sim::post_positions(world)) box.extend(post);
+  for (const Eigen::Vector2d& post : sim::lay_out(world).post_feet()) box.extend(post);
   const double distance = 1.5 + 0.75 * box.diagonal().norm();
   const sim::Scene scene = sim::build_scene(world, seed, plant_cache);
   const auto renderer = sim::make_render_engine(scene, config);

@@ -6,7 +6,6 @@
 
 #include <set>
 
-#include "core/config/yaml_writer.h"
 #include "core/util/files.h"
 #include "harness/run/run_hash.h"
 
@@ -38,7 +37,7 @@ const std::string& program_digits() {
 }  // namespace
 
 std::string fingerprint_of_inputs(const ScenarioConfig& scenario) {
-  const std::string settings = format_yaml(scenario);
+  const std::string settings = resolved_settings(scenario);
   std::set<std::filesystem::path> files;
   gather_files(YAML::Load(settings), files);
   RunHash hash;

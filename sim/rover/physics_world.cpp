@@ -16,8 +16,7 @@
 #include "core/util/xml_text.h"
 #include "sim/vineyard/occluders/occluder_shape.h"
 #include "sim/vineyard/trellis.h"
-#include "sim/world/occluder_pose.h"
-#include "sim/world/terrain.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::sim {
 namespace {
@@ -67,29 +66,29 @@ std::string upright(const std::string& name, const Eigen::Vector3d& foot,
       foot.x(), foot.y(), foot.z(), head.x(), head.y(), head.z(), radius);
 }
 
-std::string posts_mjcf(const WorldConfig& world, const Terrain& terrain) {
+std::string posts_mjcf(const WorldConfig& world, const WorldLayout& layout) {
   std::string geoms;
   const double height = world.trellis.post_height;
-  const std::vector<TrellisPost> posts = trellis_posts(world);
+  const std::vector<TrellisPost>& posts = layout.posts;
   for (std::size_t i = 0; i < posts.size(); ++i) {
-    const double ground = terrain.height(posts[i].foot);
+    const double ground = layout.terrain.height(posts[i].foot);
     const Eigen::Vector2d head = posts[i].at(height);
     geoms += upright(fmt::format("post {}", i), {posts[i].foot.x(), posts[i].foot.y(), ground},
                      {head.x(), head.y(), ground + height}, posts[i].radius);
   }
-  const std::vector<Brace> braces = trellis_braces(world, terrain);
+  const std::vector<Brace> braces = trellis_braces(world.trellis, layout);
   for (std::size_t i = 0; i < braces.size(); ++i) {
     geoms += upright(fmt::format("brace {}", i), braces[i].foot, braces[i].head, braces[i].radius);
   }
   return geoms;
 }
 
-std::string trunks_mjcf(const WorldConfig& world, const Terrain& terrain, std::uint64_t seed) {
+std::string trunks_mjcf(const WorldConfig& world, const WorldLayout& layout, std::uint64_t seed) {
   std::string geoms;
-  const std::vector<Eigen::Vector2d> vines = vine_positions(world);
+  const std::vector<Eigen::Vector2d> vines = layout.vine_feet();
   for (std::size_t i = 0; i < vines.size(); ++i) {
     if (vine_at(world, seed, i) == VineKind::kNone) continue;
-    const Eigen::Vector3d foot(vines[i].x(), vines[i].y(), terrain.height(vines[i]));
+    const Eigen::Vector3d foot(vines[i].x(), vines[i].y(), layout.terrain.height(vines[i]));
     geoms += upright(fmt::format("trunk {}", i), foot,
                      foot + kTrunkHeight * Eigen::Vector3d::UnitZ(), kTrunkRadius);
   }
@@ -107,11 +106,11 @@ std::string block_mjcf(const std::string& name, const Pose& T_world_occluder, co
 }
 
 /// Named by class and place in the world's list, and where there are several, the block.
-std::string occluders_mjcf(const WorldConfig& world, const Terrain& terrain) {
+std::string occluders_mjcf(const WorldConfig& world, const WorldLayout& layout) {
   std::string geoms;
   for (std::size_t i = 0; i < world.occluders.size(); ++i) {
     const Occluder& occluder = world.occluders[i];
-    const Pose pose = occluder_pose(occluder, terrain);
+    const Pose& pose = layout.occluders[i];
     const std::vector<Block> blocks = shape_of(occluder).blocks(occluder);
     const std::string name = fmt::format("{} {}", name_of(class_of(occluder)), i);
     for (std::size_t part = 0; part < blocks.size(); ++part) {
@@ -164,9 +163,10 @@ GroundText height_field_mjcf(const Terrain& terrain) {
 
 std::string world_mjcf(const WorldConfig& world, const std::filesystem::path& rover_include,
                        std::uint64_t seed) {
-  const Terrain terrain = terrain_of(world);
-  std::string geoms = posts_mjcf(world, terrain) + trunks_mjcf(world, terrain, seed);
-  geoms += occluders_mjcf(world, terrain);
+  const WorldLayout layout = lay_out(world);
+  const Terrain& terrain = layout.terrain;
+  std::string geoms = posts_mjcf(world, layout) + trunks_mjcf(world, layout, seed);
+  geoms += occluders_mjcf(world, layout);
   const auto [asset, ground] = terrain.flat() ? plane_mjcf(world) : height_field_mjcf(terrain);
   return fmt::format(R"(<mujoco>
   <include file="{}"/>
@@ -206,7 +206,7 @@ PhysicsWorld::PhysicsWorld(const std::filesystem::path& rover, const WorldConfig
   std::array<char, 1000> reason{};
   model_.reset(mj_loadXML(file.name().c_str(), nullptr, reason.data(), reason.size()));
   if (!model_) fail("{}: is not a valid MJCF model: {}", rover.string(), reason.data());
-  if (!world.terrain.flat()) raise_ground(terrain_of(world));
+  if (!world.terrain.flat()) raise_ground(lay_out(world).terrain);
   state_.reset(mj_makeData(model_.get()));
   if (!state_) fail("{}: no memory for the physics' state", rover.string());
 }

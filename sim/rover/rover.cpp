@@ -9,7 +9,7 @@
 #include "core/util/random.h"
 #include "sim/rover/physics_world.h"
 #include "sim/rover/wheel_controller.h"
-#include "sim/world/terrain.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::sim {
 namespace {
@@ -79,7 +79,7 @@ struct Rover::Physics {
 Rover::Physics::Physics(const RoverConfig& rover, const WorldConfig& world_config,
                         std::uint64_t seed)
     : config(rover),
-      terrain(terrain_of(world_config)),
+      terrain(lay_out(world_config).terrain),
       world(rover.model, world_config, seed),
       drive{rover.wheel_radius, rover.half_track, rover.half_wheelbase},
       step_length(from_seconds(world.model().opt.timestep)) {

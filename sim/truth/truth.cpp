@@ -33,9 +33,9 @@ std::vector<OccluderClass> occluder_classes(const WorldConfig& world) {
   return {classes.begin(), classes.end()};
 }
 
-bool is_tag_visible(const WorldConfig::Tag& tag, const PinholeCamera& camera,
-                    const Pose& T_world_cam, const cv::Mat& labels, double min_side) {
-  const Pose T_cam_tag = T_world_cam.inverse() * tag_pose(tag);
+bool is_tag_visible(const WorldTag& tag, const PinholeCamera& camera, const Pose& T_world_cam,
+                    const cv::Mat& labels, double min_side) {
+  const Pose T_cam_tag = T_world_cam.inverse() * tag.T_world_tag;
   const Eigen::Vector3d normal = T_cam_tag.rotation * Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d sight = T_cam_tag.translation.normalized();
   if (sight.dot(normal) < std::cos(75.0 * 3.14159265358979 / 180.0)) return false;

@@ -8,6 +8,7 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 #include "core/truth/occlusion.h"
+#include "core/truth/site.h"
 #include "sim/world/world.h"
 
 namespace vinebench::sim {
@@ -24,7 +25,7 @@ std::vector<OccluderClass> occluder_classes(const WorldConfig& world);
 /// Whether a tag's black square is completely in the image, at least `min_side` px large along its
 /// shortest side, with its centre and corners unoccluded by the labels. A tag seen from behind or
 /// from more than 75 degrees off its normal does not count.
-bool is_tag_visible(const WorldConfig::Tag& tag, const PinholeCamera& camera,
-                    const Pose& T_world_cam, const cv::Mat& labels, double min_side = 24);
+bool is_tag_visible(const WorldTag& tag, const PinholeCamera& camera, const Pose& T_world_cam,
+                    const cv::Mat& labels, double min_side = 24);
 
 }  // namespace vinebench::sim

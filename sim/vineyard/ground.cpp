@@ -33,12 +33,13 @@ struct Strip {
 
 class GroundMesher {
  public:
-  GroundMesher(const WorldConfig& world, const Terrain& terrain, std::uint64_t seed)
-      : terrain_(terrain),
+  GroundMesher(const WorldConfig& world, const WorldLayout& layout, std::uint64_t seed)
+      : terrain_(layout.terrain),
         grass_(world.ground.aisles == WorldConfig::Ground::Aisles::kGrass),
-        rows_(world),
+        rows_(layout.rows),
         shade_(seed, "ground shade"),
         phase_(seed, "aisle phase") {
+    const Terrain& terrain = layout.terrain;
     heights_.reserve(static_cast<std::size_t>(terrain.nodes()));
     for (int row = 0; row < terrain.rows(); ++row) {
       for (int column = 0; column < terrain.columns(); ++column) {
@@ -263,10 +264,11 @@ Asset ground_asset(const WorldConfig& world, const Terrain& terrain, std::uint64
 
 }  // namespace
 
-void add_ground(Scene& scene, const WorldConfig& world, const Terrain& terrain,
+void add_ground(Scene& scene, const WorldConfig& world, const WorldLayout& layout,
                 std::uint64_t seed) {
+  const Terrain& terrain = layout.terrain;
   Asset asset = ground_asset(world, terrain, seed);
-  GroundMesher mesher(world, terrain, seed);
+  GroundMesher mesher(world, layout, seed);
   // Textures are large: they are added to the scene once and shared by the tiles.
   asset.model.name = "apron";
   asset.model.levels.push_back({1e9, {apron_mesh(world, terrain)}});

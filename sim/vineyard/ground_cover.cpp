@@ -152,11 +152,12 @@ int add_patch(Scene& scene, const PatchSpec& spec, std::uint64_t seed, int varia
 
 class Strewer {
  public:
-  Strewer(Scene& scene, const WorldConfig& world, const Terrain& terrain, std::uint64_t seed)
+  Strewer(Scene& scene, const WorldConfig& world, const WorldLayout& layout, std::uint64_t seed)
       : scene_(scene),
         world_(world),
-        terrain_(terrain),
-        rows_(world),
+        layout_(layout),
+        terrain_(layout.terrain),
+        rows_(layout.rows),
         random_(RandomStream(seed, "ground cover")) {
     const std::vector<Texture> textures{grass_texture(seed), stone_texture(seed),
                                         leaf_texture(seed)};
@@ -169,7 +170,7 @@ class Strewer {
 
   /// Weeds under the vines, some places bare.
   void strew_rows() {
-    for (const WorldConfig::Row& row : world_.rows) {
+    for (const RowConfig& row : layout_.rows) {
       const Eigen::Vector2d along = (row.end - row.start).normalized();
       for (double s = 0.5; s < (row.end - row.start).norm(); s += 1) {
         put(kWeeds, row.start + s * along, std::atan2(along.y(), along.x()));
@@ -239,6 +240,7 @@ class Strewer {
   static constexpr double kReach = 0.35;    // m, over which a patch leans with the ground
   Scene& scene_;
   const WorldConfig& world_;
+  const WorldLayout& layout_;
   const Terrain& terrain_;
   RowIndex rows_;
   RandomSequence random_;
@@ -248,9 +250,9 @@ class Strewer {
 
 }  // namespace
 
-void add_ground_cover(Scene& scene, const WorldConfig& world, const Terrain& terrain,
+void add_ground_cover(Scene& scene, const WorldConfig& world, const WorldLayout& layout,
                       std::uint64_t seed) {
-  Strewer strewer(scene, world, terrain, seed);
+  Strewer strewer(scene, world, layout, seed);
   strewer.strew_rows();
   if (world.ground.aisles == WorldConfig::Ground::Aisles::kGrass) {
     strewer.strew_aisles();

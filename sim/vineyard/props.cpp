@@ -46,9 +46,9 @@ Texture tag_texture(const std::string& family, int id) {
   return {fmt::format("{}-{}", family, id), rgba, false};
 }
 
-void add_tags(Scene& scene, const WorldConfig& world) {
-  int index = 0;
-  for (const WorldConfig::Tag& tag : world.tags) {
+void add_tags(Scene& scene, const WorldConfig& world, const WorldLayout& layout) {
+  for (std::size_t i = 0; i < world.tags.size(); ++i) {
+    const WorldConfig::Tag& tag = world.tags[i];
     const auto half = static_cast<float>(tag.size * tag_board_scale(tag.family) / 2);
     Asset asset;
     asset.add(tag_texture(tag.family, tag.id));
@@ -64,7 +64,8 @@ void add_tags(Scene& scene, const WorldConfig& world) {
     asset.model.name = asset.textures[0].name;
     asset.model.levels.push_back({1e9, {std::move(print), std::move(board)}});
     asset.update_bounds();
-    scene.instances.push_back({add_asset(scene, std::move(asset)), tag_pose(tag), 1, index++});
+    scene.instances.push_back(
+        {add_asset(scene, std::move(asset)), tag_pose(layout.tags[i]), 1, static_cast<int>(i)});
   }
 }
 

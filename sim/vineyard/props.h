@@ -3,12 +3,12 @@
 #pragma once
 
 #include "sim/scene/scene.h"
-#include "sim/world/world.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::sim {
 
 /// Printed tags, each on its white board. The print's plane is exactly that of tag_pose.
-void add_tags(Scene& scene, const WorldConfig& world);
+void add_tags(Scene& scene, const WorldConfig& world, const WorldLayout& layout);
 
 /// The print and its board's white rim: each module is a whole number of texels wide, so that the
 /// module edges lie on texel borders in every mip level down to one texel a module.

@@ -11,8 +11,7 @@
 #include "sim/vineyard/occluders/occluders.h"
 #include "sim/vineyard/props.h"
 #include "sim/vineyard/trellis.h"
-#include "sim/world/terrain.h"
-#include "sim/world/world.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::sim {
 namespace {
@@ -40,10 +39,10 @@ PlantModels add_plants(Scene& scene, const WorldConfig& world, std::uint64_t see
 
 /// Plants in their rows: which template, which way round and how tall is drawn for each place. Wood
 /// that is led to one side only points the same way all along a row.
-void add_vines(Scene& scene, const WorldConfig& world, const Terrain& terrain, std::uint64_t seed,
-               const std::filesystem::path& cache) {
+void add_vines(Scene& scene, const WorldConfig& world, const WorldLayout& layout,
+               std::uint64_t seed, const std::filesystem::path& cache) {
   const PlantModels models = add_plants(scene, world, seed, cache);
-  const std::vector<VinePlace> places = vine_places(world);
+  const std::vector<VinePlace>& places = layout.vines;
   const bool one_sided = world.vines.training == Training::kUnilateralCordon ||
                          world.vines.training == Training::kSingleGuyot;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -54,7 +53,7 @@ void add_vines(Scene& scene, const WorldConfig& world, const Terrain& terrain, s
     const int model = choice.at(random.below(static_cast<int>(choice.size())));
     const double turn = places[i].heading + (one_sided ? 0 : random.below(2)) * std::numbers::pi;
     const Eigen::Vector2d& foot = places[i].foot;
-    const Eigen::Vector3d at(foot.x(), foot.y(), terrain.height(foot));
+    const Eigen::Vector3d at(foot.x(), foot.y(), layout.terrain.height(foot));
     const Pose pose{from_roll_pitch_yaw({0, 0, turn}), at};
     const auto scale = static_cast<float>(random.uniform(1.0, kLargestPlantScale));
     scene.instances.push_back({model, pose, scale, static_cast<int>(i)});
@@ -69,14 +68,14 @@ Scene build_scene(const WorldConfig& world, std::uint64_t seed,
   scene.seed = seed;
   scene.light = daylight(world.sun, world.sky);
   scene.wind = make_wind(world.wind, seed);
-  const Terrain terrain = terrain_of(world);
-  add_vines(scene, world, terrain, seed, cache);
-  add_trellis(scene, world, terrain, seed);
-  add_tags(scene, world);
-  add_occluders(scene, world, terrain, seed);
-  add_ground_cover(scene, world, terrain, seed);
-  add_ground(scene, world, terrain, seed);
-  add_backdrop(scene, world, terrain, seed);
+  const WorldLayout layout = lay_out(world);
+  add_vines(scene, world, layout, seed, cache);
+  add_trellis(scene, world.trellis, layout, seed);
+  add_tags(scene, world, layout);
+  add_occluders(scene, world, layout, seed);
+  add_ground_cover(scene, world, layout, seed);
+  add_ground(scene, world, layout, seed);
+  add_backdrop(scene, world, layout.terrain, seed);
   return scene;
 }
 

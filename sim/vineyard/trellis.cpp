@@ -62,22 +62,22 @@ Pose stake_pose(const Vector3d& foot, const Vector3d& up, double turn) {
   return {(lean * from_roll_pitch_yaw({0, 0, turn})).normalized(), foot};
 }
 
-void add_posts(Scene& scene, const WorldConfig& world, const Terrain& terrain, std::uint64_t seed) {
-  const WorldConfig::Trellis& trellis = world.trellis;
+void add_posts(Scene& scene, const WorldConfig::Trellis& trellis, const WorldLayout& layout,
+               std::uint64_t seed) {
   const double lean = std::tan(trellis.end_lean_deg * std::numbers::pi / 180);
   const int line = add_stake(scene, "post", trellis.post_height, trellis.post_radius, seed);
   const int end = add_stake(scene, "end post", trellis.post_height * std::sqrt(1 + lean * lean),
                             trellis.end_post_radius, seed);
   const RandomStream random(seed, "posts");
   int id = 0;
-  for (const TrellisPost& post : trellis_posts(world)) {
+  for (const TrellisPost& post : layout.posts) {
     const double turn = random.uniform(static_cast<std::uint64_t>(id), 0, 2 * std::numbers::pi);
     const Vector3d up(post.lean.x(), post.lean.y(), 1);
-    const Pose pose = stake_pose(above(terrain, post, 0), up, turn);
+    const Pose pose = stake_pose(above(layout.terrain, post, 0), up, turn);
     scene.instances.push_back({post.end ? end : line, pose, 1, id++});
   }
   if (trellis.end_brace != Brackets::kStrut) return;
-  for (const Brace& brace : trellis_braces(world, terrain)) {
+  for (const Brace& brace : trellis_braces(trellis, layout)) {
     const Vector3d way = brace.head - brace.foot;
     const int strut = add_stake(scene, "strut", way.norm(), brace.radius, seed);
     scene.instances.push_back({strut, stake_pose(brace.foot, way, 0), 1, id++});
@@ -107,10 +107,10 @@ void add_drip_span(Scene& scene, const Vector3d& from, const Vector3d& to, doubl
   }
 }
 
-void add_wires(Scene& scene, const WorldConfig& world, const Terrain& terrain) {
-  const WorldConfig::Trellis& trellis = world.trellis;
+void add_wires(Scene& scene, const WorldConfig::Trellis& trellis, const WorldLayout& layout) {
   const int steel = add_line_material(scene, "wire", {0.30f, 0.31f, 0.32f});
-  const std::vector<TrellisPost> posts = trellis_posts(world);
+  const std::vector<TrellisPost>& posts = layout.posts;
+  const Terrain& terrain = layout.terrain;
   for (std::size_t i = 1; i < posts.size(); ++i) {
     if (posts[i].row != posts[i - 1].row) continue;
     for (const double height : trellis.wires) {
@@ -119,7 +119,7 @@ void add_wires(Scene& scene, const WorldConfig& world, const Terrain& terrain) {
     }
   }
   if (trellis.end_brace == Brackets::kAnchor) {
-    for (const Brace& brace : trellis_braces(world, terrain)) {
+    for (const Brace& brace : trellis_braces(trellis, layout)) {
       scene.wires.push_back({brace.foot.cast<float>(), brace.head.cast<float>(),
                              static_cast<float>(brace.radius), steel});
     }
@@ -135,14 +135,14 @@ void add_wires(Scene& scene, const WorldConfig& world, const Terrain& terrain) {
 
 }  // namespace
 
-std::vector<Brace> trellis_braces(const WorldConfig& world, const Terrain& terrain) {
-  const WorldConfig::Trellis& trellis = world.trellis;
+std::vector<Brace> trellis_braces(const WorldConfig::Trellis& trellis, const WorldLayout& layout) {
+  const Terrain& terrain = layout.terrain;
   std::vector<Brace> braces;
   if (trellis.end_brace == Brackets::kNone) return braces;
   const bool strut = trellis.end_brace == Brackets::kStrut;
-  for (const TrellisPost& post : trellis_posts(world)) {
+  for (const TrellisPost& post : layout.posts) {
     if (!post.end) continue;
-    const WorldConfig::Row& row = world.rows[static_cast<std::size_t>(post.row)];
+    const RowConfig& row = layout.rows[static_cast<std::size_t>(post.row)];
     const Eigen::Vector2d along = (row.end - row.start).normalized();
     const Eigen::Vector2d inward = post.index == 0 ? along : Eigen::Vector2d(-along);
     const double reach = kBraceReach * trellis.post_height;
@@ -157,10 +157,10 @@ std::vector<Brace> trellis_braces(const WorldConfig& world, const Terrain& terra
   return braces;
 }
 
-void add_trellis(Scene& scene, const WorldConfig& world, const Terrain& terrain,
+void add_trellis(Scene& scene, const WorldConfig::Trellis& trellis, const WorldLayout& layout,
                  std::uint64_t seed) {
-  add_posts(scene, world, terrain, seed);
-  add_wires(scene, world, terrain);
+  add_posts(scene, trellis, layout, seed);
+  add_wires(scene, trellis, layout);
 }
 
 }  // namespace vinebench::sim

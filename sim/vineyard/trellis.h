@@ -3,8 +3,7 @@
 #pragma once
 
 #include "sim/scene/scene.h"
-#include "sim/world/terrain.h"
-#include "sim/world/world.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::sim {
 
@@ -16,10 +15,10 @@ struct Brace {
 };
 
 /// The braces of all end posts, in the posts' order; empty if the world has none.
-std::vector<Brace> trellis_braces(const WorldConfig& world, const Terrain& terrain);
+std::vector<Brace> trellis_braces(const WorldConfig::Trellis& trellis, const WorldLayout& layout);
 
 /// Posts, braces, wires and drip lines of every row.
-void add_trellis(Scene& scene, const WorldConfig& world, const Terrain& terrain,
+void add_trellis(Scene& scene, const WorldConfig::Trellis& trellis, const WorldLayout& layout,
                  std::uint64_t seed);
 
 }  // namespace vinebench::sim

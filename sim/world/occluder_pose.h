@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/geometry/pose.h"
-#include "sim/world/occluder.h"
+#include "sim/world/occluders/occluder.h"
 #include "sim/world/terrain.h"
 
 namespace vinebench::sim {

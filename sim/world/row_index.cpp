@@ -12,9 +12,9 @@ constexpr double kSide = 4.0;  // m, of a square
 
 }  // namespace
 
-RowIndex::RowIndex(const WorldConfig& world) {
+RowIndex::RowIndex(const std::vector<RowConfig>& rows) {
   Eigen::AlignedBox2d box;
-  for (const WorldConfig::Row& row : world.rows) {
+  for (const RowConfig& row : rows) {
     rows_.push_back({row.start, row.end - row.start});
     box.extend(row.start).extend(row.end);
   }

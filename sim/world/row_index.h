@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
-#include "sim/world/world.h"
+#include "sim/world/rows.h"
 
 namespace vinebench::sim {
 
@@ -13,7 +14,7 @@ class RowIndex {
  public:
   static constexpr double kReach = 3.0;  ///< m; rows further away are ignored
 
-  explicit RowIndex(const WorldConfig& world);
+  explicit RowIndex(const std::vector<RowConfig>& rows);
 
   /// m, to the nearest row's line, at most kReach.
   double distance(const Eigen::Vector2d& p) const;

@@ -11,15 +11,11 @@
 #include <vector>
 
 #include "core/config/config_field.h"
-#include "core/geometry/pose.h"
-#include "core/slam_system.h"
-#include "core/truth/site.h"
 #include "sim/scene/scene.h"
 #include "sim/world/daylight.h"
 #include "sim/world/ground_config.h"
-#include "sim/world/occluder_lists.h"
+#include "sim/world/occluders/occluder_lists.h"
 #include "sim/world/rows.h"
-#include "sim/world/terrain.h"
 #include "sim/world/vines.h"
 
 namespace vinebench::sim {
@@ -31,6 +27,7 @@ struct WorldConfig {
   static constexpr double kMostRow = 20'000;       ///< m, of all rows together
   static constexpr double kMostGround = 200'000;   ///< m^2, of shaped ground
   static constexpr double kMostCells = 3'000'000;  ///< of the ground
+  static constexpr double kShortestRow = 0.1;      ///< m
 
   using Row = RowConfig;
   using Vines = VinesConfig;
@@ -97,8 +94,7 @@ struct WorldConfig {
     double facing_deg = 0;                               ///< heading of the printed face
     bool registered = true;                              ///< its pose is given to the SLAM system
     SurveyError survey_error;                            ///< of the pose that is given
-    std::optional<PostSide> post;                        ///< sets position and facing_deg
-    double ground = 0;  ///< m, height of the ground below; set by place()
+    std::optional<PostSide> post;                        ///< in place of position and facing_deg
     template <class Archive>
     void serialize(Archive& archive) {
       archive("family", family);
@@ -115,7 +111,7 @@ struct WorldConfig {
   };
   std::string name = "world";
   double ground_size = 40;     ///< m, side of the square of ground around the rows' middle
-  std::optional<Block> block;  ///< rows in regular order; place() turns it into `rows`
+  std::optional<Block> block;  ///< rows in regular order, beside `rows`
   std::vector<Row> rows;
   Vines vines;
   Trellis trellis;
@@ -144,81 +140,26 @@ struct WorldConfig {
     archive("wind", wind);
     archive.require(block || !rows.empty(), "rows", "expected at least one row");
     if (!has_sound_rows()) return;  // which is reported by now
-    const auto [key, problem] = placing_problem();
+    const auto [key, problem] = layout_problem();
     archive.require(problem.empty(), key, problem);
-    if (problem.empty()) place();
   }
 
-  /// Lays out what stands in relation to something else: the block's rows, the tags on posts, and
-  /// everything on its ground. Reading a file does so; after changes in code, it may be called
-  /// again. Throws Error where placing_problem() finds one.
-  void place();
+  /// What lay_out() cannot do, beside which it is defined: the key at fault and why; both empty
+  /// where all is well.
+  std::pair<std::string, std::string> layout_problem() const;
 
-  /// What place() cannot do: the key at fault and why; both empty where all is well.
-  std::pair<std::string, std::string> placing_problem() const;
-
-  /// What makes the world larger than its limits: key and problem, as placing_problem().
-  std::pair<std::string, std::string> size_problem() const;
-
-  /// Turns the block into rows.
-  void expand_block();
-
-  /// There are rows, or a block of them, and none is shorter than 0.1 m.
+  /// There are rows, or a block of them, and none is too short.
   bool has_sound_rows() const;
 
   /// Why (family, id) is no AprilTag; empty when it is one.
   static std::string tag_problem(const std::string& family, int id);
 };
 
-/// A post as it stands.
-struct TrellisPost {
-  Eigen::Vector2d foot;  ///< m
-  Eigen::Vector2d lean;  ///< m of its head outward for each m of height
-  double radius = 0;     ///< m
-  int row = 0;
-  int index = 0;  ///< along its row
-  bool end = false;
-  Eigen::Vector2d at(double height) const { return foot + height * lean; }
-};
-
-/// All posts, row by row, from each row's start.
-std::vector<TrellisPost> trellis_posts(const WorldConfig& world);
-
-/// Where posts stand, m; each once, row by row.
-std::vector<Eigen::Vector2d> post_positions(const WorldConfig& world);
-
-/// A vine's place.
-struct VinePlace {
-  Eigen::Vector2d foot;  ///< m
-  double heading = 0;    ///< rad, of its row
-};
-
-/// All places for vines, row by row; vine_at() tells which are empty.
-std::vector<VinePlace> vine_places(const WorldConfig& world);
-
-/// The feet of vine_places(), m.
-std::vector<Eigen::Vector2d> vine_positions(const WorldConfig& world);
-
 /// What stands at a vine's place.
 enum class VineKind { kNone, kYoung, kGrown };
 
-/// The one decision about the place of that index in vine_places(), for image and physics.
+/// The one decision about the place of that index in WorldLayout::vines, for image and physics.
 VineKind vine_at(const WorldConfig& world, std::uint64_t seed, std::size_t place);
-
-/// Tag frame: x right and y down on the printed face, z into the tag.
-Pose tag_pose(const WorldConfig::Tag& tag);
-
-/// The surface of its ground.
-Terrain terrain_of(const WorldConfig& world);
-
-/// The tags whose pose the SLAM system is told, with the errors of their survey.
-std::vector<RegisteredTag> registered_tags(const WorldConfig& world);
-
-/// All tags as they truly stand, in the order of the file.
-std::vector<WorldTag> world_tags(const WorldConfig& world);
-
-/// The world seen from above.
-Site site_of(const WorldConfig& world);
 
 /// Grows (or loads) the plants and assembles all that can be drawn. The plants of a seed are grown
 /// once into `cache` as .glb files. Throws Error that names the mesh that cannot be loaded.

@@ -12,6 +12,7 @@
 #include "core/util/random.h"
 #include "sim/world/row_frame.h"
 #include "sim/world/tag_family.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::sim {
 namespace {
@@ -59,11 +60,12 @@ WorldConfig::Terrain terrain_for(const WorldRecipe& recipe) {
   return terrain;
 }
 
-std::vector<WorldConfig::Tag> tags_for(const WorldRecipe& recipe, const WorldConfig& laid) {
+std::vector<WorldConfig::Tag> tags_for(const WorldRecipe& recipe,
+                                       const std::vector<TrellisPost>& posts) {
   using Side = WorldConfig::PostSide::Side;
   std::vector<WorldConfig::Tag> tags;
   if (recipe.tags == WorldRecipe::Tags::kNone) return tags;
-  for (const TrellisPost& post : trellis_posts(laid)) {
+  for (const TrellisPost& post : posts) {
     if (recipe.tags == WorldRecipe::Tags::kFirst && !tags.empty()) break;
     if (recipe.tags == WorldRecipe::Tags::kEnds && !post.end) continue;
     WorldConfig::Tag tag;
@@ -141,15 +143,12 @@ WorldConfig make_world(const WorldRecipe& recipe) {
   world.terrain = terrain_for(recipe);
   world.ground = ground_for(recipe);
 
-  WorldConfig laid = world;
-  laid.place();
-  world.tags = tags_for(recipe, laid);
-  const RowFrame frame = row_frame(laid.rows);
+  const WorldLayout layout = lay_out(world);
+  world.tags = tags_for(recipe, layout.posts);
+  const RowFrame& frame = layout.terrain.frame();
   add_cartons(world, recipe, frame);
   add_people(world, recipe, frame);
-  laid = world;
-  laid.place();
-  world.tags = laid.tags;  // with their positions, for whoever reads the file
+  world.tags = written_out(world).tags;  // with their positions, for whoever reads the file
   validate(world);
   return world;
 }

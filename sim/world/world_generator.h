@@ -60,7 +60,7 @@ struct WorldRecipe {
   }
 };
 
-/// The world of a recipe, not yet placed: its rows are a block. Trellis and strips have common
+/// The world of a recipe: its rows are a block. Trellis and strips have common
 /// values, adapted to the aisles' width. Throws Error that lists the violations.
 WorldConfig make_world(const WorldRecipe& recipe);
 

@@ -13,6 +13,7 @@
 #include "harness/judge/verdict.h"
 #include "harness/machine.h"
 #include "harness/run/lockstep.h"
+#include "sim/world/world_layout.h"
 #include "slam/slam.h"
 
 namespace vinebench::harness {

@@ -13,6 +13,7 @@
 #include "sim/config_files.h"
 #include "sim/render/gl/gl_renderer.h"
 #include "sim/world/world.h"
+#include "sim/world/world_layout.h"
 #include "slam/tags/tag_detector.h"
 
 namespace vinebench::harness {
@@ -29,7 +30,7 @@ class WorldImageTest : public testing::Test {
 TEST_F(WorldImageTest, TheTagsCornersAreWhereTheSideCameraProjectsThem) {
   sim::GlRenderer renderer(sim::build_scene(world_, 1, machine_of_environment().plant_cache), {});
   const RigCamera& side = rig_.cameras[static_cast<std::size_t>(rig_.tag_cameras.at(0))];
-  const sim::WorldConfig::Tag& tag = world_.tags.at(0);
+  const WorldTag tag = sim::world_tags(world_).at(0);
   slam::TagDetector detector({}, sim::registered_tags(world_));
   // The rover beside the tag; offset to either side and rotated, as when it passes.
   const double h = tag.size / 2;
@@ -45,7 +46,7 @@ TEST_F(WorldImageTest, TheTagsCornersAreWhereTheSideCameraProjectsThem) {
     const std::vector<TagSighting> seen = detector.detect(grey, side.model, 4);
     ASSERT_EQ(seen.size(), 1u) << at.transpose();
     EXPECT_EQ(seen[0].id, 0);
-    const Pose T_cam_tag = T_world_cam.inverse() * sim::tag_pose(tag);
+    const Pose T_cam_tag = T_world_cam.inverse() * tag.T_world_tag;
     double squares = 0;
     for (std::size_t c = 0; c < 4; ++c) {
       const double error = (seen[0].corners[c] - side.model.project(T_cam_tag * corners[c])).norm();

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/assets/asset.h"
-#include "sim/world/occluder.h"
+#include "sim/world/occluders/occluder.h"
 
 namespace vinebench::sim {
 

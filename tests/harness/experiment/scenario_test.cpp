@@ -146,18 +146,19 @@ TEST_F(ScenarioTest, ErrorsNameTheFileOfTheBaseOrOfTheScenario) {
 }
 
 TEST_F(ScenarioTest, ResolvedTextIsTheSameScenario) {
-  const std::string text = format_yaml(load_scenario(write(kRoute + R"(
+  const std::string text =
+      resolved_settings(load_scenario(write(kRoute + R"(
 description: >
   Two lines with "quotes" and a \ in them
   that are one.
 boxes: [{position: [0.1, 2]}]
 expectations: {ate_rmse_max: 0.1, blind: {cameras: [side]}}
 )"),
-                                                     {{"world.sun.elevation_deg", "20.125"}}));
+                                      {{"world.sun.elevation_deg", "20.125"}}));
   const fs::path resolved = folder_ / "elsewhere" / "scenario.resolved.yaml";
   fs::create_directories(resolved.parent_path());
   write_file_atomically(resolved, text);
-  EXPECT_EQ(format_yaml(load_scenario(resolved)), text);
+  EXPECT_EQ(resolved_settings(load_scenario(resolved)), text);
 }
 
 TEST_F(ScenarioTest, ErrorsNameFileLineAndKey) {

@@ -15,6 +15,7 @@
 #include "sim/world/occluder_pose.h"
 #include "sim/world/tag_family.h"
 #include "sim/world/world.h"
+#include "sim/world/world_layout.h"
 #include "tests/support/tag_reading.h"
 #include "tests/support/test_folder.h"
 
@@ -64,7 +65,8 @@ class SceneTest : public testing::Test {
 TEST_F(SceneTest, VinesAndPostsStandWhereTheWorldHasThem) {
   const WorldConfig world = small_world();
   const Scene scene = build_scene(world, 1, folder_ / "cache");
-  const std::vector<Eigen::Vector2d> vines = vine_positions(world), posts = post_positions(world);
+  const std::vector<Eigen::Vector2d> vines = lay_out(world).vine_feet(),
+                                     posts = lay_out(world).post_feet();
   const std::vector<Instance> plants = instances_of(scene, Label::kBunch);
   ASSERT_EQ(plants.size(), vines.size());
   for (std::size_t i = 0; i < vines.size(); ++i) {
@@ -94,7 +96,7 @@ TEST_F(SceneTest, TheTagsPrintLiesInItsPlaneWithItsBlackSquareToSize) {
   ASSERT_EQ(print.vertices.size(), 4u);
   // tag36h11: 8 modules across the black square, one of white round it and one of board: 12.
   const double half = 0.161 / 2 * 12 / 8;
-  const Pose T_world_tag = tag_pose(world.tags[0]);
+  const Pose T_world_tag = tag_pose(lay_out(world).tags[0]);
   for (const Vertex& v : print.vertices) {
     const Eigen::Vector3d p_world = tags[0].T_world_model * v.position.cast<double>();
     // u increases to the right and v down the print, like x and y of the tag.
@@ -112,7 +114,7 @@ TEST_F(SceneTest, TheBoxStandsAtItsPose) {
   const Scene scene = build_scene(world, 1, folder_ / "cache");
   const std::vector<Instance> boxes = instances_of(scene, Label::kBox);
   ASSERT_EQ(boxes.size(), 1u);
-  const Pose foot = occluder_pose(world.occluders[0], terrain_of(world));
+  const Pose foot = occluder_pose(world.occluders[0], lay_out(world).terrain);
   Eigen::AlignedBox3d own;
   for (const Primitive& primitive :
        scene.models.at(static_cast<std::size_t>(boxes[0].model)).levels.at(0).primitives) {
@@ -263,7 +265,7 @@ TEST_F(SceneTest, AWorldsOwnMeshesStandInPlaceOfGrownPlants) {
   EXPECT_EQ(scene.models.at(0).bounds.max(), Eigen::Vector3f(0.5f, 0, 1.5f));
   EXPECT_EQ(scene.models.at(1).bounds.max(), Eigen::Vector3f(0.25f, 0, 1.25f));
   std::array<int, 2> stands{};
-  const std::vector<Eigen::Vector2d> vines = vine_positions(world);
+  const std::vector<Eigen::Vector2d> vines = lay_out(world).vine_feet();
   for (std::size_t i = 0; i < vines.size(); ++i) {
     const Instance& plant = scene.instances.at(i);
     ASSERT_LT(plant.model, 2);

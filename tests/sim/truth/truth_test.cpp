@@ -7,6 +7,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "sim/world/world_layout.h"
 #include "tests/support/test_scene.h"
 
 namespace vinebench::sim {
@@ -50,8 +51,7 @@ class TagVisibleTest : public testing::Test {
  protected:
   TagVisibleTest() {
     tag_.size = 0.2;
-    tag_.position = {0, 0, 1};
-    tag_.facing_deg = -90;
+    tag_.T_world_tag = tag_pose({{0, 0, 1}, -90, 0});
   }
 
   /// All pixels have the tag's label unless a test changes it.
@@ -59,7 +59,7 @@ class TagVisibleTest : public testing::Test {
     return is_tag_visible(tag_, camera_, T_world_cam, labels_);
   }
 
-  WorldConfig::Tag tag_;
+  WorldTag tag_;
   PinholeCamera camera_ = test::small_camera();
   cv::Mat labels_ = cv::Mat(480, 752, CV_8UC1, cv::Scalar(kTag));
 };

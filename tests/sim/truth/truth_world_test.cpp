@@ -15,6 +15,7 @@
 #include "sim/render/gl/gl_renderer.h"
 #include "sim/scene/scene_naming.h"
 #include "sim/world/terrain.h"
+#include "sim/world/world_layout.h"
 #include "tests/support/image_warp.h"
 #include "tests/support/test_folder.h"
 #include "tests/support/test_scene.h"
@@ -196,8 +197,9 @@ TEST_F(TruthWorldTest, LabelsInstancesDepthAndNormalsAgreeWithTheGeometry) {
           upright += (R_world_cam * normal).z() > 0.999;
         }
         if (name.thing == Thing::kTag && name.id == 0) {
-          const Eigen::Vector3d face = tag_pose(world.tags[0]).rotation * -Eigen::Vector3d::UnitZ();
-          if (std::abs((tag_pose(world.tags[0]).inverse() * p).z()) < 1e-4) {
+          const Eigen::Vector3d face =
+              tag_pose(lay_out(world).tags[0]).rotation * -Eigen::Vector3d::UnitZ();
+          if (std::abs((tag_pose(lay_out(world).tags[0]).inverse() * p).z()) < 1e-4) {
             ASSERT_GT((R_world_cam * normal).dot(face), 0.999);
           }
         }
@@ -218,10 +220,9 @@ TEST_F(TruthWorldTest, UnevenGroundIsWhereTheTerrainSays) {
   world.terrain.amplitude = 0.05;
   world.terrain.wavelength = 2;
   world.terrain.slope_percent = 3;
-  world.place();
   // The finest level of the ground reaches 4 m for 750 px, so 4.2 m here; coarser ones cut bumps.
   GlRenderer renderer(grow(world), {.lod_scale = 3});
-  const Terrain terrain = terrain_of(world);
+  const Terrain terrain = lay_out(world).terrain;
   int compared = 0;
   const TruthView v = view(renderer, in_aisle(-0.3, 0, 0.1, 0.3));
   for (int y = 0; y < camera_.height; ++y) {

@@ -7,6 +7,7 @@
 
 #include "sim/rover/physics_world.h"
 #include "sim/world/world.h"
+#include "sim/world/world_layout.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::sim {
@@ -21,7 +22,6 @@ WorldConfig gappy(const test::TestFolder& folder) {
   world.vines.missing = 0.3;
   world.vines.young = 0.2;
   world.vines.meshes = {folder.write("vine.obj", "v 0 0 0\nv 0.1 0 0\nv 0 0 1\nf 1 2 3\n")};
-  world.place();
   return world;
 }
 
@@ -29,7 +29,7 @@ WorldConfig gappy(const test::TestFolder& folder) {
 std::set<int> trunks(const WorldConfig& world, std::uint64_t seed) {
   const std::string mjcf = world_mjcf(world, "rover.xml", seed);
   std::set<int> places;
-  for (int i = 0; i < static_cast<int>(vine_places(world).size()); ++i) {
+  for (int i = 0; i < static_cast<int>(lay_out(world).vines.size()); ++i) {
     if (mjcf.find(fmt::format("\"trunk {}\"", i)) != std::string::npos) places.insert(i);
   }
   return places;

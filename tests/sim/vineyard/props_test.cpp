@@ -11,10 +11,11 @@ namespace {
 
 TEST(TagTest, ThePrintLiesInThePlaneOfTheTagAndTheBoardBehindIt) {
   WorldConfig world;
+  world.rows = {{{0, 0}, {6, 0}}};
   world.tags.resize(1);
   world.tags[0].size = 0.16;
   Scene scene;
-  add_tags(scene, world);
+  add_tags(scene, world, lay_out(world));
   const Model& model = scene.models.at(0);
   // 10 modules and a rim of one on either side, of which 8 make the black square: 0.16 * 12 / 8.
   EXPECT_NEAR(model.bounds.sizes().x(), 0.24, 1e-6);

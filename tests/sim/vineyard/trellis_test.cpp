@@ -13,6 +13,7 @@
 #include "sim/rover/physics_world.h"
 #include "sim/rover/rover.h"
 #include "sim/textures/textures.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::sim {
 namespace {
@@ -30,19 +31,19 @@ TEST(TrellisTest, BracesHoldTheEndPostsFromTheirSide) {
   WorldConfig world = one_row();
   world.trellis.end_brace = WorldConfig::Trellis::Brace::kAnchor;
   world.trellis.end_lean_deg = 15;
-  const Terrain terrain = terrain_of(world);
-  const std::vector<Brace> anchors = trellis_braces(world, terrain);
+  const WorldLayout layout = lay_out(world);
+  const std::vector<Brace> anchors = trellis_braces(world.trellis, layout);
   ASSERT_EQ(anchors.size(), 2u);
   EXPECT_LT(anchors[0].foot.x(), anchors[0].head.x());
   EXPECT_LT(anchors[0].head.x(), 0);
   EXPECT_GT(anchors[1].foot.x(), anchors[1].head.x());
   EXPECT_EQ(anchors[0].foot.z(), 0);
   world.trellis.end_brace = WorldConfig::Trellis::Brace::kStrut;
-  const std::vector<Brace> struts = trellis_braces(world, terrain);
+  const std::vector<Brace> struts = trellis_braces(world.trellis, layout);
   EXPECT_GT(struts[0].foot.x(), 0.5);
   EXPECT_LT(struts[1].foot.x(), 5.5);
   world.trellis.end_brace = WorldConfig::Trellis::Brace::kNone;
-  EXPECT_TRUE(trellis_braces(world, terrain).empty());
+  EXPECT_TRUE(trellis_braces(world.trellis, layout).empty());
 }
 
 TEST(TrellisTest, TheDripLineHangsBetweenItsClips) {
@@ -50,7 +51,7 @@ TEST(TrellisTest, TheDripLineHangsBetweenItsClips) {
   world.trellis.drip_line = 0.45;
   world.trellis.drip_sag = 0.03;
   Scene scene;
-  add_trellis(scene, world, terrain_of(world), 1);
+  add_trellis(scene, world.trellis, lay_out(world), 1);
   double low = 1, high = 0, length = 0;
   for (const Wire& wire : scene.wires) {
     if (wire.radius < 0.005f) continue;  // a steel wire

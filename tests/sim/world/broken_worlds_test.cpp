@@ -9,6 +9,7 @@
 #include "sim/plants/cultivar.h"
 #include "sim/world/terrain.h"
 #include "sim/world/world.h"
+#include "sim/world/world_layout.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::sim {
@@ -124,8 +125,8 @@ TEST_F(BrokenWorldsTest, EnormousOnes) {
 TEST_F(BrokenWorldsTest, TheLargestThatIsAllowedIsLaidOut) {
   const auto file = folder_.write("world.yaml", "block: {rows: 66, length: 300, spacing: 2}\n");
   const WorldConfig world = load_world(file);
-  EXPECT_EQ(vine_positions(world).size(), 66u * 300u);
-  EXPECT_LE(terrain_of(world).nodes(), WorldConfig::kMostCells);
+  EXPECT_EQ(lay_out(world).vine_feet().size(), 66u * 300u);
+  EXPECT_LE(lay_out(world).terrain.nodes(), WorldConfig::kMostCells);
 }
 
 TEST_F(BrokenWorldsTest, FilesThatAreNamedButMissingOrFolders) {

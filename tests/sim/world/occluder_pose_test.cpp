@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/world/world.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::sim {
 namespace {
@@ -14,7 +15,7 @@ Terrain slope() {
   WorldConfig world;
   world.rows = {{{0, 0}, {6, 0}}};
   world.terrain.slope_percent = 10;
-  return terrain_of(world);
+  return lay_out(world).terrain;
 }
 
 TEST(OccluderPoseTest, ABoxIsSunkUntilNoCornerHangs) {

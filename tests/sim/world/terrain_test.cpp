@@ -14,6 +14,7 @@
 #include "sim/rover/rover.h"
 #include "sim/vineyard/ground.h"
 #include "sim/world/world.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::sim {
 namespace {
@@ -31,7 +32,6 @@ WorldConfig bumpy() {
   world.terrain.slope_percent = 4;
   world.terrain.slope_heading_deg = 70;
   world.ground.aisles = WorldConfig::Ground::Aisles::kGrass;
-  world.place();
   return world;
 }
 
@@ -79,11 +79,11 @@ double drawn_height(const Scene& scene, const Eigen::Vector2d& p) {
 
 TEST(TerrainTest, IsOneSurfaceInPhysicsAndImage) {
   const WorldConfig world = bumpy();
-  const Terrain terrain = terrain_of(world);
+  const Terrain terrain = lay_out(world).terrain;
   PhysicsWorld physics(kSource / "models/csl-rover/rover.xml", world);
   physics.refresh();
   Scene scene;
-  add_ground(scene, world, terrain, 1);
+  add_ground(scene, world, lay_out(world), 1);
   const int ground = physics.find(mjOBJ_GEOM, "ground");
   for (const Eigen::Vector2d& p : places(terrain, 300)) {
     const mjtNum from[3]{p.x(), p.y(), 5};
@@ -100,7 +100,7 @@ TEST(TerrainTest, IsOneSurfaceInPhysicsAndImage) {
 TEST(TerrainTest, HasTheBumpsAskedForOnItsSlope) {
   WorldConfig world = bumpy();
   world.terrain.rut_depth = 0;
-  const Terrain terrain = terrain_of(world);
+  const Terrain terrain = lay_out(world).terrain;
   const double heading = world.terrain.slope_heading_deg * 3.14159265358979 / 180;
   const Eigen::Vector2d uphill(std::cos(heading), std::sin(heading));
   double low = 0, high = 0;
@@ -120,8 +120,8 @@ TEST(TerrainTest, WheelTracksAreLowerThanTheMiddleOfTheAisle) {
   WorldConfig world = bumpy();
   world.terrain.amplitude = 0;
   world.terrain.slope_percent = 0;
-  const Terrain terrain = terrain_of(world);
-  const RowFrame frame = row_frame(world.rows);
+  const Terrain terrain = lay_out(world).terrain;
+  const RowFrame frame = terrain.frame();
   // Rows lie at y = 0, 2 and 4 m of the frame; tracks 1.25 / 2 m either side of y = 1 and 3 m.
   const double half = world.ground.track_gauge / 2;
   for (const double aisle : {1.0, 3.0}) {
@@ -133,7 +133,7 @@ TEST(TerrainTest, WheelTracksAreLowerThanTheMiddleOfTheAisle) {
 
 TEST(TerrainTest, GoesOnBeyondItsGridAsItsSlopeAlone) {
   const WorldConfig world = bumpy();
-  const Terrain terrain = terrain_of(world);
+  const Terrain terrain = lay_out(world).terrain;
   const Eigen::Vector2d far = terrain.frame().middle() + Eigen::Vector2d(500, 0);
   EXPECT_NEAR(terrain.height(far), 0.04 * 500 * std::cos(70 * 3.14159265358979 / 180), 1e-9);
 }
@@ -141,7 +141,7 @@ TEST(TerrainTest, GoesOnBeyondItsGridAsItsSlopeAlone) {
 TEST(TerrainTest, EvenGroundIsAPlane) {
   WorldConfig world;
   world.rows = {{{0, 0}, {4, 0}}};
-  const Terrain terrain = terrain_of(world);
+  const Terrain terrain = lay_out(world).terrain;
   EXPECT_TRUE(terrain.flat());
   EXPECT_EQ(terrain.height({1.234, 0.7}), 0);
   EXPECT_THAT(world_mjcf(world, "rover.xml"), testing::HasSubstr("type=\"plane\""));
@@ -149,9 +149,9 @@ TEST(TerrainTest, EvenGroundIsAPlane) {
 
 TEST(TerrainTest, SameSeedSameGround) {
   WorldConfig world = bumpy();
-  const Terrain one = terrain_of(world), same = terrain_of(world);
+  const Terrain one = lay_out(world).terrain, same = lay_out(world).terrain;
   world.terrain.seed = 2;
-  const Terrain other = terrain_of(world);
+  const Terrain other = lay_out(world).terrain;
   EXPECT_EQ(one.node_height(40, 50), same.node_height(40, 50));
   EXPECT_NE(one.node_height(40, 50), other.node_height(40, 50));
 }
@@ -162,7 +162,7 @@ WorldConfig typical() {
 
 TEST(TerrainTest, TheRoverDrivesStraightOverIt) {
   const WorldConfig world = typical();
-  const Terrain terrain = terrain_of(world);
+  const Terrain terrain = lay_out(world).terrain;
   const RoverConfig config = load_rover(kSource / "models/csl-rover/rover.yaml");
   Rover rover(config, world, {5, 1.25, 0}, 1);
   std::vector<ImuSample> imu;

@@ -11,6 +11,7 @@
 #include "sim/config_files.h"
 #include "sim/world/row_frame.h"
 #include "sim/world/row_index.h"
+#include "sim/world/world_layout.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::sim {
@@ -38,17 +39,17 @@ WorldConfig read_back(const WorldRecipe& recipe) {
 }
 
 TEST(WorldGeneratorTest, WhatItWritesReadsBackAsTheSameWorld) {
-  WorldConfig made = make_world(small_recipe());
-  made.place();
+  const WorldConfig made = make_world(small_recipe());
   EXPECT_EQ(format_yaml(read_back(small_recipe())), format_yaml(made));
 }
 
 TEST(WorldGeneratorTest, HasTheRowsPlantsAndTagsAskedFor) {
   const WorldConfig world = read_back(small_recipe());
-  ASSERT_EQ(world.rows.size(), 3u);
-  EXPECT_NEAR(row_frame(world.rows).spacing, 2, 1e-9);
-  EXPECT_NEAR(row_frame(world.rows).heading(), 25 * 3.14159265358979 / 180, 1e-9);
-  EXPECT_EQ(vine_positions(world).size(), 36u);
+  const WorldLayout layout = lay_out(world);
+  ASSERT_EQ(layout.rows.size(), 3u);
+  EXPECT_NEAR(layout.terrain.frame().spacing, 2, 1e-9);
+  EXPECT_NEAR(layout.terrain.frame().heading(), 25 * 3.14159265358979 / 180, 1e-9);
+  EXPECT_EQ(layout.vines.size(), 36u);
   EXPECT_EQ(world.tags.size(), 6u);  // two ends of three rows
   EXPECT_EQ(world.tags[5].id, 5);
   ASSERT_EQ(world.occluders.size(), 6u);  // the cartons first
@@ -63,7 +64,7 @@ TEST(WorldGeneratorTest, CartonsAndPeopleStandInAisles) {
   recipe.cartons = 60;
   recipe.people = 30;
   const WorldConfig world = read_back(recipe);
-  const RowIndex rows(world);
+  const RowIndex rows(lay_out(world).rows);
   // At most 0.22 of 2 m off the aisle's middle, which is 1 m from either row, and 1 cm rounded.
   for (const Occluder& occluder : world.occluders) {
     EXPECT_GT(rows.distance(occluder.position), 0.55);

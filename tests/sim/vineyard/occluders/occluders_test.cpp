@@ -11,6 +11,7 @@
 #include "sim/rover/rover.h"
 #include "sim/textures/textures.h"
 #include "sim/vineyard/occluders/occluder_shape.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::sim {
 namespace {
@@ -25,7 +26,7 @@ WorldConfig one_row() {
 
 Scene scene_with(const WorldConfig& world) {
   Scene scene;
-  add_occluders(scene, world, terrain_of(world), 1);
+  add_occluders(scene, world, lay_out(world), 1);
   return scene;
 }
 

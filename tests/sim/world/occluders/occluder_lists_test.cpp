@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/world/occluder_lists.h"
+#include "sim/world/occluders/occluder_lists.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/world/occluder.h"
+#include "sim/world/occluders/occluder.h"
 
 #include <array>
 

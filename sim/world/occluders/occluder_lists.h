@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/world/occluder.h"
+#include "sim/world/occluders/occluder.h"
 
 namespace vinebench::sim {
 
