@@ -22,8 +22,8 @@ std::string key_of_section(const std::string& key) {
   return key.substr(kSection.size());
 }
 
-std::string millimetres(const Json& metres) {
-  return metres.is_null() ? "unknown" : fmt::format("{:.1f} mm", 1e3 * metres.get<double>());
+std::string millimetres(const std::optional<double>& metres) {
+  return metres ? fmt::format("{:.1f} mm", 1e3 * *metres) : "unknown";
 }
 
 }  // namespace
@@ -51,25 +51,27 @@ RunOutcome run_replay(Recording recording, const slam::SlamConfig& slam, int thr
   return run_mapping_system(trial, source, *system, options);
 }
 
-std::string format_replay(const Json& metrics) {
-  const Json& rpe = metrics["rpe_trans_percent"];
+std::string format_replay(const RunReport& report) {
+  const RunResults& results = report.results;
+  std::optional<double> ate, origin, rpe;
+  if (results.corrected) {
+    ate = results.corrected->ate.rmse;
+    origin = results.corrected->origin.rmse;
+    rpe = results.corrected->rpe_trans_percent;
+  }
   std::string text = fmt::format(
       "  frames tracked            {:.1f} % of {}, lost {} times\n"
       "  ATE, SE(3)-aligned        {}\n"
       "  ATE, first pose aligned   {}\n"
       "  RPE over 1 m              {}\n",
-      100 * metrics["coverage"].get<double>(), metrics["frames"].get<std::int64_t>(),
-      metrics["losses"].get<int>(), millimetres(metrics["ate_rmse_m"]),
-      millimetres(metrics["ate_origin_rmse_m"]),
-      rpe.is_null() ? "unknown" : fmt::format("{:.2f} %", rpe.get<double>()));
-  if (metrics.value("nees_left_out", 0) > 0) {
+      100 * results.coverage, report.frames, results.losses, millimetres(ate), millimetres(origin),
+      rpe ? fmt::format("{:.2f} %", *rpe) : "unknown");
+  if (results.consistency && results.consistency->not_invertible > 0) {
     text +=
-        fmt::format("  covariance not invertible {} frames\n", metrics["nees_left_out"].get<int>());
+        fmt::format("  covariance not invertible {} frames\n", results.consistency->not_invertible);
   }
-  if (metrics.contains("input_faults")) {
-    for (const auto& [kind, count] : metrics["input_faults"].items()) {
-      text += fmt::format("  fault in the data         {} ({} times)\n", kind, count.get<int>());
-    }
+  for (const FaultCount& fault : report.input_faults) {
+    text += fmt::format("  fault in the data         {} ({} times)\n", fault.kind, fault.count);
   }
   return text;
 }

@@ -26,6 +26,6 @@ RunOutcome run_replay(Recording recording, const slam::SlamConfig& slam, int thr
                       const RunOptions& options);
 
 /// Human-readable metrics and faults of a replay, one line each.
-std::string format_replay(const Json& metrics);
+std::string format_replay(const RunReport& report);
 
 }  // namespace vinebench::harness

@@ -3,12 +3,13 @@
 #include "harness/run.h"
 
 #include "core/util/error.h"
+#include "harness/judge/diagnosis.h"
+#include "harness/report/report_json.h"
 #include "harness/report/run_folder.h"
 #include "harness/run/frame_images.h"
 #include "harness/run/lockstep.h"
 #include "harness/run/progress.h"
 #include "harness/run/run_hash.h"
-#include "vinebench/version.h"
 
 namespace vinebench::harness {
 namespace {
@@ -37,21 +38,16 @@ struct Sinks {
   std::optional<Progress> progress;
 };
 
-/// First the metrics that are a function of the inputs, then times and memory.
-Json complete_metrics(const Json& results, const FrameSource& source, const SlamSystem& slam,
-                      double wall_seconds, const std::string& hash) {
+RunCost cost_of(const FrameSource& source, const SlamSystem& slam, std::int64_t frames,
+                double wall_seconds) {
   StageTimes times = source.times();
   times.merge(slam.times());
-  const double simulated = results["frames"].get<double>() / source.rig().rate_hz;
-  Json metrics{{"scenario", results["scenario"]}, {"seed", results["seed"]}, {"version", kVersion}};
-  metrics.update(results);
-  metrics["real_time_factor"] = simulated / wall_seconds;
-  metrics["wall_seconds"] = wall_seconds;
-  metrics["cpu_seconds"] = cpu_seconds();
-  metrics["timing_ms"] = timing_metrics(times);
-  metrics["peak_rss_mib"] = peak_rss_mib();
-  metrics["hash"] = hash;
-  return metrics;
+  const double simulated = static_cast<double>(frames) / source.rig().rate_hz;
+  return {.wall_seconds = wall_seconds,
+          .cpu_seconds = cpu_seconds(),
+          .real_time_factor = simulated / wall_seconds,
+          .peak_rss_mib = peak_rss_mib(),
+          .stages = stage_timings(times)};
 }
 
 void expect_folder(const std::filesystem::path& file) {
@@ -73,27 +69,20 @@ RunOutcome run_lockstep_and_judge(const Trial& trial, FrameSource& source, SlamS
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - options.started;
 
   const RunRecord& record = sinks.recorder.record();
-  const RunResults results = measure(record, trial);
-  const std::vector<DegradedSegment> segments = diagnose(record, results, trial);
-  if (!options.folder.empty()) {
-    write_run_files(options.folder, trial, record, results, segments);
-  }
   RunOutcome outcome;
-  outcome.summary = format_diagnosis(record, segments) + format_left_out(results.consistency);
-  outcome.frames = static_cast<std::int64_t>(record.ticks.size());
+  RunReport& report = outcome.report = judge(record, trial);
+  if (!options.folder.empty()) write_run_files(options.folder, trial, record, report);
+  outcome.summary =
+      format_diagnosis(record, report.diagnosis) + format_left_out(report.results.consistency);
   // A system that runs after the last frame may be stopped there.
-  const bool whole = outcome.frames == source.size() && !record.summary.trajectory.empty();
+  const bool whole = report.frames == source.size() && !record.summary.trajectory.empty();
   outcome.interrupted = options.stopped && options.stopped() && !whole;
   if (outcome.interrupted) return outcome;
 
-  const Json figures = result_metrics(trial, record, results);
-  sinks.hash.add(figures.dump());
-  outcome.hash = sinks.hash.digits();
-  outcome.checks = check_expectations(trial.expectations, results);
-  outcome.metrics = complete_metrics(figures, source, slam, wall.count(), outcome.hash);
-  add_unhashed_metrics(record, results, outcome.metrics);
-  outcome.metrics["expectations"] = checks_json(outcome.checks);
-  if (!options.folder.empty()) write_metrics(options.folder, outcome.metrics);
+  sinks.hash.add(hashed_json(report).dump());
+  report.hash = sinks.hash.digits();
+  report.cost = cost_of(source, slam, report.frames, wall.count());
+  if (!options.folder.empty()) write_metrics(options.folder, report);
   return outcome;
 }
 

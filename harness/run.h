@@ -8,8 +8,7 @@
 #include <ostream>
 #include <vector>
 
-#include "harness/judge/metrics.h"
-#include "harness/judge/verdict.h"
+#include "harness/judge/run_report.h"
 #include "slam/slam.h"
 
 namespace vinebench::harness {
@@ -34,12 +33,9 @@ struct RunOptions {
 };
 
 struct RunOutcome {
-  bool interrupted = false;  ///< by `stopped`; there is no metrics.json and no verdict
-  std::int64_t frames = 0;
-  std::vector<Check> checks;
-  Json metrics;
-  std::string hash;
-  std::string summary;  ///< human-readable: degraded segments and their causes
+  bool interrupted = false;  ///< by `stopped`; there is no metrics.json
+  RunReport report;          ///< of the frames up to an interruption
+  std::string summary;       ///< human-readable: degraded segments and their causes
 };
 
 /// Runs a SLAM system on a source in lockstep, evaluates it and writes the run's files. The folder

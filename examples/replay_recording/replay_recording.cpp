@@ -16,8 +16,8 @@ int main(int argc, char** argv) try {
               recording.rig.cameras.size());
   const slam::SlamConfig settings = harness::replay_settings(recording, "", {});
   const harness::RunOutcome outcome = harness::run_replay(recording, settings, 2, {});
-  std::printf("%lld frames\n%s", static_cast<long long>(outcome.frames),
-              harness::format_replay(outcome.metrics).c_str());
+  std::printf("%lld frames\n%s", static_cast<long long>(outcome.report.frames),
+              harness::format_replay(outcome.report).c_str());
 } catch (const Error& error) {
   std::fprintf(stderr, "replay_recording: %s\n", error.what());
   return 1;

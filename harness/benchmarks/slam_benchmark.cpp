@@ -9,13 +9,15 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/util/error.h"
+#include "core/util/percentile.h"
 #include "harness/benchmarks/measurement.h"
-#include "harness/judge/metrics.h"
 #include "slam/features/orb_extractor.h"
 #include "slam/tags/tag_detector.h"
 
 namespace vinebench::harness {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kImages = 40;  // for measuring ORB and tags, at most
 constexpr std::size_t kQuarters = 4;
@@ -41,9 +43,9 @@ Json by_quarter(const std::vector<double>& values) {
 }
 
 Json rounded_stages(const StageTimes& times) {
-  Json stages = timing_metrics(times);
-  for (auto& [stage, figures] : stages.items()) {
-    for (auto& [figure, value] : figures.items()) value = rounded(value.get<double>());
+  Json stages = Json::object();
+  for (const auto& [stage, samples] : times.samples()) {
+    if (!samples.empty()) stages[stage] = spread(samples);
   }
   return stages;
 }

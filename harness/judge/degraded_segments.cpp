@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "harness/judge/metrics.h"
+#include "core/util/percentile.h"
 
 namespace vinebench::harness {
 namespace {

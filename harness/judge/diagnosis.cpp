@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/util/percentile.h"
 #include "harness/judge/degraded_segments.h"
-#include "harness/judge/metrics.h"
 
 namespace vinebench::harness {
 namespace {

@@ -8,8 +8,10 @@
 #include "core/config/yaml_writer.h"
 #include "core/util/error.h"
 #include "core/util/files.h"
+#include "harness/judge/diagnosis.h"
 #include "harness/report/events.h"
 #include "harness/report/plot.h"
+#include "harness/report/report_json.h"
 
 namespace vinebench::harness {
 namespace {
@@ -48,8 +50,7 @@ void prepare_run_folder(const std::filesystem::path& folder, const std::string& 
 }
 
 void write_run_files(const std::filesystem::path& folder, const Trial& trial,
-                     const RunRecord& record, const RunResults& results,
-                     const std::vector<DegradedSegment>& segments) {
+                     const RunRecord& record, const RunReport& report) {
   const auto& blind = trial.expectations.blind;
   const double box_share = blind ? blind->box_share : Expectations::Blind{}.box_share;
   write_tum(true_trajectory(record), folder / "groundtruth.tum");
@@ -57,13 +58,13 @@ void write_run_files(const std::filesystem::path& folder, const Trial& trial,
   write_tum(record.summary.trajectory, folder / "estimate.tum");
   write_tum(record.summary.keyframes, folder / "keyframes.tum");
   write_file_atomically(folder / "events.jsonl",
-                        format_events(record, results, segments, box_share));
-  write_file_atomically(folder / "summary.txt", format_diagnosis(record, segments));
-  write_file_atomically(folder / "plot.svg", plot_svg(trial, record, results));
+                        format_events(record, report.results, report.diagnosis, box_share));
+  write_file_atomically(folder / "summary.txt", format_diagnosis(record, report.diagnosis));
+  write_file_atomically(folder / "plot.svg", plot_svg(trial, record, report.results));
 }
 
-void write_metrics(const std::filesystem::path& folder, const Json& metrics) {
-  write_file_atomically(folder / "metrics.json", metrics.dump(2) + "\n");
+void write_metrics(const std::filesystem::path& folder, const RunReport& report) {
+  write_file_atomically(folder / "metrics.json", to_json(report).dump(2) + "\n");
 }
 
 }  // namespace vinebench::harness

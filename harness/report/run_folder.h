@@ -5,8 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "harness/judge/diagnosis.h"
-#include "harness/judge/metrics.h"
+#include "harness/judge/run_report.h"
 
 namespace vinebench::harness {
 
@@ -21,9 +20,8 @@ void prepare_run_folder(const std::filesystem::path& folder, const std::string& 
 
 /// Trajectories, events, plot and summary: all except the metrics, which only a complete run has.
 void write_run_files(const std::filesystem::path& folder, const Trial& trial,
-                     const RunRecord& record, const RunResults& results,
-                     const std::vector<DegradedSegment>& segments);
+                     const RunRecord& record, const RunReport& report);
 
-void write_metrics(const std::filesystem::path& folder, const Json& metrics);
+void write_metrics(const std::filesystem::path& folder, const RunReport& report);
 
 }  // namespace vinebench::harness

@@ -12,7 +12,7 @@ namespace vinebench::harness {
 namespace {
 
 double seconds_of(const SetRun& run) {
-  return run.metrics.is_null() ? 0 : run.metrics["wall_seconds"].get<double>();
+  return run.result ? run.result->value("/wall_seconds").value_or(0) : 0;
 }
 
 std::string failure_of(const std::vector<Check>& checks) {
@@ -39,8 +39,8 @@ std::string test_suite(const SeedsSummary& summary) {
   double seconds = 0;
   for (const SetRun& run : summary.runs) {
     const std::string outcome =
-        run.error.empty() ? failure_of(run.checks)
-                          : fmt::format("      <error message=\"{}\"/>\n", xml_escaped(run.error));
+        run.result ? failure_of(run.result->checks)
+                   : fmt::format("      <error message=\"{}\"/>\n", xml_escaped(run.error));
     cases +=
         test_case(summary.scenario, fmt::format("seed-{}", run.seed), seconds_of(run), outcome);
     seconds += seconds_of(run);

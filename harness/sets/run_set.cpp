@@ -29,14 +29,6 @@ std::string name_of(const PlannedRun& run) {
   return fmt::format("{}, seed {}", run.scenario.name, run.scenario.seed);
 }
 
-/// Metrics of a complete run; null if they cannot be read.
-Json read_metrics(const fs::path& folder) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(folder / "metrics.json", ignored)) return {};
-  Json metrics = Json::parse(read_file(folder / "metrics.json"), nullptr, false);
-  return metrics.is_object() && metrics.contains("expectations") ? metrics : Json();
-}
-
 bool has_inputs(const fs::path& folder, const std::string& fingerprint) {
   std::error_code ignored;
   return fs::is_regular_file(folder / kInputsFile, ignored) &&
@@ -102,15 +94,13 @@ class RunningSet {
  private:
   bool keep(SetRun& result, const PlannedRun& run) {
     if (!has_inputs(run.folder, fingerprint_of_inputs(run.scenario))) return false;
-    result.kept = take_metrics(result);
+    result.result = read_metrics(result);
+    result.kept = result.result.has_value();
     return result.kept;
   }
 
-  static bool take_metrics(SetRun& result) {
-    result.metrics = read_metrics(result.folder);
-    if (result.metrics.is_null()) return false;
-    result.checks = checks_of(result.metrics["expectations"]);
-    return true;
+  static std::optional<StoredRun> read_metrics(const SetRun& run) {
+    return read_stored_run(run.folder / "metrics.json");
   }
 
   void finish(SetRun& result, const ChildOutcome& child) {
@@ -120,7 +110,7 @@ class RunningSet {
     }
     if (!child.ok) {
       result.error = child.text;
-    } else if (!take_metrics(result)) {
+    } else if (result.result = read_metrics(result); !result.result) {
       result.error = fmt::format("{}: has no metrics.json", result.folder.string());
     }
     ++ran_;
@@ -138,7 +128,7 @@ class RunningSet {
       text += fmt::format(
           "{}{}", run.failed() ? "FAILED" : "passed",
           run.kept ? " (kept)"
-                   : fmt::format(" in {:.0f} s", run.metrics["wall_seconds"].get<double>()));
+                   : fmt::format(" in {:.0f} s", run.result->value("/wall_seconds").value_or(0)));
     }
     *options_.progress << text << time_left() << std::endl;
   }

@@ -4,11 +4,13 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
 
 #include "harness/experiment/scenario.h"
+#include "harness/report/stored_run.h"
 #include "harness/run.h"
 
 namespace vinebench::harness {
@@ -45,10 +47,9 @@ struct SetRun {
   std::filesystem::path folder;
   bool kept = false;    ///< its results already existed
   std::string error{};  ///< why there are no results; empty if there are
-  Json metrics{};       ///< null if there are no results
-  std::vector<Check> checks{};
+  std::optional<StoredRun> result{};
 
-  bool failed() const { return error.empty() && !all_hold(checks); }
+  bool failed() const { return result && !all_hold(result->checks); }
 };
 
 /// The runs in planned order.

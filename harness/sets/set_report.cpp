@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/util/percentile.h"
+
 namespace vinebench::harness {
 namespace {
 
@@ -14,12 +16,16 @@ std::string verdict_of(const SetRun& run) {
   return !run.error.empty() ? "ERROR" : run.failed() ? "FAILED" : "passed";
 }
 
+std::optional<double> value_of(const Metric& metric, const SetRun& run) {
+  return run.result ? value_of(metric, *run.result) : std::nullopt;
+}
+
 std::vector<std::optional<double>> medians_of(const std::vector<SetRun>& runs) {
   std::vector<std::optional<double>> medians;
-  for (const Metric& figure : shown_metrics()) {
+  for (const Metric& metric : shown_metrics()) {
     std::vector<double> values;
     for (const SetRun& run : runs) {
-      if (const auto value = value_of(figure, run.metrics)) values.push_back(*value);
+      if (const auto value = value_of(metric, run)) values.push_back(*value);
     }
     medians.push_back(values.empty() ? std::nullopt : std::optional(percentile(values, 0.5)));
   }
@@ -31,8 +37,8 @@ void check_median(const std::vector<SetRun>& runs, const char* key, const char* 
   if (!bound) return;
   std::vector<double> errors;
   for (const SetRun& run : runs) {
-    const bool has = run.metrics.contains(key) && run.metrics[key].is_number();
-    errors.push_back(has ? run.metrics[key].get<double>() : std::numeric_limits<double>::max());
+    const auto error = run.result ? run.result->value(key) : std::nullopt;
+    errors.push_back(error.value_or(std::numeric_limits<double>::max()));
   }
   const double median = percentile(errors, 0.5);
   const bool known = median < std::numeric_limits<double>::max() / 4;
@@ -45,8 +51,9 @@ std::vector<Check> check_medians(const Expectations& expectations,
                                  const std::vector<SetRun>& runs) {
   std::vector<Check> checks;
   if (!expectations.median || runs.size() < kSeedsForMedian) return checks;
-  check_median(runs, "ate_rmse_m", "ATE, SE(3)-aligned", expectations.median->ate_rmse_max, checks);
-  check_median(runs, "ate_origin_rmse_m", "ATE, first pose aligned",
+  check_median(runs, "/ate_rmse_m", "ATE, SE(3)-aligned", expectations.median->ate_rmse_max,
+               checks);
+  check_median(runs, "/ate_origin_rmse_m", "ATE, first pose aligned",
                expectations.median->ate_origin_rmse_max, checks);
   return checks;
 }
@@ -69,7 +76,7 @@ std::vector<std::string> row_of(const std::string& scenario, const std::string& 
 
 std::vector<std::string> header() {
   std::vector<std::string> titles;
-  for (const Metric& figure : shown_metrics()) titles.push_back(figure.title);
+  for (const Metric& metric : shown_metrics()) titles.push_back(metric.title);
   return row_of("scenario", "seed", titles, "verdict");
 }
 
@@ -104,7 +111,7 @@ std::string format_table(const std::vector<SeedsSummary>& scenarios) {
   for (const SeedsSummary& summary : scenarios) {
     for (const SetRun& run : summary.runs) {
       std::vector<std::optional<double>> values;
-      for (const Metric& figure : shown_metrics()) values.push_back(value_of(figure, run.metrics));
+      for (const Metric& metric : shown_metrics()) values.push_back(value_of(metric, run));
       rows.push_back(
           row_of(summary.scenario, std::to_string(run.seed), cells_of(values), verdict_of(run)));
     }
@@ -128,7 +135,7 @@ std::string format_failures(const std::vector<SeedsSummary>& scenarios) {
                             logged ? "; see " + log.string() : "");
       } else if (run.failed()) {
         text += fmt::format("{}, seed {} ({}):\n{}", run.scenario, run.seed, run.folder.string(),
-                            format_checks(failed_of(run.checks)));
+                            format_checks(failed_of(run.result->checks)));
       }
     }
     if (!all_hold(summary.checks)) {
@@ -148,7 +155,7 @@ Json summary_json(const std::vector<SeedsSummary>& scenarios) {
                       {"verdict", verdict_of(run)},
                       {"kept", run.kept},
                       {"error", run.error.empty() ? Json() : Json(run.error)},
-                      {"metrics", run.metrics}});
+                      {"metrics", run.result ? run.result->json : Json()}});
     }
     Json medians = Json::object();
     for (std::size_t i = 0; i < shown_metrics().size(); ++i) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/judge/metric_table.h"
+#include "harness/report/metric_table.h"
 #include "harness/sets/run_set.h"
 
 namespace vinebench::harness {

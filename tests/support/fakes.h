@@ -10,6 +10,7 @@
 
 #include "harness/judge/trial.h"
 #include "harness/report/run_folder.h"
+#include "harness/run/lockstep.h"
 #include "harness/run/run_record.h"
 
 namespace vinebench::test {
@@ -128,6 +129,15 @@ inline harness::Trial fake_trial() {
       {"tag36h11", 7, 0.161, {from_roll_pitch_yaw({0, 0, -std::numbers::pi / 2}), {1.3, 0, 0.5}}}};
   trial.site.objects = {{OccluderClass::kCarton, {-1.4, 0}, {0.6, 0.4}}};
   return trial;
+}
+
+/// The record of a run of these fakes.
+inline harness::RunRecord record_of(Slam::Change change = {}) {
+  Source source;
+  Slam slam(std::move(change));
+  harness::RunRecorder recorder(source.rig(), trial().site.tags);
+  harness::run_lockstep(source, slam, {&recorder});
+  return recorder.record();
 }
 
 /// Substitute for the resolved scenario beside a run's results.

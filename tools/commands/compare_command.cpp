@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "core/util/files.h"
-#include "harness/judge/compare.h"
+#include "harness/report/compare.h"
 #include "tools/commands/commands.h"
 
 namespace vinebench::tools {

@@ -45,7 +45,7 @@ int interruption_code() {
 
 int report_interruption(const harness::RunOutcome& outcome, const std::filesystem::path& folder) {
   fmt::print(stderr, "vinebench: stopped after {} frames; what there is of them is in {}\n",
-             outcome.frames, folder.string());
+             outcome.report.frames, folder.string());
   return interruption_code();
 }
 

@@ -41,8 +41,8 @@ int replay(const ReplayArguments& arguments) {
       harness::run_replay(std::move(recording), slam, arguments.threads, options);
   if (outcome.interrupted) return report_interruption(outcome, folder);
   fmt::print("\n{} ({}): {} frames in {:.0f} s, hash {}\n{}results: {}\n", name, format,
-             outcome.frames, outcome.metrics["wall_seconds"].get<double>(), outcome.hash,
-             harness::format_replay(outcome.metrics), std::filesystem::absolute(folder).string());
+             outcome.report.frames, outcome.report.cost.wall_seconds, outcome.report.hash,
+             harness::format_replay(outcome.report), std::filesystem::absolute(folder).string());
   return 0;
 }
 

@@ -56,9 +56,9 @@ std::optional<harness::RunRecording> recording_of(const RunArguments& arguments)
 void print_verdict(const harness::ScenarioConfig& scenario, const harness::RunOutcome& outcome,
                    const std::filesystem::path& folder) {
   fmt::print("\n{}: {} ({} frames in {:.0f} s, hash {})\n{}{}results: {}\n", scenario.name,
-             harness::all_hold(outcome.checks) ? "PASSED" : "FAILED", outcome.frames,
-             outcome.metrics["wall_seconds"].get<double>(), outcome.hash,
-             harness::format_checks(outcome.checks), outcome.summary,
+             harness::all_hold(outcome.report.checks) ? "PASSED" : "FAILED", outcome.report.frames,
+             outcome.report.cost.wall_seconds, outcome.report.hash,
+             harness::format_checks(outcome.report.checks), outcome.summary,
              std::filesystem::absolute(folder).string());
 }
 
@@ -73,11 +73,12 @@ int verify_determinism(const harness::ScenarioConfig& scenario, const RunArgumen
     fmt::print(stderr, "vinebench: stopped in the second run; determinism is not verified\n");
     return interruption_code();
   }
-  if (again.hash == first) {
+  if (again.report.hash == first) {
     fmt::print("determinism: both runs have hash {}\n", first);
     return 0;
   }
-  fmt::print("determinism: FAILED, the first run has hash {}, the second {}\n", first, again.hash);
+  fmt::print("determinism: FAILED, the first run has hash {}, the second {}\n", first,
+             again.report.hash);
   return kExpectationFailed;
 }
 
@@ -117,9 +118,12 @@ int run_one(const RunArguments& arguments) {
   if (outcome.interrupted) return report_interruption(outcome, folder);
   print_verdict(scenario, outcome, folder);
   std::fflush(stdout);
-  const int repeated =
-      arguments.verify_determinism ? verify_determinism(scenario, arguments, outcome.hash) : 0;
-  return repeated != 0 ? repeated : harness::all_hold(outcome.checks) ? 0 : kExpectationFailed;
+  const int repeated = arguments.verify_determinism
+                           ? verify_determinism(scenario, arguments, outcome.report.hash)
+                           : 0;
+  return repeated != 0                              ? repeated
+         : harness::all_hold(outcome.report.checks) ? 0
+                                                    : kExpectationFailed;
 }
 
 int run(const RunArguments& arguments) {

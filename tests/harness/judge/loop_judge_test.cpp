@@ -4,19 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include "harness/run/lockstep.h"
 #include "tests/support/fakes.h"
 
 namespace vinebench::harness {
 namespace {
 
-RunRecord record_of(test::FakeSlam::Change change) {
-  test::FakeSource source;
-  test::FakeSlam slam(std::move(change));
-  RunRecorder recorder(source.rig(), test::fake_trial().site.tags);
-  run_lockstep(source, slam, {&recorder});
-  return recorder.record();
-}
+using test::record_of;
 
 LoopVerdict verdict_of(double at, const LoopClosure& closure) {
   return judge_loop_closures(record_of([=](Estimate& estimate) {

@@ -7,19 +7,12 @@
 
 #include "core/util/error.h"
 #include "harness/judge/verdict.h"
-#include "harness/run/lockstep.h"
 #include "tests/support/fakes.h"
 
 namespace vinebench::harness {
 namespace {
 
-RunRecord record_of(test::FakeSlam::Change change) {
-  test::FakeSource source;
-  test::FakeSlam slam(std::move(change));
-  RunRecorder recorder(source.rig(), test::fake_trial().site.tags);
-  run_lockstep(source, slam, {&recorder});
-  return recorder.record();
-}
+using test::record_of;
 
 void lose(Estimate& estimate) {
   estimate.status = TrackingStatus::kLost;
@@ -139,46 +132,6 @@ TEST(ResultsTest, AnEmptyRecordIsMeasured) {
   const RunResults results = measure({}, {});
   EXPECT_EQ(results.coverage, 0);
   EXPECT_FALSE(results.corrected);
-}
-
-TEST(VerdictTest, HoldsForAGoodRun) {
-  const RunRecord record = record_of([](Estimate& estimate) {
-    const double t = to_seconds(estimate.stamp);
-    if (t >= 8 && t <= 12) estimate.cameras[0].inliers = estimate.cameras[1].inliers = 4;
-    if (estimate.stamp == test::seconds(19)) {
-      estimate.loop_closure = test::fake_closure(test::seconds(1), test::seconds(19));
-    }
-  });
-  const auto checks = check_expectations(everything(), measure(record, asking(everything())));
-  EXPECT_EQ(checks.size(), 9u);
-  EXPECT_TRUE(all_hold(checks)) << format_checks(checks);
-}
-
-TEST(VerdictTest, NamesEachBrokenExpectation) {
-  const auto checks =
-      check_expectations(everything(), measure(record_of(blind_and_lost), asking(everything())));
-  std::vector<std::string> failed;
-  for (const Check& check : checks) {
-    if (!check.ok) failed.push_back(check.what);
-  }
-  EXPECT_THAT(failed, testing::ElementsAre("coverage", "losses", "loop closures, correct",
-                                           "loop closures, missed"));
-  EXPECT_THAT(format_checks(checks), testing::HasSubstr("FAILED"));
-}
-
-TEST(VerdictTest, WhatWasNotMeasuredFails) {
-  const RunRecord record = record_of(lose);
-  const auto checks = check_expectations(everything(), measure(record, asking(everything())));
-  for (const Check& check : checks) {
-    if (check.what.starts_with("ATE")) {
-      EXPECT_FALSE(check.ok);
-      EXPECT_EQ(check.measured, "none");
-    }
-  }
-}
-
-TEST(VerdictTest, NothingAskedHolds) {
-  EXPECT_TRUE(all_hold(check_expectations({}, measure(record_of(lose), {}))));
 }
 
 }  // namespace

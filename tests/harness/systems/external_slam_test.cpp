@@ -63,13 +63,13 @@ constexpr const char* kStand =
 
 TEST_F(ExternalSlamTest, FramesWithoutAPoseCountAgainstCoverage) {
   const RunOutcome outcome = run(kStand);
-  EXPECT_DOUBLE_EQ(outcome.metrics["coverage"].get<double>(), 15.0 / 21);
-  EXPECT_EQ(outcome.metrics["losses"], 1);
-  EXPECT_EQ(outcome.metrics["lost_frames"], 5);
+  EXPECT_DOUBLE_EQ(outcome.report.results.coverage, 15.0 / 21);
+  EXPECT_EQ(outcome.report.results.losses, 1);
+  EXPECT_EQ(outcome.report.results.lost_frames, 5);
   EXPECT_EQ(read_tum(folder_ / "estimate.tum").size(), 15u);
   EXPECT_EQ(read_tum(folder_ / "estimate_live.tum").size(), 15u);
   // Stamps 0.1 to 1.5 s of a circle: the first pose is the origin of the map.
-  EXPECT_GT(outcome.metrics["ate_origin_rmse_m"].get<double>(), 0.1);
+  EXPECT_GT(outcome.report.results.corrected.value().origin.rmse, 0.1);
   EXPECT_FALSE(fs::exists(folder_ / "recording"));
 }
 
@@ -82,7 +82,7 @@ TEST_F(ExternalSlamTest, TheRecordingHasAllButTheTruth) {
   EXPECT_TRUE(fs::exists(folder_ / "recording/mav0/cam2/data/2000000000.png"));
   EXPECT_TRUE(fs::exists(folder_ / "recording/rig.yaml"));
   EXPECT_FALSE(fs::exists(folder_ / "recording/mav0/state_groundtruth_estimate0"));
-  EXPECT_EQ(run(": >out.txt").metrics["coverage"], 0);  // replaces the previous recording
+  EXPECT_EQ(run(": >out.txt").report.results.coverage, 0);  // replaces the previous recording
 }
 
 // The truth of the left camera: the body's circle and the camera's position on it.
@@ -96,8 +96,8 @@ TEST_F(ExternalSlamTest, PosesOfACameraAreJudgedAsTheBodys) {
   }
   folder_.write("poses.tum", poses);
   const RunOutcome outcome = run("cp ../poses.tum trajectory.txt");
-  EXPECT_EQ(outcome.metrics["coverage"], 1);
-  EXPECT_NEAR(outcome.metrics["ate_origin_rmse_m"].get<double>(), 0, 1e-8);  // m, of nine digits
+  EXPECT_EQ(outcome.report.results.coverage, 1);
+  EXPECT_NEAR(outcome.report.results.corrected.value().origin.rmse, 0, 1e-8);  // m, of nine digits
 }
 
 TEST_F(ExternalSlamTest, SaysWhatWentWrong) {

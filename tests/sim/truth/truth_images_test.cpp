@@ -104,30 +104,6 @@ TEST_F(TwoPanelsTruthTest, FlowIsWhereThePlanesPointsGo) {
   EXPECT_GT(outside, 100);
 }
 
-TEST_F(TwoPanelsTruthTest, WhatIsBehindTheOtherCameraHasNoFlow) {
-  const FlowTruth truth = optical_flow(view(camera_at(0)), view(look_at({0, 4, 0}, {0, 5, 0})));
-  EXPECT_TRUE(std::isnan(truth.flow.at<cv::Vec2f>(239, 375)[0]));
-  EXPECT_EQ(truth.visible.at<std::uint8_t>(239, 375), 0);
-  // The sky is in front of both.
-  EXPECT_NEAR(truth.flow.at<cv::Vec2f>(10, 10)[0], 0, 0.001);
-  EXPECT_NE(truth.visible.at<std::uint8_t>(10, 10), 0);
-}
-
-TEST_F(TwoPanelsTruthTest, WrongViewsAreErrors) {
-  const TruthView left = view(camera_at(0)), right = view(camera_at(kBaseline));
-  TruthView lacking = right;
-  lacking.image.normals.release();
-  EXPECT_THAT(error_of([&] { optical_flow(left, lacking); }),
-              HasSubstr("expected depth and normals"));
-  TruthView bent = right;
-  bent.camera.distortion[0] = 0.1;
-  EXPECT_THAT(error_of([&] { optical_flow(left, bent); }), HasSubstr("distortion"));
-  EXPECT_THAT(error_of([&] { disparity(right, left); }), HasSubstr("not a rectified pair"));
-  TruthView turned = right;
-  turned.T_world_cam.rotation = turned.T_world_cam.rotation * exp_so3({0, 0.01, 0});
-  EXPECT_THAT(error_of([&] { disparity(left, turned); }), HasSubstr("not a rectified pair"));
-}
-
 TEST_F(TwoPanelsTruthTest, NumbersSayWhatTheyStandFor) {
   scene_.models[1].name = "line post";
   scene_.instances[1].id = 17;

@@ -13,6 +13,8 @@ namespace {
 
 using test::SyntheticPlane;
 
+using test::SyntheticPlane;
+
 struct Alignments {
   int tried = 0;
   int found = 0;

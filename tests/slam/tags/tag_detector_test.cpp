@@ -14,6 +14,8 @@ namespace {
 
 using test::SyntheticTag;
 
+using test::SyntheticTag;
+
 constexpr double kSize = 0.161;  // m
 
 PinholeCamera camera(const std::array<double, 4>& distortion = {}) {

@@ -20,6 +20,10 @@ using test::render_image;
 using test::SyntheticTag;
 using test::SyntheticTexture;
 
+using test::render_image;
+using test::SyntheticTag;
+using test::SyntheticTexture;
+
 constexpr double kSize = 0.161;  // m
 const PinholeCamera kCamera{640, 480, 733, 733, 319.5, 239.5, {}};
 

@@ -38,7 +38,7 @@ TEST(InteractiveDeathTest, TheSecondSignalEndsTheProgram) {
 
 TEST(Interactive, AnInterruptionSaysHowMuchThereIsAndWhere) {
   harness::RunOutcome outcome;
-  outcome.frames = 12;
+  outcome.report.frames = 12;
   testing::internal::CaptureStderr();
   report_interruption(outcome, "out/row");
   EXPECT_THAT(testing::internal::GetCapturedStderr(),

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "harness/judge/metric_table.h"
+#include "harness/report/metric_table.h"
 
 #include <fmt/format.h>
 
@@ -43,14 +43,13 @@ const std::vector<Metric>& shown_metrics() {
   return list;
 }
 
-std::optional<double> value_of(const Metric& figure, const Json& metrics) {
-  const Json::json_pointer place(figure.key);
-  if (!metrics.contains(place) || !metrics.at(place).is_number()) return std::nullopt;
-  return figure.scale * metrics.at(place).get<double>();
+std::optional<double> value_of(const Metric& metric, const StoredRun& run) {
+  const std::optional<double> value = run.value(metric.key);
+  return value ? std::optional(metric.scale * *value) : std::nullopt;
 }
 
-std::string format_value(const Metric& figure, const std::optional<double>& value) {
-  return value ? fmt::format("{:.{}f}", *value, figure.decimals) : kNothing;
+std::string format_value(const Metric& metric, const std::optional<double>& value) {
+  return value ? fmt::format("{:.{}f}", *value, metric.decimals) : kNothing;
 }
 
 std::string markdown_table(const std::vector<std::vector<std::string>>& rows, std::size_t left) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/judge/metrics.h"
+#include "harness/report/stored_run.h"
 
 namespace vinebench::harness {
 
@@ -24,10 +24,10 @@ struct Metric {
 const std::vector<Metric>& shown_metrics();
 
 /// In the displayed unit; empty if the run did not measure it.
-std::optional<double> value_of(const Metric& figure, const Json& metrics);
+std::optional<double> value_of(const Metric& metric, const StoredRun& run);
 
 /// A cell of a table, "–" if empty.
-std::string format_value(const Metric& figure, const std::optional<double>& value);
+std::string format_value(const Metric& metric, const std::optional<double>& value);
 
 /// Rows of cells as a Markdown table with aligned columns; the first row is the header. The first
 /// `left` columns are aligned to the left, the others to the right.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "harness/judge/metric_table.h"
+#include "harness/report/metric_table.h"
 
 #include <gtest/gtest.h>
 
@@ -8,15 +8,15 @@ namespace vinebench::harness {
 namespace {
 
 TEST(MetricTableTest, AreFoundInMetricsInTheirUnits) {
-  const Json metrics{{"ate_rmse_m", 0.0123}, {"loop_closures", {{"wrong", 2}}}, {"coverage", {}}};
-  for (const Metric& figure : shown_metrics()) {
-    const auto value = value_of(figure, metrics);
-    if (figure.key == "/ate_rmse_m") {
+  const StoredRun run{.values = {{"/ate_rmse_m", 0.0123}, {"/loop_closures/wrong", 2}}};
+  for (const Metric& metric : shown_metrics()) {
+    const auto value = value_of(metric, run);
+    if (metric.key == "/ate_rmse_m") {
       EXPECT_DOUBLE_EQ(value.value(), 12.3);  // mm
-    } else if (figure.key == "/loop_closures/wrong") {
+    } else if (metric.key == "/loop_closures/wrong") {
       EXPECT_EQ(value.value(), 2);
     } else {
-      EXPECT_FALSE(value) << figure.key;  // absent, or null
+      EXPECT_FALSE(value) << metric.key;
     }
   }
 }

@@ -7,16 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "harness/judge/metric_table.h"
+#include "harness/report/metric_table.h"
 
 namespace vinebench::harness {
 
 /// Two runs of one scenario and seed.
 struct RunPair {
-  std::string scenario;
-  std::int64_t seed = 0;
-  Json before;  ///< metrics.json
-  Json after;
+  StoredRun before;
+  StoredRun after;
 };
 
 /// Runs of two folders, paired by scenario and seed, in their order.
@@ -34,7 +32,7 @@ const char* name_of(Change change);
 
 /// A metric over the pairs that have it on both sides, in its displayed unit.
 struct MetricChange {
-  Metric figure{};
+  Metric metric{};
   std::size_t pairs = 0;
   double before = 0;                   ///< mean
   double after = 0;                    ///< mean

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "harness/judge/metrics.h"
+#include "harness/run/run_cost.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -8,17 +8,20 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "tests/support/fakes.h"
-
 namespace vinebench::harness {
 namespace {
 
-TEST(PercentileTest, IsLinearBetweenNeighbours) {
-  // Of 1, 2, 3, 4 the median is 2.5, and a quarter of the path from 1 to 4 lies at 1 + 0.75.
-  EXPECT_DOUBLE_EQ(percentile({4, 1, 3, 2}, 0.5), 2.5);
-  EXPECT_DOUBLE_EQ(percentile({4, 1, 3, 2}, 0.25), 1.75);
-  EXPECT_DOUBLE_EQ(percentile({4, 1, 3, 2}, 1), 4);
-  EXPECT_DOUBLE_EQ(percentile({7}, 0.95), 7);
+TEST(StageTimingsTest, AreOfTheStagesThatWereCalled) {
+  StageTimes times;
+  for (const double ms : {1.0, 2.0, 6.0}) times.add("stereo", ms);
+  times.add("frame", 4);
+  const std::vector<StageTiming> timings = stage_timings(times);
+  ASSERT_EQ(timings.size(), 2u);
+  EXPECT_EQ(timings[0].stage, "frame");
+  EXPECT_EQ(timings[1].stage, "stereo");
+  EXPECT_DOUBLE_EQ(timings[1].mean, 3);
+  EXPECT_DOUBLE_EQ(timings[1].median, 2);
+  EXPECT_DOUBLE_EQ(timings[1].p95, 2 + 0.9 * 4);  // place 0.95 * 2 = 1.9
 }
 
 double seconds_of_children() {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "harness/judge/compare.h"
+#include "harness/report/compare.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "core/util/error.h"
-#include "core/util/files.h"
 
 namespace vinebench::harness {
 namespace {
@@ -25,33 +24,24 @@ std::string text_of(const RunName& name) {
   return fmt::format("{}, seed {}", name.first, name.second);
 }
 
-Json read_run(const fs::path& file) {
-  Json metrics = Json::parse(read_file(file), nullptr, false);
-  const auto has = [&](const char* key) { return metrics.is_object() && metrics.contains(key); };
-  if (!has("scenario") || !metrics["scenario"].is_string() || !has("seed") ||
-      !metrics["seed"].is_number_integer()) {
-    fail("{}: is not a metrics.json of a run", file.string());
-  }
-  return metrics;
-}
-
-std::map<RunName, Json> find_runs(const fs::path& folder) {
+std::map<RunName, StoredRun> find_runs(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) fail("{}: expected a folder of runs", folder.string());
-  std::map<RunName, Json> runs;
+  std::map<RunName, StoredRun> runs;
   std::map<RunName, fs::path> places;
   const auto options = fs::directory_options::skip_permission_denied;
   for (const auto& entry : fs::recursive_directory_iterator(folder, options, error)) {
     if (entry.path().filename() != "metrics.json") continue;
-    Json metrics = read_run(entry.path());
-    const RunName name{metrics["scenario"], metrics["seed"]};
+    std::optional<StoredRun> run = read_stored_run(entry.path());
+    if (!run) fail("{}: is not a metrics.json of a run", entry.path().string());
+    const RunName name{run->scenario, run->seed};
     if (runs.contains(name)) {
       const auto [first, second] = std::minmax(places[name], entry.path());
       fail("{}: {} is duplicate, in {} and {}", folder.string(), text_of(name), first.string(),
            second.string());
     }
     places[name] = entry.path();
-    runs.emplace(name, std::move(metrics));
+    runs.emplace(name, std::move(*run));
   }
   if (runs.empty()) {
     fail("{}: contains no run; expected a metrics.json in it or in its folders", folder.string());
@@ -59,11 +49,11 @@ std::map<RunName, Json> find_runs(const fs::path& folder) {
   return runs;
 }
 
-MetricChange change_of(const Metric& figure, const std::vector<RunPair>& pairs) {
-  MetricChange change{.figure = figure};
+MetricChange change_of(const Metric& metric, const std::vector<RunPair>& pairs) {
+  MetricChange change{.metric = metric};
   for (const RunPair& pair : pairs) {
-    const auto before = value_of(figure, pair.before);
-    const auto after = value_of(figure, pair.after);
+    const auto before = value_of(metric, pair.before);
+    const auto after = value_of(metric, pair.after);
     if (!before || !after) continue;
     change.before += *before;
     change.after += *after;
@@ -85,7 +75,7 @@ MetricChange change_of(const Metric& figure, const std::vector<RunPair>& pairs) 
   if (equal || (change.half_width && std::abs(mean) <= *change.half_width)) {
     change.change = Change::kSame;
   } else if (change.half_width) {
-    change.change = (mean > 0) == figure.larger_is_better ? Change::kBetter : Change::kWorse;
+    change.change = (mean > 0) == metric.larger_is_better ? Change::kBetter : Change::kWorse;
   }
   return change;
 }
@@ -94,8 +84,8 @@ MetricChange change_of(const Metric& figure, const std::vector<RunPair>& pairs) 
 std::vector<std::pair<std::string, std::vector<RunPair>>> groups_of(const PairedRuns& runs) {
   std::vector<std::pair<std::string, std::vector<RunPair>>> groups;
   for (const RunPair& pair : runs.pairs) {
-    if (groups.empty() || groups.back().first != pair.scenario) {
-      groups.push_back({pair.scenario, {}});
+    if (groups.empty() || groups.back().first != pair.before.scenario) {
+      groups.push_back({pair.before.scenario, {}});
     }
     groups.back().second.push_back(pair);
   }
@@ -106,18 +96,18 @@ std::vector<std::pair<std::string, std::vector<RunPair>>> groups_of(const Paired
 std::string interval_text(const MetricChange& change) {
   if (!change.half_width) return "one pair";
   const double mean = change.difference();
-  return fmt::format("{:+.{}f} .. {:+.{}f}", mean - *change.half_width, change.figure.decimals + 1,
-                     mean + *change.half_width, change.figure.decimals + 1);
+  return fmt::format("{:+.{}f} .. {:+.{}f}", mean - *change.half_width, change.metric.decimals + 1,
+                     mean + *change.half_width, change.metric.decimals + 1);
 }
 
 std::string table_of(const std::vector<MetricChange>& changes) {
   std::vector<std::vector<std::string>> rows{
       {"figure", "pairs", "A", "B", "B - A", "95 % interval", "verdict"}};
   for (const MetricChange& change : changes) {
-    rows.push_back({change.figure.title, std::to_string(change.pairs),
-                    format_value(change.figure, change.before),
-                    format_value(change.figure, change.after),
-                    fmt::format("{:+.{}f}", change.difference(), change.figure.decimals + 1),
+    rows.push_back({change.metric.title, std::to_string(change.pairs),
+                    format_value(change.metric, change.before),
+                    format_value(change.metric, change.after),
+                    fmt::format("{:+.{}f}", change.difference(), change.metric.decimals + 1),
                     interval_text(change), name_of(change.change)});
   }
   return markdown_table(rows, 1);
@@ -126,18 +116,18 @@ std::string table_of(const std::vector<MetricChange>& changes) {
 }  // namespace
 
 PairedRuns pair_runs(const fs::path& before, const fs::path& after) {
-  const std::map<RunName, Json> first = find_runs(before);
-  const std::map<RunName, Json> second = find_runs(after);
+  const std::map<RunName, StoredRun> first = find_runs(before);
+  const std::map<RunName, StoredRun> second = find_runs(after);
   PairedRuns runs;
-  for (const auto& [name, metrics] : first) {
+  for (const auto& [name, run] : first) {
     const auto partner = second.find(name);
     if (partner == second.end()) {
       runs.unpaired.push_back(fmt::format("{} (only in {})", text_of(name), before.string()));
     } else {
-      runs.pairs.push_back({name.first, name.second, metrics, partner->second});
+      runs.pairs.push_back({run, partner->second});
     }
   }
-  for (const auto& [name, metrics] : second) {
+  for (const auto& [name, run] : second) {
     if (!first.contains(name)) {
       runs.unpaired.push_back(fmt::format("{} (only in {})", text_of(name), after.string()));
     }
@@ -167,8 +157,8 @@ const char* name_of(Change change) {
 
 std::vector<MetricChange> compare_metrics(const std::vector<RunPair>& pairs) {
   std::vector<MetricChange> changes;
-  for (const Metric& figure : shown_metrics()) {
-    MetricChange change = change_of(figure, pairs);
+  for (const Metric& metric : shown_metrics()) {
+    MetricChange change = change_of(metric, pairs);
     if (change.pairs > 0) changes.push_back(std::move(change));
   }
   return changes;
@@ -176,8 +166,8 @@ std::vector<MetricChange> compare_metrics(const std::vector<RunPair>& pairs) {
 
 Change overall(const std::vector<MetricChange>& changes) {
   const auto any = [&](Change change) {
-    return std::ranges::any_of(changes, [&](const MetricChange& figure) {
-      return figure.figure.of_estimate && figure.change == change;
+    return std::ranges::any_of(changes, [&](const MetricChange& one) {
+      return one.metric.of_estimate && one.change == change;
     });
   };
   if (any(Change::kBetter) && any(Change::kWorse)) return Change::kMixed;
@@ -205,7 +195,7 @@ Json comparison_json(const PairedRuns& runs) {
     const std::vector<MetricChange> changes = compare_metrics(pairs);
     Json list = Json::array();
     for (const MetricChange& change : changes) {
-      list.push_back({{"figure", change.figure.title},
+      list.push_back({{"figure", change.metric.title},
                       {"pairs", change.pairs},
                       {"a", change.before},
                       {"b", change.after},
@@ -216,7 +206,7 @@ Json comparison_json(const PairedRuns& runs) {
     }
     Json seeds = Json::array();
     for (const RunPair& pair : pairs) {
-      seeds.push_back({{"scenario", pair.scenario}, {"seed", pair.seed}});
+      seeds.push_back({{"scenario", pair.before.scenario}, {"seed", pair.before.seed}});
     }
     groups.push_back({{"name", name},
                       {"verdict", name_of(overall(changes))},

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "harness/judge/compare.h"
+#include "harness/report/compare.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,10 +13,15 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-Json run(int seed, double ate_m, const char* scenario = "row") {
-  return {{"scenario", scenario},   {"seed", seed}, {"ate_rmse_m", ate_m},
-          {"coverage", 1.0},        {"losses", 0},  {"real_time_factor", 0.5},
-          {"rpe_trans_percent", {}}};
+StoredRun run(int seed, double ate_m, const char* scenario = "row") {
+  return stored_run({{"scenario", scenario},
+                     {"seed", seed},
+                     {"ate_rmse_m", ate_m},
+                     {"coverage", 1.0},
+                     {"losses", 0},
+                     {"real_time_factor", 0.5},
+                     {"rpe_trans_percent", {}}})
+      .value();
 }
 
 /// The change of the ATE from some values to others, m.
@@ -24,7 +29,7 @@ MetricChange ate_change(const std::vector<double>& before, const std::vector<dou
   std::vector<RunPair> pairs;
   for (std::size_t i = 0; i < before.size(); ++i) {
     const int seed = static_cast<int>(i);
-    pairs.push_back({"row", seed, run(seed, before[i]), run(seed, after[i])});
+    pairs.push_back({run(seed, before[i]), run(seed, after[i])});
   }
   return compare_metrics(pairs).front();
 }
@@ -33,7 +38,7 @@ MetricChange ate_change(const std::vector<double>& before, const std::vector<dou
 // 2.484, so the interval contains zero.
 TEST(CompareTest, AnIntervalThatHoldsZeroIsTheSame) {
   const MetricChange change = ate_change({0.010, 0.011, 0.012}, {0.011, 0.013, 0.015});
-  EXPECT_EQ(change.figure.title, "ATE, mm");
+  EXPECT_EQ(change.metric.title, "ATE, mm");
   EXPECT_EQ(change.pairs, 3u);
   EXPECT_NEAR(change.before, 11, 1e-9);
   EXPECT_NEAR(change.difference(), 2, 1e-9);
@@ -59,7 +64,7 @@ TEST(CompareTest, TheOverallVerdictIsThatOfTheEstimate) {
   const auto changes = [](Change ate, Change coverage, Change speed) {
     const Metric cost{.of_estimate = false};
     return std::vector<MetricChange>{
-        {.change = ate}, {.change = coverage}, {.figure = cost, .change = speed}};
+        {.change = ate}, {.change = coverage}, {.metric = cost, .change = speed}};
   };
   using enum Change;
   EXPECT_EQ(overall(changes(kSame, kSame, kWorse)), kSame);
@@ -71,9 +76,9 @@ TEST(CompareTest, TheOverallVerdictIsThatOfTheEstimate) {
 
 TEST(CompareTest, RunsArePairedByScenarioAndSeed) {
   const test::TestFolder folder;
-  const auto write = [&](const std::string& place, const Json& metrics) {
+  const auto write = [&](const std::string& place, const StoredRun& run) {
     std::filesystem::create_directories(folder / place);
-    folder.write(place + "/metrics.json", metrics.dump());
+    folder.write(place + "/metrics.json", run.json.dump());
   };
   write("a/row/seed-1", run(1, 0.01));
   write("a/row/seed-2", run(2, 0.01));
@@ -83,8 +88,8 @@ TEST(CompareTest, RunsArePairedByScenarioAndSeed) {
   write("b/anything/3", run(3, 0.02));
   const PairedRuns runs = pair_runs(folder / "a", folder / "b");
   ASSERT_EQ(runs.pairs.size(), 2u);
-  EXPECT_EQ(runs.pairs[0].scenario, "loop");
-  EXPECT_EQ(runs.pairs[1].seed, 2);
+  EXPECT_EQ(runs.pairs[0].before.scenario, "loop");
+  EXPECT_EQ(runs.pairs[1].before.seed, 2);
   EXPECT_EQ(runs.unpaired.size(), 2u);
   EXPECT_THAT(format_comparison(runs),
               AllOf(HasSubstr("all scenarios"), HasSubstr("not compared: row, seed 1 (only in")));

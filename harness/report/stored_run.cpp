@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/report/stored_run.h"
+
+#include "core/util/files.h"
+
+namespace vinebench::harness {
+
+std::optional<double> StoredRun::value(const std::string& pointer) const {
+  const auto found = values.find(pointer);
+  return found == values.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<StoredRun> stored_run(Json metrics) {
+  StoredRun run;
+  try {
+    metrics.at("scenario").get_to(run.scenario);
+    if (!metrics.at("seed").is_number_integer()) return std::nullopt;
+    metrics.at("seed").get_to(run.seed);
+    if (metrics.contains("expectations")) run.checks = checks_of(metrics["expectations"]);
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+  const Json numbers = metrics.flatten();
+  for (const auto& [pointer, value] : numbers.items()) {
+    if (value.is_number()) run.values[pointer] = value.get<double>();
+  }
+  run.json = std::move(metrics);
+  return run;
+}
+
+std::optional<StoredRun> read_stored_run(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return std::nullopt;
+  return stored_run(Json::parse(read_file(file), nullptr, false));
+}
+
+}  // namespace vinebench::harness

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "harness/report/report_json.h"
+
+namespace vinebench::harness {
+
+/// What the metrics.json of a run says: one of an earlier program, or of another process.
+struct StoredRun {
+  std::string scenario{};
+  std::int64_t seed = 0;
+  std::map<std::string, double> values{};  ///< every number, by its JSON pointer
+  std::vector<Check> checks{};
+  Json json{};  ///< the file
+
+  /// Empty if the run did not measure it.
+  std::optional<double> value(const std::string& pointer) const;
+};
+
+/// Empty if this is not the metrics of a run.
+std::optional<StoredRun> stored_run(Json metrics);
+
+/// Empty if the file does not exist or is not the metrics.json of a run.
+std::optional<StoredRun> read_stored_run(const std::filesystem::path& file);
+
+}  // namespace vinebench::harness

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/sets/set_report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/set_runs.h"
+#include "tests/support/test_folder.h"
+
+namespace vinebench::harness {
+namespace {
+
+using test::crashed_run;
+using test::set_run;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Summary of the scenario "row", of whose errors the median must be at most 15 mm.
+SeedsSummary summary_of(std::vector<SetRun> runs) {
+  PlannedRun planned;
+  planned.scenario.name = "row";
+  planned.scenario.expectations.median = {.ate_rmse_max = std::nullopt,
+                                          .ate_origin_rmse_max = 0.015};
+  SetOutcome outcome;
+  outcome.runs = std::move(runs);
+  return summarise({planned}, outcome).at(0);
+}
+
+TEST(SetReportTest, TheMedianHasABoundOfItsOwn) {
+  const SeedsSummary bad = summary_of({set_run(1, 0.03), set_run(2, 0.01), set_run(3, 0.02)});
+  EXPECT_DOUBLE_EQ(bad.medians[0].value(), 20);  // mm
+  ASSERT_EQ(bad.checks.size(), 1u);
+  EXPECT_EQ(bad.checks[0].what, "median of 3 seeds: ATE, first pose aligned");
+  EXPECT_EQ(bad.checks[0].measured, "0.0200 m");
+  EXPECT_EQ(bad.checks[0].expected, "<= 0.0150 m");
+  EXPECT_FALSE(bad.passed());
+  EXPECT_TRUE(summary_of({set_run(1, 0.03), set_run(2, 0.01), set_run(3, 0.015)}).passed());
+  EXPECT_TRUE(summary_of({set_run(1, 0.03), set_run(2, 0.03)}).checks.empty());  // too few seeds
+}
+
+// The table's median is of the runs that have an error; the check counts the others as infinite.
+TEST(SetReportTest, ARunWithoutAnErrorIsInfinite) {
+  const SeedsSummary one = summary_of({set_run(1, 0.01), crashed_run(2), set_run(3, 0.02)});
+  EXPECT_DOUBLE_EQ(one.medians[0].value(), 15);
+  EXPECT_EQ(one.checks.at(0).measured, "0.0200 m");
+  const SeedsSummary two = summary_of({set_run(1, 0.01), crashed_run(2), crashed_run(3)});
+  EXPECT_EQ(two.checks.at(0).measured, "none");
+  EXPECT_FALSE(two.checks[0].ok);
+}
+
+TEST(SetReportTest, ScenariosKeepTheirOrder) {
+  std::vector<PlannedRun> plan(2);
+  plan[0].scenario.name = "row";
+  plan[1].scenario.name = "loop";
+  SetRun other = set_run(1, 0.01);
+  other.scenario = "loop";
+  SetOutcome outcome;
+  outcome.runs = {set_run(1, 0.01), set_run(2, 0.01), other};
+  const auto scenarios = summarise(plan, outcome);
+  ASSERT_EQ(scenarios.size(), 2u);
+  EXPECT_EQ(scenarios[0].runs.size(), 2u);
+  EXPECT_EQ(scenarios[1].scenario, "loop");
+}
+
+TEST(SetReportTest, TheTableHasARowForEachRunAndTheMedian) {
+  const std::string table =
+      format_table({summary_of({set_run(1, 0.01), set_run(2, 0.02, false), crashed_run(3)})});
+  EXPECT_EQ(std::ranges::count(table, '\n'), 6);  // header, rule, three runs, median
+  EXPECT_THAT(table, HasSubstr("| row      | 1      |          10.00 |"));
+  EXPECT_THAT(table, HasSubstr("|  passed |\n"));
+  EXPECT_THAT(table, HasSubstr("|  FAILED |\n"));
+  EXPECT_THAT(table, HasSubstr("| row      | 3      |              – |"));
+  EXPECT_THAT(table, HasSubstr("|   ERROR |\n"));
+  EXPECT_THAT(table, HasSubstr("| row      | median |          15.00 |"));
+  EXPECT_THAT(format_table({summary_of({set_run(1, 0.01)})}), Not(HasSubstr("median")));
+}
+
+TEST(SetReportTest, FailuresSayWhatFailedAndWhereTheLogIs) {
+  const test::TestFolder folder;
+  SetRun crashed = crashed_run(3);
+  crashed.folder = folder.path();
+  const auto text = [&] {
+    return format_failures({summary_of({set_run(1, 0.01), set_run(2, 0.02, false), crashed})});
+  };
+  EXPECT_THAT(text(), Not(HasSubstr("seed 1")));
+  EXPECT_THAT(text(), HasSubstr("row, seed 2 (out/row/seed-2):\n  losses  2  <= 0  FAILED\n"));
+  EXPECT_THAT(text(), HasSubstr("row, seed 3: ended by signal 9\n"));
+  EXPECT_THAT(text(), HasSubstr("row:\n  median of 3 seeds"));
+  const auto log = folder.write("log.txt", "");
+  EXPECT_THAT(text(), HasSubstr("ended by signal 9; see " + log.string()));
+  EXPECT_EQ(format_failures({summary_of({set_run(1, 0.01)})}), "");
+}
+
+TEST(SetReportTest, TheSummaryHasTheRunsMetrics) {
+  const Json json =
+      summary_json({summary_of({set_run(1, 0.01), set_run(2, 0.02, false), crashed_run(3)})});
+  EXPECT_EQ(json["passed"], false);
+  const Json& row = json["scenarios"][0];
+  EXPECT_EQ(row["median"]["ATE origin, mm"], 15);
+  EXPECT_EQ(row["expectations_of_median"].size(), 1u);
+  EXPECT_EQ(row["runs"][0]["verdict"], "passed");
+  EXPECT_EQ(row["runs"][0]["metrics"]["ate_origin_rmse_m"], 0.01);
+  EXPECT_TRUE(row["runs"][0]["error"].is_null());
+  EXPECT_EQ(row["runs"][1]["verdict"], "FAILED");
+  EXPECT_EQ(row["runs"][2]["verdict"], "ERROR");
+  EXPECT_TRUE(row["runs"][2]["metrics"].is_null());
+}
+
+}  // namespace
+}  // namespace vinebench::harness
