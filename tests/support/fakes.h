@@ -132,10 +132,10 @@ inline harness::Trial fake_trial() {
 }
 
 /// The record of a run of these fakes.
-inline harness::RunRecord record_of(Slam::Change change = {}) {
-  Source source;
-  Slam slam(std::move(change));
-  harness::RunRecorder recorder(source.rig(), trial().site.tags);
+inline harness::RunRecord record_of(FakeSlam::Change change = {}) {
+  FakeSource source;
+  FakeSlam slam(std::move(change));
+  harness::RunRecorder recorder(source.rig(), fake_trial().site.tags);
   harness::run_lockstep(source, slam, {&recorder});
   return recorder.record();
 }
