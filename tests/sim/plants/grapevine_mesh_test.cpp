@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <opencv2/core.hpp>
 #include <set>
 
 #include "sim/assets/asset_file.h"
@@ -22,7 +21,6 @@ using test::kSeeds;
 using test::kTrainings;
 using test::label_of;
 using test::plant;
-using test::textures;
 
 // Vertices are floats, with a relative precision of 1e-7.
 constexpr float kRounding = 1e-5f;  // m
@@ -150,30 +148,6 @@ TEST(GrapevineMeshTest, EachBunchIsAPartThatAFileKeeps) {
     EXPECT_EQ(*parts.begin(), 1);
     EXPECT_EQ(*parts.rbegin(), static_cast<int>(vine.bunches.size()));
   }
-}
-
-TEST(PlantTexturesTest, ASeedIsOneSetOfImages) {
-  const std::vector<Texture> again = plant_textures({}, growth_stage(89), 1);
-  const std::vector<Texture> other = plant_textures({}, growth_stage(89), 2);
-  for (std::size_t i = 0; i < again.size(); ++i) {
-    EXPECT_EQ(cv::norm(textures()[i].rgba, again[i].rgba, cv::NORM_INF), 0) << again[i].name;
-    EXPECT_GT(cv::norm(textures()[i].rgba, other[i].rgba, cv::NORM_INF), 0) << again[i].name;
-  }
-}
-
-TEST(PlantTexturesTest, LeavesAreGreenInsideTheirOutline) {
-  const Texture& leaves = textures().at(2);
-  ASSERT_EQ(leaves.name, "leaf");
-  const TextureCell cell = leaf_cell(0);
-  const Eigen::Vector2f middle = cell.at(0.5f, 0.5f), corner = cell.at(0.02f, 0.02f);
-  const auto texel = [&](const Eigen::Vector2f& uv) {
-    return leaves.rgba.at<cv::Vec4b>(static_cast<int>(uv.y() * leaves.rgba.rows),
-                                     static_cast<int>(uv.x() * leaves.rgba.cols));
-  };
-  EXPECT_EQ(texel(middle)[3], 255);
-  EXPECT_GT(texel(middle)[1], texel(middle)[0]);
-  EXPECT_GT(texel(middle)[1], texel(middle)[2]);
-  EXPECT_EQ(texel(corner)[3], 0);
 }
 
 }  // namespace

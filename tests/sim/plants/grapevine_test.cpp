@@ -2,12 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/plants/grapevine.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/config/validate.h"
-#include "core/util/error.h"
-#include "tests/support/test_folder.h"
 #include "tests/support/test_plant.h"
 
 namespace vinebench::sim {
@@ -123,15 +119,6 @@ TEST(GrapevineTest, TheYearGoesFromBareToFullToThin) {
   EXPECT_NEAR(area[6], 0.5 * area[5], 0.12 * area[5]) << "half of the leaves have fallen";
 }
 
-TEST(GrapevineTest, AnUnknownStageIsRefusedWithTheKnownOnes) {
-  EXPECT_THAT(test::error_of([] { growth_stage(50); }),
-              testing::AllOf(testing::HasSubstr("0 (dormant)"),
-                             testing::HasSubstr("95 (leaf fall)"), testing::HasSubstr("found 50")));
-  VinesConfig vines;
-  vines.bbch = 50;
-  EXPECT_THROW(validate(vines), Error);
-}
-
 TEST(GrapevineTest, WoodKeepsToThePlantsShareOfTheRow) {
   for (const Training training : kTrainings) {
     const Grapevine vine = grow_grapevine(brief(0, training), 8, 0);
@@ -169,28 +156,6 @@ TEST(GrapevineTest, EverySideOfTheRowIsTheSameToTheGrower) {
   }
   EXPECT_LT(2 * left, 3 * right);
   EXPECT_LT(2 * right, 3 * left);
-}
-
-TEST(CultivarTest, ThoseThatAreShippedCanBeReadAndGrown) {
-  for (const char* name : {"merlot", "chardonnay", "riesling"}) {
-    const auto file =
-        std::filesystem::path(VINEBENCH_SOURCE_DIR) / "cultivars" / (std::string(name) + ".yaml");
-    PlantBrief asked = brief();
-    asked.cultivar = load_cultivar(file);
-    EXPECT_EQ(asked.cultivar.name, name);
-    const Grapevine vine = grow_grapevine(asked, 1, 0);
-    double length = 0;
-    for (const Bunch& bunch : vine.bunches) length += static_cast<double>(bunch.length);
-    // The mean of a dozen bunches whose lengths differ by 13 %: 4 % times three.
-    EXPECT_NEAR(length / static_cast<double>(vine.bunches.size()), asked.cultivar.bunch.length,
-                0.12 * asked.cultivar.bunch.length);
-  }
-}
-
-TEST(CultivarTest, AnUnknownKeyIsNamed) {
-  const test::TestFolder folder;
-  const auto file = folder.write("odd.yaml", "leaf: {colour: green}\n");
-  EXPECT_THAT(test::error_of([&] { load_cultivar(file); }), testing::HasSubstr("leaf.colour"));
 }
 
 }  // namespace

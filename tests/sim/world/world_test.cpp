@@ -13,7 +13,6 @@
 #include "core/config/yaml_writer.h"
 #include "sim/config_files.h"
 #include "sim/world/row_frame.h"
-#include "sim/world/row_index.h"
 #include "sim/world/tag_family.h"
 #include "sim/world/world_layout.h"
 #include "tests/support/test_folder.h"
@@ -24,10 +23,6 @@ namespace {
 using testing::HasSubstr;
 
 TEST(TagProblemTest, KnowsEveryFamilyAndItsLastTag) {
-  // Numbers of tags from the library's documentation.
-  EXPECT_EQ(TagFamily("tag36h11").size(), 587);
-  EXPECT_EQ(TagFamily("tag16h5").size(), 30);
-  EXPECT_EQ(TagFamily("tag25h9").size(), 35);
   for (const std::string& family : TagFamily::names()) {
     EXPECT_EQ(WorldConfig::tag_problem(family, 0), "");
     EXPECT_EQ(WorldConfig::tag_problem(family, TagFamily(family).size() - 1), "");
@@ -82,29 +77,6 @@ TEST(WorldFileTest, ProblemsAreNamed) {
               AllOf(HasSubstr("vines.meshes.0"), HasSubstr("nowhere.glb")));
 }
 
-TEST(RowFrameTest, KnowsRowsThatAreEvenlySpacedFromOthers) {
-  WorldConfig world;
-  world.rows = {{{0, 0}, {0, 5}}, {{-2, 0}, {-2, 5}}, {{-4, 1}, {-4, 4}}};
-  const RowFrame even = row_frame(world.rows);
-  EXPECT_TRUE(even.regular);
-  EXPECT_NEAR(even.spacing, 2, 1e-12);
-  EXPECT_LT((even.from_world({-2, 3}) - Eigen::Vector2d(3, 2)).norm(), 1e-12);
-  world.rows[2].start.x() = world.rows[2].end.x() = -4.5;
-  EXPECT_FALSE(row_frame(world.rows).regular);
-  world.rows[2] = {{-4, 0}, {-5, 5}};
-  EXPECT_FALSE(row_frame(world.rows).regular);
-}
-
-TEST(RowIndexTest, FindsTheDistanceToTheNearestRow) {
-  WorldConfig world;
-  world.rows = {{{0, 0}, {30, 0}}, {{0, 2}, {30, 2}}, {{-20, 5}, {-12, 13}}};
-  const RowIndex rows(world.rows);
-  EXPECT_NEAR(rows.distance({15, 0.7}), 0.7, 1e-12);
-  EXPECT_NEAR(rows.distance({15, 1.2}), 0.8, 1e-12);
-  EXPECT_NEAR(rows.distance({32, 2}), 2, 1e-12);
-  EXPECT_NEAR(rows.distance({-16, 10}), std::sqrt(0.5), 1e-12);  // 1 m above the diagonal
-  EXPECT_EQ(rows.distance({15, 40}), RowIndex::kReach);
-  EXPECT_EQ(rows.distance({1e6, -1e6}), RowIndex::kReach);
 }
 
 TEST(WorldFileTest, TheShippedWorldsAreWhatTheySay) {

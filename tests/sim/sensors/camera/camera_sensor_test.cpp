@@ -5,14 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "core/util/error.h"
 #include "sim/render/gl/gl_renderer.h"
 #include "sim/render/image_encoding.h"
 #include "sim/sensors/sensors.h"
 #include "tests/support/chessboard.h"
+#include "tests/support/effect_camera.h"
 #include "tests/support/test_scene.h"
 
 namespace vinebench::sim {
@@ -21,10 +20,6 @@ namespace {
 using namespace test;
 
 const Light kDark{.sun = Eigen::Vector3f::Zero()};  // no sun, no glare
-
-int different_values(const cv::Mat& a, const cv::Mat& b) {
-  return cv::countNonZero(cv::Mat(a != b).reshape(1));
-}
 
 CameraSensorConfig off() {
   return perfect_sensors().camera;
@@ -231,22 +226,6 @@ TEST_F(WallTest, GainRaisesTheNoise) {
   EXPECT_NEAR((high * high - 1 / 12.0) / (low * low - 1 / 12.0), 10, 0.6);
 }
 
-TEST_F(WallTest, VignettingFollowsCosToTheFourth) {
-  CameraSensorConfig config = off();
-  config.vignetting.natural = 1;
-  const cv::Mat rgb = capture(config);
-  EXPECT_NEAR(rgb.at<cv::Vec3b>(44, 59)[0], 100, 1);
-  // At (119, 44): tan = 59.5 / 100, cos^4 = 1 / (1 + 0.354)^2 = 0.545; codes by the 2.2nd root.
-  EXPECT_NEAR(rgb.at<cv::Vec3b>(44, 119)[0], 100 * std::pow(0.5454, 1 / 2.2), 1);
-}
-
-TEST_F(WallTest, PolynomialReachesItsValueInTheCorner) {
-  CameraSensorConfig config = off();
-  config.vignetting.polynomial = {-0.3, 0.1, -0.2};
-  const cv::Mat rgb = capture(config);
-  EXPECT_NEAR(rgb.at<cv::Vec3b>(0, 0)[0], 100 * std::pow(0.6, 1 / 2.2), 1);
-}
-
 TEST_F(WallTest, DirtAndLeafStayOnTheirCameraAndInTheirTime) {
   CameraSensorConfig config;
   const cv::Mat plain = capture(config);
@@ -263,37 +242,6 @@ TEST_F(WallTest, DirtAndLeafStayOnTheirCameraAndInTheirTime) {
   EXPECT_EQ(different_values(capture(config, 0, "side"), plain), 0);
 }
 
-TEST_F(WallTest, ALeafDarkensItsPlace) {
-  CameraSensorConfig config = off();
-  LensLeafConfig leaf;
-  leaf.position = {0.25, 0.5};
-  leaf.size = 0.4;
-  leaf.blur_px = 1;
-  config.leaves = {leaf};
-  const cv::Mat rgb = capture(config);
-  const cv::Vec3b inside = rgb.at<cv::Vec3b>(44, 30);
-  EXPECT_LT(inside[0], 60);
-  EXPECT_GT(inside[1], inside[0]);
-  EXPECT_GT(inside[1], inside[2]);
-  EXPECT_EQ(rgb.at<cv::Vec3b>(44, 100), cv::Vec3b(100, 100, 100));
-}
-
-TEST_F(WallTest, HotPixelsLeakInProportionToTheTime) {
-  CameraSensorConfig config = off();
-  config.fixed_pattern.hot_pixels = 0.01;
-  config.fixed_pattern.hot_pixel_current = 1e6;
-  const auto lit = [&](double time) {
-    config.exposure.time = time;
-    return cv::sum(to_light(capture(config)))[0] / (kWidth * kHeight);
-  };
-  const double wall = light_of_code(100);
-  // 1 % of pixels leak 1e6 electrons/s * 0.5 ms of 6900, on average; 108 leaks that scatter by
-  // their mean: 10 %. Four times the light, reduced by saturation and doubly hit pixels.
-  const double little = lit(0.0001) - wall;
-  EXPECT_NEAR(little, 0.01 * 1e6 * 0.0001 / 6900, 0.35 * 0.01 * 1e6 * 0.0001 / 6900);
-  EXPECT_NEAR((lit(0.0004) - wall) / little, 4, 0.4);
-}
-
 TEST_F(WallTest, PixelResponseIsTheSameInEveryImage) {
   CameraSensorConfig config = off();
   config.fixed_pattern.response = 0.05;
@@ -305,30 +253,8 @@ TEST_F(WallTest, PixelResponseIsTheSameInEveryImage) {
   EXPECT_NEAR(sigma[0] / mean[0], 0.05, 0.003);
 }
 
-TEST(ColouredWallTest, BayerKeepsAnEvenColour) {
-  for (const BayerPattern pattern :
-       {BayerPattern::kRggb, BayerPattern::kGrbg, BayerPattern::kGbrg, BayerPattern::kBggr}) {
-    const cv::Mat rgb(40, 60, CV_8UC3, cv::Scalar(200, 120, 40));
-    const cv::Mat sites = mosaic(rgb, pattern);
-    EXPECT_EQ(cv::sum(sites)[0], 40 * 60 / 4 * (200 + 2 * 120 + 40));
-    EXPECT_EQ(different_values(demosaic(sites, pattern), rgb), 0) << static_cast<int>(pattern);
-  }
-}
-
-TEST_F(WallTest, NoiseOfAMosaicIsCorrelatedBetweenPixels) {
-  CameraSensorConfig config;
-  config.bayer = BayerPattern::kRggb;
-  const cv::Mat rgb = capture(config);
-  EXPECT_EQ(rgb.type(), CV_8UC3);
-  const cv::Mat plain = capture(CameraSensorConfig{});
-  cv::Scalar mean, with, without;
-  cv::meanStdDev(rgb, mean, with);
-  cv::meanStdDev(plain, mean, without);
-  EXPECT_LT(with[0], 0.9 * without[0]);  // red is interpolated in three pixels of four
-}
-
 /// Chessboard through a lens.
-class LensTest : public testing::Test {
+class CameraLensTest : public testing::Test {
  protected:
   RenderedImage capture(const PinholeCamera& model, const Pose& T_world_cam,
                         const CameraSensorConfig& config = off()) {
@@ -353,7 +279,7 @@ class LensTest : public testing::Test {
 
 /// With squares of 150 px, more than two to a texel: edges so soft that the pixel grid has no
 /// influence.
-TEST_F(LensTest, PointsAreWhereTheCameraProjectsThem) {
+TEST_F(CameraLensTest, PointsAreWhereTheCameraProjectsThem) {
   const Pose near = look_at({0.02, -0.24, 0.03}, {0.01, 0, 0}, 0.05);
   for (const std::array<double, 4>& distortion :
        {std::array<double, 4>{-0.05, 0, 0, 0}, {-0.12, 0.02, 0.001, -0.002}, {0.03, 0, 0, 0}}) {
@@ -364,7 +290,7 @@ TEST_F(LensTest, PointsAreWhereTheCameraProjectsThem) {
   }
 }
 
-TEST_F(LensTest, LabelsAreBentWithTheImage) {
+TEST_F(CameraLensTest, LabelsAreBentWithTheImage) {
   const PinholeCamera camera = lens(-0.12, 0.02, 0.001, -0.002);
   const Pose pose = look_at({0.02, -0.21, 0.03}, {0.01, 0, 0}, 0.05);
   const cv::Mat labels = capture(camera, pose).labels;
@@ -383,7 +309,7 @@ TEST_F(LensTest, LabelsAreBentWithTheImage) {
   EXPECT_LT(wrong, 1000);
 }
 
-TEST_F(LensTest, ReadoutBandsOfALensJoin) {
+TEST_F(CameraLensTest, ReadoutBandsOfALensJoin) {
   const PinholeCamera camera = lens(-0.12, 0.02, 0.001, -0.002);
   const Pose pose = look_at({0.02, -0.21, 0.03}, {0.01, 0, 0}, 0.05);
   CameraSensorConfig rolling = off();
@@ -394,23 +320,6 @@ TEST_F(LensTest, ReadoutBandsOfALensJoin) {
   cv::absdiff(bands, whole, difference);
   // The view of each band is cut out of the same one; rounding of its float crop is all.
   EXPECT_LT(cv::countNonZero(cv::Mat(difference.reshape(1) > 4)), 0.002 * 3 * whole.total());
-}
-
-TEST_F(LensTest, ALensThatFoldsOverIsRefused) {
-  EXPECT_THROW(make_lens_bands(lens(-0.5, 0, 0, 0), 1), Error);
-  EXPECT_THROW(make_lens_bands(lens(std::nan(""), 0, 0, 0), 1), Error);
-}
-
-TEST_F(LensTest, TheViewCoversTheImageAndKeepsItsDetail) {
-  for (const PinholeCamera& camera : {lens(-0.1, 0.01, 0, 0), lens(0.05, 0, 0, 0)}) {
-    const PinholeCamera view = make_lens_bands(camera, 1).front().view;
-    EXPECT_GE(view.fx, camera.fx);
-    EXPECT_LE(view.fx, 1.5 * camera.fx);
-    for (const Eigen::Vector2d& corner :
-         {Eigen::Vector2d(0, 0), {751, 0}, {0, 479}, {751, 479}, {375, 0}, {0, 240}}) {
-      EXPECT_TRUE(view.contains(view.project(camera.unproject(corner)), 1));
-    }
-  }
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
+#include "sim/scene/scene_check.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "sim/scene/scene_check.h"
 #include "tests/support/broken_files.h"
 
 namespace vinebench::sim {
@@ -17,9 +18,9 @@ using testing::HasSubstr;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-class BrokenSceneTest : public testing::Test {
+class SceneCheckTest : public testing::Test {
  protected:
-  BrokenSceneTest() {
+  SceneCheckTest() {
     scene_.instances.push_back({add_asset(scene_, small_plant()), Pose{}, 1, 0});
     scene_.wires.push_back({{0, 0, 0}, {1, 0, 0}, 0.001f, 0});
   }
@@ -32,11 +33,11 @@ class BrokenSceneTest : public testing::Test {
   Scene scene_;
 };
 
-TEST_F(BrokenSceneTest, TheSceneItselfIsWhole) {
+TEST_F(SceneCheckTest, TheSceneItselfIsWhole) {
   EXPECT_NO_THROW(check_scene(scene_));
 }
 
-TEST_F(BrokenSceneTest, TexturesOfWrongSizeOrKind) {
+TEST_F(SceneCheckTest, TexturesOfWrongSizeOrKind) {
   cv::Mat& rgba = scene_.textures[0].rgba;
   for (const cv::Mat& wrong : {cv::Mat(), cv::Mat(0, 4, CV_8UC4), cv::Mat(4, 4, CV_8UC3),
                                cv::Mat(4, 4, CV_32FC4), cv::Mat(4, 4, CV_8UC1)}) {
@@ -49,7 +50,7 @@ TEST_F(BrokenSceneTest, TexturesOfWrongSizeOrKind) {
   EXPECT_NO_THROW(check_scene(scene_));
 }
 
-TEST_F(BrokenSceneTest, WhatNamesWhatIsNotThere) {
+TEST_F(SceneCheckTest, WhatNamesWhatIsNotThere) {
   primitive().indices[1] = 1u << 31;
   EXPECT_THAT(problem(), HasSubstr("model 'plant' names vertex 2147483648"));
   primitive().indices[1] = 0;
@@ -67,9 +68,27 @@ TEST_F(BrokenSceneTest, WhatNamesWhatIsNotThere) {
   scene_.instances.clear();
   scene_.wires[0].material = 9;
   EXPECT_THAT(problem(), HasSubstr("wire 0 names material 9"));
+  scene_.wires.clear();
+  scene_.rover_model = 1;
+  EXPECT_THAT(problem(), HasSubstr("the rover names model 1, expected 0 to 0"));
 }
 
-TEST_F(BrokenSceneTest, NumbersThatAreNone) {
+TEST_F(SceneCheckTest, ScalesArePositiveAndPlacesWithinReach) {
+  for (const float scale : {0.0f, -1.0f, std::numeric_limits<float>::infinity()}) {
+    scene_.instances[0].scale = scale;
+    EXPECT_THAT(problem(), HasSubstr("instance 0: expected a scale above 0"));
+  }
+  scene_.instances[0].scale = 1;
+  // A thousand kilometres, beyond which squares of distances overflow.
+  scene_.instances[0].T_world_model.translation.x() = -2e6;
+  EXPECT_THAT(problem(), HasSubstr("instance 0"));
+  scene_.instances[0].T_world_model.translation.x() = -1e6;
+  EXPECT_NO_THROW(check_scene(scene_));
+  primitive().vertices[2].position.z() = 2e6f;
+  EXPECT_THAT(problem(), HasSubstr("vertex 2"));
+}
+
+TEST_F(SceneCheckTest, NumbersThatAreNone) {
   const auto broken = [&](auto& number) {
     const auto sound = number;
     number = kNan;

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/render/gl/scene/mip_levels.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+
+#include "core/util/random.h"
+
+namespace vinebench::sim {
+namespace {
+
+/// Alphas drawn at random, that share of them at least one half.
+cv::Mat speckled(double share, int side) {
+  const RandomStream random(1, "alpha");
+  cv::Mat rgba(side, side, CV_8UC4, cv::Scalar(60, 120, 40, 0));
+  for (int i = 0; i < side * side; ++i) {
+    const double alpha = random.uniform(static_cast<std::uint64_t>(i)) + share - 0.5;
+    rgba.at<cv::Vec4b>(i / side, i % side)[3] = cv::saturate_cast<std::uint8_t>(255 * alpha);
+  }
+  return rgba;
+}
+
+TEST(MipLevelsTest, EachHasHalfTheSizeDownToAPixel) {
+  const std::vector<cv::Mat> levels =
+      mip_levels(cv::Mat(4, 17, CV_8UC4, cv::Scalar::all(9)), false);
+  const std::vector<cv::Size> sizes{{17, 4}, {8, 2}, {4, 1}, {2, 1}, {1, 1}};
+  ASSERT_EQ(levels.size(), sizes.size());
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    EXPECT_EQ(levels[i].size(), sizes[i]);
+    EXPECT_EQ(levels[i].type(), CV_8UC4);
+  }
+}
+
+TEST(MipLevelsTest, LightIsAveragedAsLight) {
+  cv::Mat rgba(2, 2, CV_8UC4, cv::Scalar(0, 255, 255, 255));
+  rgba.at<cv::Vec4b>(0, 1) = rgba.at<cv::Vec4b>(1, 0) = {255, 0, 255, 255};
+  const cv::Vec4b mean = mip_levels(rgba, false)[1].at<cv::Vec4b>(0, 0);
+  // Half of white: 255 * 0.5^(1 / 2.2) = 186.1.
+  EXPECT_EQ(mean, cv::Vec4b(186, 186, 255, 255));
+}
+
+TEST(MipLevelsTest, TheFinestIsACopy) {
+  const cv::Mat rgba = speckled(0.5, 16);
+  const cv::Mat finest = mip_levels(rgba, true).front();
+  EXPECT_NE(finest.data, rgba.data);
+  EXPECT_EQ(cv::norm(finest, rgba, cv::NORM_INF), 0);
+}
+
+TEST(MipLevelsTest, ACutOutKeepsItsCoverage) {
+  for (const double share : {0.2, 0.6}) {
+    const cv::Mat rgba = speckled(share, 64);
+    const double coverage = alpha_coverage(rgba);
+    const std::vector<cv::Mat> levels = mip_levels(rgba, true);
+    for (std::size_t i = 1; levels[i].cols >= 8; ++i) {
+      // Means of 64 texels are within some 6 % of each other: what a rounded byte lets pass is up
+      // to 8 % of them.
+      EXPECT_NEAR(alpha_coverage(levels[i]), coverage, 0.1) << share << " " << i;
+    }
+    // Without it, the mean passes everywhere or nowhere.
+    EXPECT_EQ(alpha_coverage(mip_levels(rgba, false)[4]), share > 0.5 ? 1 : 0);
+  }
+}
+
+TEST(MipLevelsTest, ACutOutsBackgroundDoesNotBleed) {
+  cv::Mat rgba(2, 2, CV_8UC4, cv::Scalar(0, 255, 0, 0));
+  rgba.at<cv::Vec4b>(0, 0) = {200, 0, 0, 255};
+  const cv::Vec4b mean = mip_levels(rgba, true)[1].at<cv::Vec4b>(0, 0);
+  // The background counts a thousandth each: green of (3 / 1003)^(1 / 2.2) is 18 of 255.
+  EXPECT_NEAR(mean[0], 200, 2);
+  EXPECT_LT(mean[1], 20);
+}
+
+TEST(MipLevelsTest, CoverageIsTheShareOfAlphasOfAtLeastAHalf) {
+  cv::Mat rgba(1, 4, CV_8UC4, cv::Scalar::all(255));
+  rgba.at<cv::Vec4b>(0, 1)[3] = 128;
+  rgba.at<cv::Vec4b>(0, 2)[3] = 127;
+  rgba.at<cv::Vec4b>(0, 3)[3] = 0;
+  EXPECT_EQ(alpha_coverage(rgba), 0.5);
+}
+
+}  // namespace
+}  // namespace vinebench::sim

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/optimisation/problem_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+namespace vinebench::slam {
+namespace {
+
+// The solver's damping leaves 1e-4 of a step's rest twice: 1e-8.
+
+/// The residual x - wanted.
+class Wish : public ceres::SizedCostFunction<1, 1> {
+ public:
+  explicit Wish(double wanted) : wanted_(wanted) {}
+  bool Evaluate(double const* const* x, double* residual, double** jacobian) const override {
+    residual[0] = x[0][0] - wanted_;
+    if (jacobian != nullptr && jacobian[0] != nullptr) jacobian[0][0] = 1;
+    return true;
+  }
+
+ private:
+  double wanted_;
+};
+
+/// The residual p - wanted of a pose's position.
+class Place : public ceres::SizedCostFunction<3, 7> {
+ public:
+  explicit Place(const Eigen::Vector3d& wanted) : wanted_(wanted) {}
+  bool Evaluate(double const* const* x, double* residual, double** jacobian) const override {
+    const Pose pose = from_block(x[0]);
+    Eigen::Map<Eigen::Vector3d>{residual} = pose.translation - wanted_;
+    if (jacobian != nullptr && jacobian[0] != nullptr) {
+      // By the manifold's step: the body's own axes.
+      Eigen::Map<Eigen::Matrix<double, 3, 7, Eigen::RowMajor>> by_pose(jacobian[0]);
+      by_pose.setZero();
+      by_pose.leftCols<3>() = pose.rotation.toRotationMatrix();
+    }
+    return true;
+  }
+
+ private:
+  Eigen::Vector3d wanted_;
+};
+
+ceres::Solver::Options dense() {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.function_tolerance = 1e-14;
+  options.logging_type = ceres::SILENT;
+  return options;
+}
+
+class ProblemBuilderTest : public testing::Test {
+ protected:
+  ProblemBuilderTest() {
+    for (int k = 0; k < 4; ++k) {
+      map_.add_keyframe(std::make_shared<FrameFeatures>(),
+                        {exp_so3({0, 0, 0.3 * k}), {1.0 * k, 0, 0}}, {});
+    }
+  }
+  Map map_{1.2};
+  const AdjustmentWindow window_{{1, 3}, {0}};
+};
+
+TEST_F(ProblemBuilderTest, TheWindowsKeyframesTakePartWithTheirPoses) {
+  ProblemBuilder problem(map_, window_);
+  EXPECT_TRUE(problem.takes_part(0) && problem.takes_part(1) && problem.takes_part(3));
+  EXPECT_FALSE(problem.takes_part(2));
+  for (const int id : {0, 1, 3}) {
+    const Pose pose = from_block(problem.pose_of(id));
+    EXPECT_LT((pose.translation - map_.keyframe(id).T_map_body.translation).norm(), 1e-12);
+    EXPECT_LT(angle_of(pose.rotation.conjugate() * map_.keyframe(id).T_map_body.rotation), 1e-7);
+  }
+}
+
+TEST_F(ProblemBuilderTest, OnlyMovedKeyframesMoveAndAreWrittenBack) {
+  ProblemBuilder problem(map_, window_);
+  Place left({3, 1, 0}), start({0, 0, 2});
+  problem.add_factor(left, nullptr, {problem.pose_of(3)});
+  problem.add_factor(start, nullptr, {problem.pose_of(0)});
+  // Keyframe 0 is held 2 m off: half of 4.
+  EXPECT_NEAR(problem.solve(dense()), 2, 1e-12);
+  EXPECT_EQ(map_.keyframe(3).T_map_body.translation, Eigen::Vector3d(3, 0, 0));
+  problem.write_poses(map_);
+  EXPECT_LT((map_.keyframe(3).T_map_body.translation - Eigen::Vector3d(3, 1, 0)).norm(), 1e-7);
+  EXPECT_EQ(map_.keyframe(0).T_map_body.translation, Eigen::Vector3d(0, 0, 0));
+  // Positions alone were asked for: the heading of 0.9 rad stays.
+  EXPECT_NEAR(angle_of(map_.keyframe(3).T_map_body.rotation), 0.9, 1e-7);
+}
+
+TEST_F(ProblemBuilderTest, BlocksOfOthersAreHeldUntilReleased) {
+  double point = 1, other = 5;
+  ProblemBuilder problem(map_, window_);
+  problem.add_block(&point, 1, ProblemBuilder::Group::kLandmarks);
+  problem.add_block(&other, 1, ProblemBuilder::Group::kOthers);
+  problem.hold(&other);
+  Wish four(4), two(2);
+  problem.add_factor(four, nullptr, {&point});
+  problem.add_factor(two, nullptr, {&other});
+  EXPECT_NEAR(problem.solve(dense()), 0.5 * 9, 1e-9);
+  EXPECT_NEAR(point, 4, 1e-7);
+  EXPECT_EQ(other, 5);
+  problem.release(&other);
+  EXPECT_NEAR(problem.solve(dense()), 0, 1e-9);
+  EXPECT_NEAR(other, 2, 1e-7);
+}
+
+TEST_F(ProblemBuilderTest, TheCostIsUnderTheLoss) {
+  double held = 10;
+  ProblemBuilder problem(map_, window_);
+  problem.add_block(&held, 1, ProblemBuilder::Group::kOthers);
+  problem.hold(&held);
+  double free = 0;
+  problem.add_block(&free, 1, ProblemBuilder::Group::kOthers);
+  Wish zero(0);
+  ceres::HuberLoss huber(1);
+  problem.add_factor(zero, &huber, {&held});
+  problem.add_factor(zero, nullptr, {&free});
+  // Half of 2 * 10 - 1.
+  EXPECT_NEAR(problem.solve(dense()), 9.5, 1e-9);
+}
+
+}  // namespace
+}  // namespace vinebench::slam

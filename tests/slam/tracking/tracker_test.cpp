@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/tracking/tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/aisle_map.h"
+
+namespace vinebench::slam {
+namespace {
+
+using test::AisleMap;
+using test::angle;
+using test::distance;
+using test::SyntheticAisle;
+
+Pose ahead(double x, double yaw = 0) {
+  return {exp_so3({0, 0, yaw}), {x, 0, 0}};
+}
+
+std::vector<Pose> along_the_aisle() {
+  std::vector<Pose> poses;
+  for (int i = 0; i < 8; ++i) poses.push_back(ahead(0.25 * i));
+  return poses;
+}
+
+class TrackerTest : public testing::Test {
+ protected:
+  TrackedFrame track(Tracker& tracker, std::int64_t index, const Pose& pose,
+                     const std::vector<std::size_t>& blind = {},
+                     const std::optional<Pose>& wheels = std::nullopt) {
+    auto frame = aisle_.frame(index, pose, blind);
+    frame->wheels = wheels;
+    return tracker.track(frame, made_.map, made_.rig);
+  }
+  /// A tracker that has followed a few frames of 2 cm each.
+  Tracker moving(int frames) {
+    Tracker tracker(settings_);
+    tracker.start(ahead(0), stamp_of_frame(0, 15));
+    for (int i = 1; i <= frames; ++i) EXPECT_TRUE(track(tracker, i, ahead(0.02 * i)).tracked) << i;
+    return tracker;
+  }
+  static const std::vector<std::size_t>& all_blind() {
+    static const std::vector<std::size_t> kAll{0, 1};
+    return kAll;
+  }
+
+  SyntheticAisle aisle_{0, 1, 1200};
+  AisleMap made_{aisle_, along_the_aisle()};
+  TrackerSettings settings_;
+};
+
+// Pixels are floats, 3e-5 px at 500: some hundred put a pose right to 1e-6 m.
+TEST_F(TrackerTest, FollowsTheBodyAndTiesItsFeatures) {
+  Tracker tracker(settings_);
+  tracker.start(ahead(0), stamp_of_frame(0, 15));
+  for (int i = 1; i <= 10; ++i) {
+    const Pose truth = ahead(0.02 * i, 0.01 * i);
+    const TrackedFrame tracked = track(tracker, i, truth);
+    ASSERT_TRUE(tracked.tracked) << i;
+    EXPECT_LT(distance(tracked.motion.T_map_body, truth), 2e-6) << i;
+    EXPECT_LT(angle(tracker.T_map_body(), truth), 2e-6) << i;
+    const Associations right = made_.associate(*tracked.frame);
+    int tied = 0;
+    for (std::size_t v = 0; v < right.size(); ++v) {
+      for (std::size_t f = 0; f < right[v].size(); ++f) {
+        if (tracked.associations[v][f] < 0) continue;
+        EXPECT_EQ(tracked.associations[v][f], right[v][f]);
+        ++tied;
+      }
+    }
+    EXPECT_EQ(tied, tracked.motion.inliers);
+    EXPECT_GT(tied, 100);
+  }
+}
+
+TEST_F(TrackerTest, FindsItselfWhereThePredictionIsFarOff) {
+  Tracker tracker = moving(3);
+  // A jolt of 0.4 rad: 100 px, beyond the widest search of 40 px.
+  const Pose jolted = ahead(0.1, 0.4);
+  const TrackedFrame tracked = track(tracker, 4, jolted);
+  ASSERT_TRUE(tracked.tracked);
+  EXPECT_LT(distance(tracked.motion.T_map_body, jolted), 2e-6);
+}
+
+TEST_F(TrackerTest, APoseByAppearanceMustBeWithinReach) {
+  settings_.tracking.max_speed = 3;  // m/s: 0.2 m a frame
+  Tracker tracker = moving(3);
+  // The same jump is beyond reach for one of 3 m/s, and within for one of 35 m/s.
+  EXPECT_FALSE(track(tracker, 4, ahead(0.8, 0.4)).tracked);
+  settings_.tracking.max_speed = 35;
+  Tracker fast = moving(3);
+  EXPECT_TRUE(track(fast, 4, ahead(0.8, 0.4)).tracked);
+}
+
+TEST_F(TrackerTest, WithoutSightItsLastVelocityIsKept) {
+  Tracker tracker = moving(5);
+  const TrackedFrame tracked = track(tracker, 6, ahead(0.12), all_blind());
+  EXPECT_FALSE(tracked.tracked);
+  EXPECT_TRUE(tracker.dead_reckoning().active());
+  EXPECT_LT(distance(tracker.T_map_body(), ahead(0.12)), 1e-5);
+  track(tracker, 7, ahead(0.14), all_blind());
+  EXPECT_EQ(tracker.dead_reckoning().frames(), 2);
+  EXPECT_LT(distance(tracker.T_map_body(), ahead(0.14)), 1e-5);
+  EXPECT_TRUE(track(tracker, 8, ahead(0.16)).tracked);
+  EXPECT_FALSE(tracker.dead_reckoning().active());
+}
+
+TEST_F(TrackerTest, WithoutSightItsWheelsAreBelievedBeforeItsVelocity) {
+  Tracker tracker = moving(5);
+  const Pose step = ahead(0.05, 0.1);
+  track(tracker, 6, ahead(0.1), all_blind(), step);
+  EXPECT_LT(distance(tracker.T_map_body(), ahead(0.1) * step), 1e-5);
+  // The next prediction is by the wheels too, so that sight is found there.
+  const Pose next = ahead(0.1) * step * step;
+  EXPECT_TRUE(track(tracker, 7, next, {}, step).tracked);
+  EXPECT_LT(distance(tracker.T_map_body(), next), 1e-5);
+}
+
+TEST_F(TrackerTest, SightThatComesBackMustAgreeWithDeadReckoning) {
+  Tracker tracker = moving(5);
+  const Pose step = ahead(0.02);
+  track(tracker, 6, ahead(0.12), all_blind(), step);
+  // 2 cm by the wheels with 5 % of slip, four deviations of it and 5 cm of the pose's own: 5.4 cm.
+  EXPECT_FALSE(track(tracker, 7, ahead(0.14 + 0.15), {}, step).tracked);
+  EXPECT_TRUE(track(tracker, 8, ahead(0.16 + 0.02), {}, step).tracked);
+}
+
+TEST_F(TrackerTest, ACorrectionMovesThePrediction) {
+  Tracker tracker = moving(5);
+  // Something knows the body to be half a metre ahead.
+  tracker.correct(ahead(0.6));
+  EXPECT_EQ(tracker.T_map_body().translation.x(), 0.6);
+  track(tracker, 6, ahead(0.62), all_blind());
+  EXPECT_LT(distance(tracker.T_map_body(), ahead(0.62)), 1e-5);
+}
+
+TEST_F(TrackerTest, StartsStandingStill) {
+  Tracker tracker = moving(5);
+  tracker.start(ahead(1), stamp_of_frame(6, 15));
+  track(tracker, 7, ahead(1), all_blind());
+  EXPECT_EQ(distance(tracker.T_map_body(), ahead(1)), 0);
+}
+
+TEST_F(TrackerTest, TooFewInliersAreLost) {
+  settings_.tracking.min_inliers = 5000;
+  Tracker tracker(settings_);
+  tracker.start(ahead(0), stamp_of_frame(0, 15));
+  EXPECT_FALSE(track(tracker, 1, ahead(0.02)).tracked);
+}
+
+TEST(LocalLandmarksTest, AreThoseOfKeyframesThatShareMostOrAreNear) {
+  const SyntheticAisle aisle(0, 1, 800);
+  // Two places 4 m apart, and one near the first that looks the other way.
+  AisleMap made(aisle, {ahead(0), ahead(4), ahead(0.1, 3.0)});
+  const auto ids_of = [&](const std::vector<int>& keyframes) {
+    std::vector<int> ids;
+    for (const int k : keyframes) {
+      const std::vector<int> own = landmark_ids(made.map.keyframe(k).landmarks);
+      ids.insert(ids.end(), own.begin(), own.end());
+    }
+    std::ranges::sort(ids);
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    return ids;
+  };
+  // Nothing was seen: only keyframes within 1 m that look the same way.
+  EXPECT_EQ(local_landmarks(made.map, {}, ahead(0.5), 20), ids_of({0}));
+  EXPECT_TRUE(local_landmarks(made.map, {}, ahead(2), 20).empty());
+  // What the far keyframe alone saw brings it in.
+  std::vector<int> seen;
+  for (const int id : ids_of({1})) {
+    if (made.map.landmark(id).observations.size() == 1) seen.push_back(id);
+  }
+  ASSERT_GT(seen.size(), 3u);
+  EXPECT_EQ(local_landmarks(made.map, seen, ahead(2), 20), ids_of({1}));
+  EXPECT_EQ(local_landmarks(made.map, seen, ahead(0.5), 20), ids_of({0, 1}));
+  // The one with most votes where there is room for one.
+  EXPECT_EQ(local_landmarks(made.map, seen, ahead(0.5), 1), ids_of({1}));
+}
+
+}  // namespace
+}  // namespace vinebench::slam
