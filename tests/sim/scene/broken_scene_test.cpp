@@ -49,6 +49,13 @@ TEST_F(BrokenSceneTest, TexturesOfWrongSizeOrKind) {
   EXPECT_NO_THROW(check_scene(scene_));
 }
 
+TEST_F(BrokenSceneTest, MotionsOfNothingOrToNowhere) {
+  scene_.motions.push_back({1, [](Stamp) { return Pose{}; }});
+  EXPECT_THAT(problem(), HasSubstr("motion 0 names instance 1"));
+  scene_.motions[0] = {0, {}};
+  EXPECT_THAT(problem(), HasSubstr("motion 0: expected a pose for each instant"));
+}
+
 TEST_F(BrokenSceneTest, WhatNamesWhatIsNotThere) {
   primitive().indices[1] = 1u << 31;
   EXPECT_THAT(problem(), HasSubstr("model 'plant' names vertex 2147483648"));
