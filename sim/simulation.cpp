@@ -42,6 +42,7 @@ class Simulation : public SimulatedSource {
         wheels_(config.sensors.wheels) {
     window_ = from_seconds(config.sensors.camera.half_window()) + timing_.longest_delay();
     Scene scene = build_scene(config.world, seed, cache);
+    something_moves_ = !scene.motions.empty();
     add_rover(scene, config.rover.model);
     index_of_scene_ = index_of(scene);
     for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
@@ -196,7 +197,7 @@ class Simulation : public SimulatedSource {
     request.depth = plan_.depth;
     request.instances = plan_.instances;
     request.normals = plan_.normals;
-    request.motion = plan_.motion && config_.world.wind.speed > 0;
+    request.motion = plan_.motion && (config_.world.wind.speed > 0 || something_moves_);
     request.other_time = to_seconds(timing_.instant(index_ + plan_.every));
   }
 
@@ -229,6 +230,7 @@ class Simulation : public SimulatedSource {
   SceneIndex index_of_scene_;
   std::vector<OccluderClass> occluders_;  ///< classes of the world's
   std::vector<WorldTag> tags_;
+  bool something_moves_ = false;  ///< beside the rover and what the wind moves
   Rig nominal_rig_;
   Rig rig_;  ///< the true rig
   DrivenRover rover_;

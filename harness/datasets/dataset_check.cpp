@@ -31,6 +31,14 @@ bool has_wind(const fs::path& scenario) {
   return speed.as<double>(0) != 0;
 }
 
+bool has_moving_occluders(const fs::path& scenario) {
+  const YAML::Node world = YAML::LoadFile(scenario.string())["world"];
+  for (const auto& occluder : world["occluders"]) {
+    if (occluder["path"]) return true;
+  }
+  return false;
+}
+
 /// One sequence, or the folder of several.
 class Check {
  public:
@@ -54,6 +62,7 @@ class Check {
     check_frames();
     sequence_.rig = read_calibration(folder_ / "calibration.yaml");
     sequence_.windy = has_wind(folder_ / "scenario.resolved.yaml");
+    sequence_.busy = has_moving_occluders(folder_ / "scenario.resolved.yaml");
     check_formats();
   }
 

@@ -19,6 +19,7 @@ namespace vinebench::sim {
 namespace {
 
 constexpr double kMostVertices = 10e6;
+constexpr float kSmoothest = 60;  // degrees; faces that meet at more have an edge
 
 float linear(float srgb) {
   return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
@@ -36,6 +37,7 @@ class MeshImporter {
     if (is_collada_) check_collada(text, file_.string());
     importer_.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                                  aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    importer_.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kSmoothest);
     const aiScene* scene =
         loaded(importer_.ReadFile(file_.string(), aiProcess_ValidateDataStructure));
     check_vertices(*scene);

@@ -18,7 +18,7 @@ struct RenderRequest {
   bool normals = false;
   bool motion = false;
   double exposure = 1;    ///< all light is multiplied by this before it is encoded
-  double time = 0;        ///< s, for what the wind moves
+  double time = 0;        ///< s, for Scene::motions and what the wind moves
   double other_time = 0;  ///< s, for motion
   /// Where Scene::rover_model stands; it is not there, and casts no shadow, where absent.
   std::optional<Pose> T_world_rover = std::nullopt;
@@ -44,7 +44,7 @@ class RenderEngine {
 };
 
 /// What the truth images of two views need of an engine, drawn at `time` and compared with a view
-/// of `other_time` (s; of account only where the wind blows).
+/// of `other_time` (s; of account only where something moves).
 inline RenderRequest truth_request(double time = 0, double other_time = 0) {
   RenderRequest request;
   request.labels = request.depth = request.instances = request.normals = request.motion = true;

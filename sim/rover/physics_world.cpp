@@ -95,9 +95,9 @@ std::string trunks_mjcf(const WorldConfig& world, const WorldLayout& layout, std
   return geoms;
 }
 
-std::string block_mjcf(const std::string& name, const Pose& T_world_occluder, const Block& block) {
-  const Eigen::Vector3d at = T_world_occluder * block.centre;
-  const Eigen::Quaterniond& q = T_world_occluder.rotation;
+std::string block_mjcf(const std::string& name, const Pose& T_parent_occluder, const Block& block) {
+  const Eigen::Vector3d at = T_parent_occluder * block.centre;
+  const Eigen::Quaterniond& q = T_parent_occluder.rotation;
   return fmt::format(
       "    <geom name=\"{}\" type=\"box\" pos=\"{} {} {}\" quat=\"{} {} {} {}\" size=\"{} {} "
       "{}\"/>\n",
@@ -105,20 +105,48 @@ std::string block_mjcf(const std::string& name, const Pose& T_world_occluder, co
       block.half.z());
 }
 
-/// Named by class and place in the world's list, and where there are several, the block.
+/// Class and place in the world's list.
+std::string occluder_name(const WorldConfig& world, std::size_t index) {
+  return fmt::format("{} {}", name_of(class_of(world.occluders[index])), index);
+}
+
+/// Named by the occluder, and where there are several, the block.
+std::string blocks_mjcf(const WorldConfig& world, std::size_t index,
+                        const Pose& T_parent_occluder) {
+  const Occluder& occluder = world.occluders[index];
+  const std::vector<Block> blocks = shape_of(occluder).blocks(occluder);
+  std::string geoms;
+  for (std::size_t part = 0; part < blocks.size(); ++part) {
+    const std::string of_part = blocks.size() > 1 ? fmt::format(" block {}", part) : "";
+    geoms += block_mjcf(occluder_name(world, index) + of_part, T_parent_occluder, blocks[part]);
+  }
+  return geoms;
+}
+
+/// Geoms of the occluders that keep still.
 std::string occluders_mjcf(const WorldConfig& world, const WorldLayout& layout) {
   std::string geoms;
   for (std::size_t i = 0; i < world.occluders.size(); ++i) {
-    const Occluder& occluder = world.occluders[i];
-    const Pose& pose = layout.occluders[i];
-    const std::vector<Block> blocks = shape_of(occluder).blocks(occluder);
-    const std::string name = fmt::format("{} {}", name_of(class_of(occluder)), i);
-    for (std::size_t part = 0; part < blocks.size(); ++part) {
-      const std::string of_part = blocks.size() > 1 ? fmt::format(" block {}", part) : "";
-      geoms += block_mjcf(name + of_part, pose, blocks[part]);
-    }
+    if (!world.occluders[i].path) geoms += blocks_mjcf(world, i, layout.occluders[i]);
   }
   return geoms;
+}
+
+/// Bodies of the occluders that move: what they push away does not slow them.
+std::string moving_mjcf(const WorldConfig& world, const WorldLayout& layout) {
+  std::string bodies;
+  for (std::size_t i = 0; i < world.occluders.size(); ++i) {
+    if (!world.occluders[i].path) continue;
+    const Pose& pose = layout.occluders[i];
+    const Eigen::Vector3d& p = pose.translation;
+    const Eigen::Quaterniond& q = pose.rotation;
+    bodies += fmt::format(
+        "    <body name=\"{}\" mocap=\"true\" childclass=\"obstacle\" pos=\"{} {} {}\" "
+        "quat=\"{} {} {} {}\">\n{}    </body>\n",
+        occluder_name(world, i), p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(),
+        blocks_mjcf(world, i, {}));
+  }
+  return bodies;
 }
 
 /// Lowest and highest node, m.
@@ -179,10 +207,11 @@ std::string world_mjcf(const WorldConfig& world, const std::filesystem::path& ro
   <worldbody>
     <body name="obstacles" childclass="obstacle">
 {}    </body>
-  </worldbody>
+{}  </worldbody>
 </mujoco>
 )",
-                     xml_escaped(rover_include.string()), asset, ground, geoms);
+                     xml_escaped(rover_include.string()), asset, ground, geoms,
+                     moving_mjcf(world, layout));
 }
 
 PhysicsWorld::PhysicsWorld(const std::filesystem::path& rover, const WorldConfig& world,
@@ -206,9 +235,24 @@ PhysicsWorld::PhysicsWorld(const std::filesystem::path& rover, const WorldConfig
   std::array<char, 1000> reason{};
   model_.reset(mj_loadXML(file.name().c_str(), nullptr, reason.data(), reason.size()));
   if (!model_) fail("{}: is not a valid MJCF model: {}", rover.string(), reason.data());
-  if (!world.terrain.flat()) raise_ground(lay_out(world).terrain);
+  const Terrain terrain = lay_out(world).terrain;
+  if (!terrain.flat()) raise_ground(terrain);
   state_.reset(mj_makeData(model_.get()));
   if (!state_) fail("{}: no memory for the physics' state", rover.string());
+  for (std::size_t i = 0; i < world.occluders.size(); ++i) {
+    if (!world.occluders[i].path) continue;
+    const int body = find(mjOBJ_BODY, occluder_name(world, i));
+    moving_.push_back({model_->body_mocapid[body], OccluderMotion(world.occluders[i], terrain)});
+  }
+}
+
+void PhysicsWorld::move_occluders(Stamp stamp) {
+  for (const auto& [body, motion] : moving_) {
+    const Pose pose = motion.at(stamp);
+    const Eigen::Quaterniond& q = pose.rotation;
+    Eigen::Map<Eigen::Vector3d>(state_->mocap_pos + 3 * body) = pose.translation;
+    Eigen::Map<Eigen::Vector4d>(state_->mocap_quat + 4 * body) << q.w(), q.x(), q.y(), q.z();
+  }
 }
 
 /// MuJoCo stores elevations relative to the height field's maximum.

@@ -7,16 +7,17 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "sim/world/occluder_pose.h"
 #include "sim/world/world.h"
 
 namespace vinebench::sim {
 
-class Terrain;
-
-/// The MJCF text of a world: ground, posts, trunks and occluders as static geoms, and the rover
-/// by include. `rover_include` is the rover's MJCF file relative to the text's folder. `seed`
-/// selects, as in build_scene, the missing vines.
+/// The MJCF text of a world: ground, posts, trunks and occluders as static geoms, occluders that
+/// move as mocap bodies, and the rover by include. `rover_include` is the rover's MJCF file
+/// relative to the text's folder. `seed` selects, as in build_scene, the missing vines.
 std::string world_mjcf(const WorldConfig& world, const std::filesystem::path& rover_include,
                        std::uint64_t seed = 1);
 
@@ -43,6 +44,10 @@ class PhysicsWorld {
     mj_step1(model_.get(), state_.get());
   }
 
+  /// Moves the occluders that have a path to where they are then; the next evaluation of the state
+  /// takes account of it.
+  void move_occluders(Stamp stamp);
+
   /// Throws Error if MuJoCo had a numerical problem (it would continue from a reset state) or ran
   /// out of contacts.
   void check() const;
@@ -59,9 +64,13 @@ class PhysicsWorld {
     void operator()(mjModel* model) const { mj_deleteModel(model); }
     void operator()(mjData* state) const { mj_deleteData(state); }
   };
+  /// Index of the mocap body, and its motion.
+  using MovingOccluder = std::pair<int, OccluderMotion>;
+
   std::filesystem::path rover_;
   std::unique_ptr<mjModel, Free> model_;
   std::unique_ptr<mjData, Free> state_;
+  std::vector<MovingOccluder> moving_;
 };
 
 }  // namespace vinebench::sim

@@ -285,6 +285,7 @@ void Rover::advance_to(Stamp stamp, std::vector<ImuSample>& imu, std::vector<Whe
   }
   physics.sample(std::min(stamp, physics.time), imu, wheels);
   while (physics.time < stamp) {
+    physics.world.move_occluders(physics.time + physics.step_length);
     physics.step();
     physics.sample(std::min(stamp, physics.time), imu, wheels);
   }

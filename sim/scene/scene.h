@@ -5,11 +5,13 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
 #include <opencv2/core/mat.hpp>
 #include <string>
 #include <vector>
 
 #include "core/geometry/pose.h"
+#include "core/time.h"
 #include "core/truth/labels.h"
 
 namespace vinebench::sim {
@@ -64,10 +66,16 @@ struct Model {
 };
 
 struct Instance {
-  int model = 0;  ///< index into Scene::models
-  Pose T_world_model;
+  int model = 0;       ///< index into Scene::models
+  Pose T_world_model;  ///< at t = 0 where it moves
   float scale = 1;
   int id = 0;  ///< stable number of this object: a plant's index in its world
+};
+
+/// An instance that moves.
+struct Motion {
+  int instance = 0;                          ///< index into Scene::instances
+  std::function<Pose(Stamp)> T_world_model;  ///< of time alone
 };
 
 /// A straight wire, drawn as a strip that faces the camera.
@@ -102,6 +110,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Model> models;
   std::vector<Instance> instances;
+  std::vector<Motion> motions;  ///< of the instances that do not keep still
   int rover_model = -1;  ///< index into models of the rover posed by RenderRequest; -1 for none
   std::vector<Wire> wires;
   Light light;

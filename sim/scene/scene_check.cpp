@@ -100,6 +100,11 @@ void check_scene(const Scene& scene) {
   for (const Material& material : scene.materials) check(material, scene);
   check_models(scene);
   for (std::size_t i = 0; i < scene.instances.size(); ++i) check(scene.instances[i], i, scene);
+  for (std::size_t i = 0; i < scene.motions.size(); ++i) {
+    const std::string where = fmt::format("motion {}", i);
+    check_index(scene.motions[i].instance, scene.instances.size(), "instance", where);
+    if (!scene.motions[i].T_world_model) fail("scene: {}: expected a pose for each instant", where);
+  }
   if (scene.rover_model != -1) {
     check_index(scene.rover_model, scene.models.size(), "model", "the rover");
   }

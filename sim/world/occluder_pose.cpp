@@ -23,9 +23,8 @@ double lowest_ground(const Occluder& occluder, const Terrain& terrain) {
   return lowest;
 }
 
-}  // namespace
-
-Pose occluder_pose(const Occluder& occluder, const Terrain& terrain) {
+/// The occluder where it stands.
+Pose standing_pose(const Occluder& occluder, const Terrain& terrain) {
   const Eigen::Vector2d& at = occluder.position;
   const double yaw = occluder.yaw_deg * kRadians;
   if (occluder.shape == Occluder::Shape::kCrate) {
@@ -36,6 +35,23 @@ Pose occluder_pose(const Occluder& occluder, const Terrain& terrain) {
   const bool person = occluder.shape == Occluder::Shape::kPerson;
   const double ground = person ? terrain.height(at) : lowest_ground(occluder, terrain);
   return {from_roll_pitch_yaw({0, 0, yaw}), {at.x(), at.y(), ground + occluder.lift}};
+}
+
+}  // namespace
+
+Pose occluder_pose(const Occluder& occluder, const Terrain& terrain) {
+  return occluder.path ? OccluderMotion(occluder, terrain).at(0) : standing_pose(occluder, terrain);
+}
+
+OccluderMotion::OccluderMotion(const Occluder& occluder, const Terrain& terrain)
+    : occluder_(occluder), terrain_(terrain), motion_(occluder.path.value()) {}
+
+Pose OccluderMotion::at(Stamp stamp) const {
+  const Eigen::Vector3d there = motion_.at(stamp);
+  Occluder standing = occluder_;
+  standing.position = there.head<2>();
+  standing.yaw_deg += there.z() / kRadians;
+  return standing_pose(standing, terrain_);
 }
 
 }  // namespace vinebench::sim

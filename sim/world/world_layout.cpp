@@ -271,9 +271,13 @@ Site site_of(const WorldConfig& world) {
   for (const RowConfig& row : layout.rows) site.rows.push_back({row.start, row.end});
   site.vines = layout.vine_feet();
   site.posts = layout.post_feet();
-  for (const Occluder& occluder : world.occluders) {
-    site.objects.push_back({class_of(occluder), occluder.position, size_of(occluder).head<2>(),
-                            occluder.yaw_deg, colour_of(occluder)});
+  for (std::size_t i = 0; i < world.occluders.size(); ++i) {
+    const Occluder& occluder = world.occluders[i];
+    const Eigen::Vector2d centre = layout.occluders[i].translation.head<2>();
+    const double yaw =
+        occluder.path ? yaw_of(layout.occluders[i].rotation) / kRadians : occluder.yaw_deg;
+    site.objects.push_back(
+        {class_of(occluder), centre, size_of(occluder).head<2>(), yaw, colour_of(occluder)});
   }
   site.tags = world_tags(world);
   site.vine_spacing = world.vines.spacing;

@@ -102,6 +102,32 @@ TEST_F(SimulationTest, CratesAndPersonsCountWithoutAnyCartonOrTagCamera) {
   EXPECT_EQ(left.share(OccluderClass::kCarton), 0);
 }
 
+// A person crosses 1 m/s before the front pair: after 0.6 s it covers what one covers that stands
+// there.
+TEST_F(SimulationTest, AMovingOccluderCountsWhereItIs) {
+  SimulationConfig walking = config();
+  walking.route.waypoints.resize(1);
+  walking.route.waypoints[0].wait = 1;
+  walking.world.occluders.resize(1);
+  Occluder& person = walking.world.occluders[0];
+  person.shape = Occluder::Shape::kPerson;
+  person.path.emplace();
+  person.path->waypoints = {{{1.3, -0.7}}, {{1.3, 1}}};
+  SimulationConfig standing = walking;
+  standing.world.occluders[0].path.reset();
+  standing.world.occluders[0].position = {1.3, -0.1};
+  standing.world.occluders[0].yaw_deg = 90;
+  const auto share = [](const Sample& sample) {
+    return sample.truth.occlusion.at(0).share(OccluderClass::kPerson);
+  };
+  const std::vector<Sample> moved = run(walking), still = run(standing);
+  ASSERT_EQ(moved.size(), 10u);
+  EXPECT_GT(share(still[9]), 0.05);
+  // The rover has settled to a fraction of a millimetre: a few of the pixels on edges differ.
+  EXPECT_NEAR(share(moved[9]), share(still[9]), 0.002);
+  EXPECT_GT(std::abs(share(moved[0]) - share(moved[9])), 0.01);
+}
+
 TEST_F(SimulationTest, SameBytesForOneAndTwoThreadsWithEveryEffectOn) {
   SimulationConfig all = config();
   all.duration = 0.2;

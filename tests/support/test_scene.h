@@ -77,6 +77,41 @@ inline void add_instance(sim::Scene& scene, int model, const Eigen::Vector3d& po
                              static_cast<int>(scene.instances.size())});
 }
 
+/// A horizontal square around the origin, face up.
+inline sim::Primitive flat_panel(int material, double side) {
+  sim::Primitive primitive = panel(material, side, side);
+  for (sim::Vertex& vertex : primitive.vertices) {
+    vertex.position = {vertex.position.x(), vertex.position.z(), 0};
+    vertex.normal = Eigen::Vector3f::UnitZ();
+  }
+  return primitive;
+}
+
+/// Even ground from (-2, -4) to (10, 6).
+inline void add_even_ground(sim::Scene& scene) {
+  const int soil = add_material(scene, Label::kGround, {0.3f, 0.25f, 0.2f});
+  scene.materials[static_cast<std::size_t>(soil)].terrain = true;
+  const int tile = add_model(scene, flat_panel(soil, 0.5));
+  for (int x = -4; x < 20; ++x) {
+    for (int y = -8; y < 12; ++y) add_instance(scene, tile, {0.5 * x, 0.5 * y, 0});
+  }
+}
+
+/// The last instance goes straight on from there.
+inline void add_motion(sim::Scene& scene, const Eigen::Vector3d& from,
+                       const Eigen::Vector3d& velocity) {
+  const int instance = static_cast<int>(scene.instances.size()) - 1;
+  scene.motions.push_back(
+      {instance, [from, velocity](Stamp stamp) {
+         return Pose{Eigen::Quaterniond::Identity(), from + to_seconds(stamp) * velocity};
+       }});
+}
+
+/// A camera that looks straight down on a point, x to the right.
+inline Pose above(double x, double y, double height) {
+  return {Eigen::Quaterniond(0, 1, 0, 0), {x, y, height}};
+}
+
 /// Uniform light, so that colours equal those of the textures.
 inline void light_evenly(sim::Scene& scene) {
   scene.light.sun.setZero();

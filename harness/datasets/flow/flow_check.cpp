@@ -18,8 +18,8 @@ constexpr double kAgreeing = 0.9;   // share of the pixels
 constexpr double kNearest = 0.05;   // m in front of a camera
 
 /// Whether a pixel's object may move.
-bool may_move(const cv::Mat& semantic, bool windy, int y, int x) {
-  if (semantic.empty()) return windy;
+bool may_move(const cv::Mat& semantic, const RecordedSequence& sequence, int y, int x) {
+  if (semantic.empty()) return sequence.windy || sequence.busy;
   switch (static_cast<Label>(semantic.at<std::uint8_t>(y, x))) {
     case Label::kRover:
       return true;
@@ -27,7 +27,14 @@ bool may_move(const cv::Mat& semantic, bool windy, int y, int x) {
     case Label::kCane:
     case Label::kBunch:
     case Label::kGrass:
-      return windy;
+      return sequence.windy;
+    case Label::kBox:
+    case Label::kCrate:
+    case Label::kPerson:
+    case Label::kTarpaulin:
+    case Label::kLooseLeaf:
+    case Label::kOccluder:
+      return sequence.busy;
     default:
       return false;
   }
@@ -67,7 +74,7 @@ void check_flow_image(LabelImages& images) {
     for (int x = 0; x < depth.cols; ++x) {
       const double z = depth.at<std::uint16_t>(y, x) * 1e-3;
       const cv::Vec3w& code = flow.at<cv::Vec3w>(y, x);  // valid, v, u
-      if (z <= 0 || code[0] == 0 || may_move(semantic, images.sequence().windy, y, x)) continue;
+      if (z <= 0 || code[0] == 0 || may_move(semantic, images.sequence(), y, x)) continue;
       const Eigen::Vector2d expected = place(x, y, z);
       const double by_depth = (place(x, y, z + kHalfMillimetre) - expected).norm();
       const Eigen::Vector2d recorded(x + (code[2] - kFlowZero) * kFlowStep,

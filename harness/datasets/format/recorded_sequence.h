@@ -30,6 +30,7 @@ struct RecordedSequence {
   std::vector<RecordedPose> frames;
   Rig rig;             ///< the cameras as they truly are: calibration.yaml
   bool windy = false;  ///< plants move by themselves
+  bool busy = false;   ///< occluders move
 
   /// Whether it has a file or folder of this name.
   bool has(const std::string& name) const;

@@ -38,7 +38,7 @@ int level_of(const GpuModel& model, double distance) {
 class View {
  public:
   View(const GpuScene& scene, const PinholeCamera& camera, const Pose& T_world_cam,
-       double lod_scale, const RoverShadow* shadow)
+       double lod_scale, const MovingShadow* shadow)
       : scene_(scene),
         frustum_(camera),
         camera_(T_world_cam.translation),
@@ -46,18 +46,13 @@ class View {
         nearer_(kLevelFocalLength / (lod_scale * std::max(camera.fx, camera.fy))),
         shadow_(shadow) {}
 
-  /// Adds the rover if it may be in view, with a precise test, because its own cameras are within
-  /// its bounds.
-  void add_rover(const Pose& T_world_rover) {
-    const Eigen::Affine3d cam_from_rover(cam_from_world_ * T_world_rover.matrix());
-    std::vector<Eigen::Vector3d> corners;
-    corners.reserve(scene_.rover_corners.size());
-    for (const Eigen::Vector3d& corner : scene_.rover_corners) {
-      corners.push_back(cam_from_rover * corner);
-    }
-    if (!frustum_.may_see(corners)) return;
-    const GpuModel& model = scene_.models[static_cast<std::size_t>(scene_.rover_model)];
-    add(place(scene_.rover_model, model, T_world_rover, 1), scene_.instances.size());
+  /// Adds what moves if its hull may be in view.
+  void add(const Mover& mover) {
+    const Eigen::Affine3d cam_from_model(cam_from_world_ * mover.placed.world_from_model);
+    std::vector<Eigen::Vector3d> hull;
+    hull.reserve(mover.hull->size());
+    for (const Eigen::Vector3d& point : *mover.hull) hull.push_back(cam_from_model * point);
+    if (frustum_.may_see(hull)) add(mover.placed, mover.index);
   }
 
   /// Adds the instance if it may be in view.
@@ -105,17 +100,19 @@ class View {
   Eigen::Vector3d camera_;
   Eigen::Matrix4d cam_from_world_;
   double nearer_;  ///< scales distances of levels from kLevelFocalLength
-  const RoverShadow* shadow_;
+  const MovingShadow* shadow_;
   std::vector<Visible> visible_;
 };
 
 }  // namespace
 
 DrawList make_draw_list(const GpuScene& scene, const PinholeCamera& camera, const Pose& T_world_cam,
-                        double lod_scale, const RoverInView& rover) {
-  View view(scene, camera, T_world_cam, lod_scale, rover.shadow);
-  for (std::size_t i = 0; i < scene.instances.size(); ++i) view.add(scene.instances[i], i);
-  if (rover.T_world_rover && scene.rover_model >= 0) view.add_rover(*rover.T_world_rover);
+                        double lod_scale, const MoversInView& moving) {
+  View view(scene, camera, T_world_cam, lod_scale, moving.shadow);
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    if (!scene.instances[i].moves) view.add(scene.instances[i], i);
+  }
+  for (const Mover& mover : moving.movers) view.add(mover);
   return view.list();
 }
 

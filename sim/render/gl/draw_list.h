@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "core/geometry/pose.h"
 #include "sim/render/gl/scene/frustum.h"
 #include "sim/render/gl/scene/gpu_scene.h"
-#include "sim/render/gl/shadows/rover_shadow.h"
+#include "sim/render/gl/shadows/moving_shadow.h"
 
 namespace vinebench::sim {
 
@@ -18,7 +17,7 @@ struct DrawBatch {
   int model = 0;
   int level = 0;
   int order = 0;        ///< draw order of the triangles
-  bool shaded = false;  ///< the rover's shadow may fall on them
+  bool shaded = false;  ///< the shadow of what moves may fall on them
   std::size_t first = 0;
   std::size_t count = 0;  ///< instances
 };
@@ -29,15 +28,15 @@ struct DrawList {
   std::vector<InstanceRow> rows;  ///< of the batches' instances, the model to the camera
 };
 
-/// The rover in a view.
-struct RoverInView {
-  std::optional<Pose> T_world_rover;    ///< absent where it is not there
-  const RoverShadow* shadow = nullptr;  ///< null where its shadow is not in view
+/// What moves, as a view has it.
+struct MoversInView {
+  std::vector<Mover> movers;
+  const MovingShadow* shadow = nullptr;  ///< null where none of their shadows is in view
 };
 
 /// Culls the instances against the view, chooses each one's level of detail by the distance of its
 /// nearest point and the camera's focal length, and batches what is about as far away.
 DrawList make_draw_list(const GpuScene& scene, const PinholeCamera& camera, const Pose& T_world_cam,
-                        double lod_scale, const RoverInView& rover);
+                        double lod_scale, const MoversInView& moving);
 
 }  // namespace vinebench::sim

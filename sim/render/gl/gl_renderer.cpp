@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "core/truth/rover_flow.h"
 #include "core/util/error.h"
@@ -49,7 +50,7 @@ cv::Mat instance_numbers(const cv::Mat& bytes) {
 class GlRenderer::Impl {
  public:
   Impl(const Scene& scene, const RendererConfig& config)
-      : config_(config), context_(make_gl_context(config.backend)) {
+      : config_(config), motions_(scene.motions), context_(make_gl_context(config.backend)) {
     const CurrentContext current(*context_);
     painter_ = std::make_unique<Painter>(current.gl(), scene, config.shadow_map_size);
   }
@@ -64,25 +65,47 @@ class GlRenderer::Impl {
   RenderedImage render(const PinholeCamera& camera, const Pose& T_world_cam,
                        const RenderRequest& request) {
     check_camera(camera);
-    const TruthParts truth{request.depth, request.instances, request.normals, request.motion};
+    const TruthParts truth{request.depth, request.instances || tells_movers_apart(request),
+                           request.normals, request.motion};
     const CurrentContext current(*context_);
     painter_->draw(target(current.gl(), camera.width, camera.height, truth.any()), camera,
                    T_world_cam, request.T_world_rover, config_.lod_scale,
                    {request.exposure, request.time, request.other_time}, truth);
     RenderedImage image = read(current.gl(), camera, request);
-    if (request.motion && request.T_world_rover && request.T_world_rover_other) {
+    if (request.motion) {
       const cv::Mat depth = request.depth ? image.depth : read_depth(current.gl(), camera);
-      move_rover(camera, T_world_cam, *request.T_world_rover, *request.T_world_rover_other,
-                 image.labels, depth, image.motion);
+      add_motion(camera, T_world_cam, request, depth, image);
     }
     check_gl(current.gl(), "drawing an image");
     if (!request.labels) image.labels.release();
+    if (!request.instances) image.instances.release();
     return image;
   }
 
  private:
   const GlTarget& target(const GlFunctions& gl, int width, int height, bool truth) {
     return targets_.try_emplace({width, height, truth}, gl, width, height, truth).first->second;
+  }
+
+  bool tells_movers_apart(const RenderRequest& request) const {
+    return request.motion && !motions_.empty();
+  }
+
+  /// Of the rover and of all that moves; the shaders know of the wind alone.
+  void add_motion(const PinholeCamera& camera, const Pose& T_world_cam,
+                  const RenderRequest& request, const cv::Mat& depth, RenderedImage& image) const {
+    if (request.T_world_rover && request.T_world_rover_other) {
+      move_rover(camera, T_world_cam, *request.T_world_rover, *request.T_world_rover_other,
+                 image.labels, depth, image.motion);
+    }
+    const Stamp now = from_seconds(request.time), other = from_seconds(request.other_time);
+    for (const Motion& motion : motions_) {
+      cv::Mat mask;
+      const int number = 256 * (motion.instance + 1);
+      cv::inRange(image.instances, number, number + 255, mask);
+      move_body(camera, T_world_cam, motion.T_world_model(now), motion.T_world_model(other), mask,
+                depth, image.motion);
+    }
   }
 
   /// The clip space is mirrored so that OpenGL's first row is the image's top one.
@@ -97,7 +120,7 @@ class GlRenderer::Impl {
     constexpr int kFromTo[] = {0, 0, 1, 1, 2, 2, 3, 3};
     cv::mixChannels(&pixels_, 1, parts, 2, kFromTo, 4);
     if (request.depth) image.depth = read_depth(gl, camera);
-    if (request.instances) {
+    if (request.instances || tells_movers_apart(request)) {
       read_pixels(gl, 1, size, GL_RGBA, GL_UNSIGNED_BYTE, CV_8UC4, pixels_);
       image.instances = instance_numbers(pixels_);
     }
@@ -123,6 +146,7 @@ class GlRenderer::Impl {
   }
 
   RendererConfig config_;
+  std::vector<Motion> motions_;
   std::unique_ptr<GlContext> context_;
   std::unique_ptr<Painter> painter_;
   std::map<std::tuple<int, int, bool>, GlTarget> targets_;  // by width, height, truth

@@ -3,6 +3,7 @@
 #include "sim/render/gl/painter.h"
 
 #include <array>
+#include <utility>
 
 #include "sim/render/gl/sky.h"
 
@@ -29,7 +30,7 @@ Painter::Painter(const GlFunctions& gl, const Scene& scene, int shadow_map_size)
       programs_(gl),
       shadow_map_(scene_, shadow_map_size),
       light_map_(scene_, shadow_map_, programs_, view_, shadow_map_size),
-      rover_shadow_(scene_, shadow_map_size),
+      moving_shadow_(scene_, shadow_map_size),
       coarse_shadows_(make_coarse_depth_sampler(gl)),
       sky_program_(gl, "sky", sky_vertex_shader(), sky_fragment_shader()),
       sky_(make_texture(gl, {sky_image(scene.light, scene.seed)}, false)),
@@ -65,7 +66,7 @@ void Painter::draw_meshes(const DrawList& list, bool terrain, bool truth) {
       if (material.terrain != terrain) continue;
       if (primitive.material != material_in_use || batch.shaded != shaded_in_use) {
         MeshShader shader = shader_of(material, truth);
-        shader.rover = batch.shaded;
+        shader.moving = batch.shaded;
         programs_.get(shader).use_for(material, shadow_map_.texel(), ground_light_);
         if (material.texture >= 0) {
           gl_.BindTexture(GL_TEXTURE_2D,
@@ -126,13 +127,10 @@ void Painter::draw_wires(const PinholeCamera& camera, const Pose& T_world_cam,
   draw_wire_pieces(wire_truth_program_, wires);
 }
 
-RoverInView Painter::cast_shadow(const PinholeCamera& camera, const Pose& T_world_cam,
-                                 const std::optional<Pose>& T_world_rover) {
-  RoverInView rover{T_world_rover, nullptr};
-  if (T_world_rover && rover_shadow_.cast(scene_, *T_world_rover, camera, T_world_cam)) {
-    rover.shadow = &rover_shadow_;
-  }
-  return rover;
+MoversInView Painter::cast_shadows(std::vector<Mover> movers, const PinholeCamera& camera,
+                                   const Pose& T_world_cam) {
+  const bool shade = moving_shadow_.cast(scene_, movers, camera, T_world_cam);
+  return {std::move(movers), shade ? &moving_shadow_ : nullptr};
 }
 
 void Painter::bind_maps() const {
@@ -140,26 +138,27 @@ void Painter::bind_maps() const {
   bind_texture(gl_, kShadowUnit, shadow_map_.texture());
   bind_texture(gl_, kCoarseShadowUnit, shadow_map_.texture());
   gl_.BindSampler(kCoarseShadowUnit, coarse_shadows_.get());
-  bind_texture(gl_, kRoverShadowUnit, rover_shadow_.texture());
+  bind_texture(gl_, kMovingShadowUnit, moving_shadow_.texture());
   gl_.ActiveTexture(GL_TEXTURE0 + kImageUnit);
 }
 
 void Painter::draw(const GlTarget& target, const PinholeCamera& camera, const Pose& T_world_cam,
                    const std::optional<Pose>& T_world_rover, double lod_scale,
                    const ViewSettings& settings, const TruthParts& truth) {
-  const RoverInView rover = cast_shadow(camera, T_world_cam, T_world_rover);
+  const MoversInView moving =
+      cast_shadows(scene_.movers(settings.time, T_world_rover), camera, T_world_cam);
   target.bind();
   ViewBlock view = make_view_block(camera, T_world_cam, scene_.light, scene_.wind, settings);
   view.shadow_from_cam = (shadow_map_.map_from_world() * T_world_cam.matrix()).cast<float>();
-  if (rover.shadow != nullptr) {
-    view.rover_shadow_from_cam =
-        (rover_shadow_.map_from_world() * T_world_cam.matrix()).cast<float>();
+  if (moving.shadow != nullptr) {
+    view.moving_shadow_from_cam =
+        (moving_shadow_.map_from_world() * T_world_cam.matrix()).cast<float>();
   }
   view.light_map = light_map_.map_from_world();
   view.lens.z() *= static_cast<float>(kSkyBrightest);
   view_.set(view);
   ground_light_ = LightMap::kBrightest * static_cast<double>(encoded(settings.exposure));
-  const DrawList list = make_draw_list(scene_, camera, T_world_cam, lod_scale, rover);
+  const DrawList list = make_draw_list(scene_, camera, T_world_cam, lod_scale, moving);
   scene_.set_instances(list.rows);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_LEQUAL);

@@ -7,7 +7,7 @@
 #include "sim/render/gl/scene/mesh_programs.h"
 #include "sim/render/gl/scene/view_block.h"
 #include "sim/render/gl/shadows/light_map.h"
-#include "sim/render/gl/shadows/rover_shadow.h"
+#include "sim/render/gl/shadows/moving_shadow.h"
 #include "sim/render/gl/shadows/shadow_map.h"
 #include "sim/render/gl/visible_wires.h"
 
@@ -39,8 +39,8 @@ class Painter {
   void draw_wires(const PinholeCamera& camera, const Pose& T_world_cam,
                   const TruthParts& truth) const;
   void draw_wire_pieces(const GlProgram& program, const std::vector<VisibleWires>& wires) const;
-  RoverInView cast_shadow(const PinholeCamera& camera, const Pose& T_world_cam,
-                          const std::optional<Pose>& T_world_rover);
+  MoversInView cast_shadows(std::vector<Mover> movers, const PinholeCamera& camera,
+                            const Pose& T_world_cam);
   void bind_maps() const;
   MeshShader shader_of(const Material& material, bool truth) const;
 
@@ -50,7 +50,7 @@ class Painter {
   MeshPrograms programs_;
   ShadowMap shadow_map_;
   LightMap light_map_;
-  RoverShadow rover_shadow_;
+  MovingShadow moving_shadow_;
   GlSampler coarse_shadows_;  ///< for vertices
   GlProgram sky_program_;
   GlTexture sky_;

@@ -213,6 +213,7 @@ class MujocoRenderer::Impl {
     const Current current(context_);
     make_room({camera.width, camera.height});
     world_.place_rover(request.T_world_rover);
+    world_.place_movers(request.time);
     mjv_updateScene(&world_.model(), &world_.state(), &option_, nullptr, &free_camera_, mjCAT_ALL,
                     &scene_);
     if (scene_.ngeom < world_.model().ngeom) fail("MuJoCo's renderer leaves geoms out");

@@ -243,7 +243,11 @@ MujocoScene::MujocoScene(const Scene& scene, double level_distance) {
   if (!state_) fail("no memory for MuJoCo's state of the scene");
   mj_forward(model_.get(), state_.get());
   enlarge(scene);
-  find_rover();
+  rover_ = find_body(kRoverNumber, {});
+  for (const Motion& motion : scene.motions) {
+    const Instance& instance = scene.instances[static_cast<std::size_t>(motion.instance)];
+    moving_.emplace_back(motion, find_body(motion.instance, instance.T_world_model));
+  }
   place_rover(std::nullopt);
 }
 
@@ -261,23 +265,36 @@ void MujocoScene::enlarge(const Scene& scene) {
   }
 }
 
-void MujocoScene::find_rover() {
+/// The geoms of that instance, which now stands there.
+MujocoScene::Body MujocoScene::find_body(int number, const Pose& T_world_body) const {
+  using Axes = Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>;
+  const Pose T_body_world = T_world_body.inverse();
+  Body body;
   for (int g = 0; g < model_->ngeom; ++g) {
-    if (instance_of(g) != kRoverNumber) continue;
-    const Eigen::Map<const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>> R(state_->geom_xmat +
-                                                                           9 * g);
-    rover_.push_back({g, Eigen::Map<const Eigen::Vector3d>(state_->geom_xpos + 3 * g), R});
+    if (instance_of(g) != number) continue;
+    const Eigen::Map<const Axes> R_world_geom(state_->geom_xmat + 9 * g);
+    body.push_back({g, T_body_world * Eigen::Map<const Eigen::Vector3d>(state_->geom_xpos + 3 * g),
+                    T_body_world.rotation.toRotationMatrix() * R_world_geom});
+  }
+  return body;
+}
+
+void MujocoScene::place(const Body& body, const Pose& T_world_body) {
+  for (const BodyGeom& part : body) {
+    Eigen::Map<Eigen::Vector3d>(state_->geom_xpos + 3 * part.geom) = T_world_body * part.at;
+    Eigen::Map<Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>>(state_->geom_xmat + 9 * part.geom) =
+        T_world_body.rotation.toRotationMatrix() * part.R_body_geom;
   }
 }
 
 void MujocoScene::place_rover(const std::optional<Pose>& T_world_rover) {
   const Pose hidden{Eigen::Quaterniond::Identity(), {0, 0, kOutOfSight}};
-  const Pose& T = T_world_rover ? *T_world_rover : hidden;
-  for (const RoverGeom& part : rover_) {
-    Eigen::Map<Eigen::Vector3d>(state_->geom_xpos + 3 * part.geom) = T * part.at;
-    Eigen::Map<Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>>(state_->geom_xmat + 9 * part.geom) =
-        T.rotation.toRotationMatrix() * part.R_rover_geom;
-  }
+  place(rover_, T_world_rover ? *T_world_rover : hidden);
+}
+
+void MujocoScene::place_movers(double time) {
+  const Stamp stamp = from_seconds(time);
+  for (const auto& [motion, body] : moving_) place(body, motion.T_world_model(stamp));
 }
 
 void MujocoScene::set_image_size(int width, int height) {

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/pose.h"
@@ -29,6 +30,9 @@ class MujocoScene {
   /// Puts the scene's rover there; out of sight where absent.
   void place_rover(const std::optional<Pose>& T_world_rover);
 
+  /// Puts what moves where it is at a time, s.
+  void place_movers(double time);
+
   /// Index into Scene::instances of a geom; -1 of a wire, -2 of the rover.
   int instance_of(int geom) const { return static_cast<int>(model_->geom_user[geom]); }
 
@@ -43,17 +47,21 @@ class MujocoScene {
     void operator()(mjModel* model) const { mj_deleteModel(model); }
     void operator()(mjData* state) const { mj_deleteData(state); }
   };
-  struct RoverGeom {
+  /// A geom of something rigid.
+  struct BodyGeom {
     int geom = 0;
-    Eigen::Vector3d at;  ///< of its middle, m, in the rover's frame
-    Eigen::Matrix3d R_rover_geom;
+    Eigen::Vector3d at;  ///< of its middle, m, in the body's frame
+    Eigen::Matrix3d R_body_geom;
   };
+  using Body = std::vector<BodyGeom>;
   void enlarge(const Scene& scene);
-  void find_rover();
+  Body find_body(int number, const Pose& T_world_body) const;
+  void place(const Body& body, const Pose& T_world_body);
 
   std::unique_ptr<mjModel, Free> model_;
   std::unique_ptr<mjData, Free> state_;
-  std::vector<RoverGeom> rover_;
+  Body rover_;
+  std::vector<std::pair<Motion, Body>> moving_;
 };
 
 }  // namespace vinebench::sim

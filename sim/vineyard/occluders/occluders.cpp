@@ -5,6 +5,7 @@
 #include <map>
 
 #include "sim/vineyard/occluders/occluder_shape.h"
+#include "sim/world/occluder_pose.h"
 
 namespace vinebench::sim {
 
@@ -16,6 +17,14 @@ void add_occluders(Scene& scene, const WorldConfig& world, const WorldLayout& la
     OccluderModel model = shape_of(occluder).model(occluder, seed);
     model.asset.model.name = name_of(occluder);
     model.asset.update_bounds();
+    const Pose T_occluder_model{Eigen::Quaterniond::Identity(), {0, 0, model.origin}};
+    if (occluder.path) {
+      scene.motions.push_back(
+          {static_cast<int>(scene.instances.size()),
+           [motion = OccluderMotion(occluder, layout.terrain), T_occluder_model](Stamp stamp) {
+             return motion.at(stamp) * T_occluder_model;
+           }});
+    }
     Pose pose = layout.occluders[i];
     pose.translation += pose.rotation * (model.origin * Eigen::Vector3d::UnitZ());
     scene.instances.push_back({add_asset(scene, std::move(model.asset)), pose,

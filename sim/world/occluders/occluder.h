@@ -11,6 +11,7 @@
 
 #include "core/config/config_field.h"
 #include "core/truth/occlusion.h"
+#include "sim/world/occluders/occluder_path.h"
 
 namespace vinebench::sim {
 
@@ -34,6 +35,8 @@ struct Occluder {
   bool printed = false;                         ///< a box with a maker's mark, text and symbols
   std::int64_t print_seed = 0;                  ///< which print
   std::optional<std::filesystem::path> mesh{};  ///< .glb, .gltf, .dae, .obj or .stl; fills `size`
+  /// In place of `position`; `yaw_deg` is then added to the heading of its motion.
+  std::optional<OccluderPath> path{};
   List list = List::kOccluders;
 
   friend std::vector<std::string> yaml_names(Shape) {
@@ -53,6 +56,9 @@ struct Occluder {
     archive("printed", printed);
     archive("print_seed", print_seed, Range::non_negative());
     archive("mesh", mesh);
+    archive("path", path);
+    archive.require(!path || position.isZero(), "position",
+                    "expected none beside a path, which begins at its first waypoint");
     archive.require(mesh.has_value() == (shape == Shape::kMesh), "mesh",
                     "expected a file where the shape is mesh, and for no other shape");
     archive.require(size.has_value() || shape != Shape::kMesh, "size",

@@ -28,6 +28,19 @@ TEST(RoverFlowTest, OnlyTheRoversPixelsMoveWithIt) {
   EXPECT_LT(cv::norm(motion.at<cv::Vec3f>(0, 2) - cv::Vec3f(-1.5f, 2, 0)), 1e-6);
 }
 
+// The body goes 1 m along x; only the pixel of the mask is its.
+TEST(BodyFlowTest, OnlyThePixelsOfTheMaskMove) {
+  const PinholeCamera camera{.width = 2, .height = 1, .fx = 1, .fy = 1, .cx = 0, .cy = 0};
+  cv::Mat mask(1, 2, CV_8UC1, cv::Scalar(0));
+  mask.at<std::uint8_t>(0, 1) = 255;
+  const cv::Mat depth(1, 2, CV_32FC1, cv::Scalar(2));
+  cv::Mat motion;
+  move_body(camera, {}, {Eigen::Quaterniond::Identity(), {3, 0, 0}},
+            {Eigen::Quaterniond::Identity(), {4, 0, 0}}, mask, depth, motion);
+  EXPECT_EQ(motion.at<cv::Vec3f>(0, 0), cv::Vec3f(0, 0, 0));
+  EXPECT_EQ(motion.at<cv::Vec3f>(0, 1), cv::Vec3f(1, 0, 0));
+}
+
 TEST(RoverFlowTest, OtherMotionIsKept) {
   const PinholeCamera camera{.width = 1, .height = 1, .fx = 1, .fy = 1, .cx = 0, .cy = 0};
   const cv::Mat labels(1, 1, CV_8UC1, cv::Scalar(static_cast<int>(Label::kLeaf)));

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 
@@ -49,6 +51,34 @@ TEST(MeshImporterTest, ObjIsZUpWithTheFirstRowOfItsImageOnTop) {
   EXPECT_EQ(skin.colour, Eigen::Vector3f(1, 1, 1));
   EXPECT_EQ(asset.textures.at(static_cast<std::size_t>(skin.texture)).rgba.at<cv::Vec4b>(0, 0),
             cv::Vec4b(200, 20, 10, 255));
+}
+
+// Two squares that meet along the y axis, one level and the other going down by that angle.
+TEST(MeshImporterTest, AnEdgeStaysSharpAndACurveSmooth) {
+  const test::TestFolder folder;
+  for (const double degrees : {20.0, 90.0}) {
+    const double x = std::cos(degrees * M_PI / 180), z = -std::sin(degrees * M_PI / 180);
+    const auto file = folder.write(
+        "roof.obj", fmt::format("v -1 0 0\nv 0 0 0\nv 0 1 0\nv -1 1 0\nv {0} 0 {1}\nv {0} 1 {1}\n"
+                                "f 1 2 3 4\nf 2 5 6 3\n",
+                                x, z));
+    std::vector<float> upward;  // z of the normals at the edge's first point
+    for (const Primitive& primitive : load_asset(file).model.levels.at(0).primitives) {
+      for (const Vertex& v : primitive.vertices) {
+        if (v.position.norm() < 1e-5f) upward.push_back(v.normal.z());
+      }
+    }
+    // Half of 20 degrees between both, or each its own.
+    const float mean = static_cast<float>(std::cos(10 * M_PI / 180));
+    for (const float up : upward) {
+      if (degrees == 20) {
+        EXPECT_NEAR(up, mean, 1e-3);
+      } else {
+        EXPECT_NEAR(std::min(std::abs(up), std::abs(up - 1)), 0, 1e-3);
+      }
+    }
+    EXPECT_EQ(upward.size(), degrees == 20 ? 1u : 2u);
+  }
 }
 
 TEST(MeshImporterTest, BrokenObjIsNamedWithWhatIsWrong) {

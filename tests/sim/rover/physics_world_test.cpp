@@ -169,5 +169,28 @@ TEST(PhysicsWorldTest, ReportsPhysicsThatFail) {
               testing::ThrowsMessage<Error>(testing::HasSubstr("the physics failed at")));
 }
 
+// A person walks 1 m/s from (1, 3) to the east.
+TEST(MovingOccluderTest, IsWhereItsPathHasItAtThatTime) {
+  WorldConfig world = one_row();
+  world.occluders.resize(1);
+  world.occluders[0].shape = Occluder::Shape::kPerson;
+  world.occluders[0].path.emplace();
+  world.occluders[0].path->waypoints = {{{1, 3}}, {{4, 3}}};
+  PhysicsWorld physics(kModels / "rover.xml", world);
+  physics.refresh();
+  const int body = physics.find(mjOBJ_BODY, "person 0");
+  const int head = physics.find(mjOBJ_GEOM, "person 0 block 3");
+  const auto place_of = [](const mjtNum* places, int index) {
+    return vector_of(places + 3 * index);
+  };
+  EXPECT_LT((place_of(physics.state().xpos, body) - Eigen::Vector3d(1, 3, 0)).norm(), 1e-9);
+  physics.move_occluders(2 * kNanosecondsPerSecond);
+  physics.refresh();
+  EXPECT_LT((place_of(physics.state().xpos, body) - Eigen::Vector3d(3, 3, 0)).norm(), 1e-9);
+  // The head's block is 0.02 m ahead of the feet and 1.6 m high.
+  EXPECT_LT((place_of(physics.state().geom_xpos, head) - Eigen::Vector3d(3.02, 3, 1.6)).norm(),
+            1e-9);
+}
+
 }  // namespace
 }  // namespace vinebench::sim

@@ -26,32 +26,12 @@ const std::filesystem::path kModel =
     std::filesystem::path(VINEBENCH_SOURCE_DIR) / "models/csl-rover/rover.xml";
 const Pose kRover{Eigen::Quaterniond::Identity(), {2, 1, 0}};
 
-/// A camera that looks straight down on a point, x to the right.
-Pose above(double x, double y, double height) {
-  return {Eigen::Quaterniond(0, 1, 0, 0), {x, y, height}};
-}
-
-/// A horizontal square, face up.
-Primitive sheet(int material, double side) {
-  Primitive primitive = panel(material, side, side);
-  for (Vertex& vertex : primitive.vertices) {
-    vertex.position = {vertex.position.x(), vertex.position.z(), 0};
-    vertex.normal = Eigen::Vector3f::UnitZ();
-  }
-  return primitive;
-}
-
 /// Even ground, and the sun in the west, 45 degrees high: a point at height z casts its shadow z
 /// further east.
 class RoverViewTest : public testing::Test {
  protected:
   RoverViewTest() {
-    const int soil = add_material(scene_, Label::kGround, {0.3f, 0.25f, 0.2f});
-    scene_.materials[static_cast<std::size_t>(soil)].terrain = true;
-    const int tile = add_model(scene_, sheet(soil, 0.5));
-    for (int x = -4; x < 20; ++x) {
-      for (int y = -8; y < 12; ++y) add_instance(scene_, tile, {0.5 * x, 0.5 * y, 0});
-    }
+    add_even_ground(scene_);
     scene_.light.towards_sun = Eigen::Vector3f(-1, 0, 1).normalized();
     add_rover(scene_, kModel);
   }
@@ -126,7 +106,7 @@ TEST_F(RoverViewTest, ItsShadowIsAsDarkAsAPlants) {
   const Pose view = above(2.8, 1, 1.0);
   const cv::Mat by_rover = draw(view, kRover).rgb;
   const int wood = add_material(scene_, Label::kPost, {0.2f, 0.2f, 0.2f});
-  add_instance(scene_, add_model(scene_, sheet(wood, 0.3)), {2, 1, 0.49});
+  add_instance(scene_, add_model(scene_, flat_panel(wood, 0.3)), {2, 1, 0.49});
   renderer_.reset();
   const cv::Vec3b by_sheet = at(draw(view, {}).rgb, view, {2.49, 1, 0});
   // The map of the ground's light holds 8 bits: a grey level or two.
@@ -142,7 +122,7 @@ TEST_F(RoverViewTest, ItsShadowFallsOnThingsToo) {
   const int carton = add_material(scene_, Label::kBox, {0.5f, 0.3f, 0.2f});
   for (const int material : {leaf, carton}) {
     const double y = material == leaf ? 1.04 : 0.96;
-    add_instance(scene_, add_model(scene_, sheet(material, 0.03)), {2.29, y, 0.2});
+    add_instance(scene_, add_model(scene_, flat_panel(material, 0.03)), {2.29, y, 0.2});
   }
   const Pose view = above(2.8, 1, 1.0);
   const cv::Mat with = draw(view, kRover).rgb, without = draw(view, {}).rgb;

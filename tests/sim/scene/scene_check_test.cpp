@@ -50,6 +50,13 @@ TEST_F(SceneCheckTest, TexturesOfWrongSizeOrKind) {
   EXPECT_NO_THROW(check_scene(scene_));
 }
 
+TEST_F(SceneCheckTest, MotionsOfNothingOrToNowhere) {
+  scene_.motions.push_back({1, [](Stamp) { return Pose{}; }});
+  EXPECT_THAT(problem(), HasSubstr("motion 0 names instance 1"));
+  scene_.motions[0] = {0, {}};
+  EXPECT_THAT(problem(), HasSubstr("motion 0: expected a pose for each instant"));
+}
+
 TEST_F(SceneCheckTest, WhatNamesWhatIsNotThere) {
   primitive().indices[1] = 1u << 31;
   EXPECT_THAT(problem(), HasSubstr("model 'plant' names vertex 2147483648"));

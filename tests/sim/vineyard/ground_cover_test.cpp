@@ -17,7 +17,7 @@ class GroundCoverTest : public testing::Test {
 
   Scene cover(std::uint64_t seed = 1) const {
     Scene scene;
-    add_ground_cover(scene, world_, terrain_of(world_), seed);
+    add_ground_cover(scene, world_, lay_out(world_), seed);
     return scene;
   }
   /// Places by the kind of patch.
@@ -101,7 +101,7 @@ TEST_F(GroundCoverTest, PatchesThinOutAndEndWithTheDistance) {
 TEST_F(GroundCoverTest, LiesOnTheGround) {
   world_.terrain.amplitude = 0.2;
   world_.terrain.slope_percent = 8;
-  const Terrain terrain = terrain_of(world_);
+  const Terrain terrain = lay_out(world_).terrain;
   for (const Instance& instance : cover().instances) {
     const Eigen::Vector3d& p = instance.T_world_model.translation;
     EXPECT_NEAR(p.z(), terrain.height(p.head<2>()), 1e-9);

@@ -43,7 +43,7 @@ class GroundTest : public testing::Test {
   }
   static Scene ground(const WorldConfig& world) {
     Scene scene;
-    add_ground(scene, world, terrain_of(world), 1);
+    add_ground(scene, world, lay_out(world), 1);
     return scene;
   }
   /// Made once: their textures take a while.
@@ -55,7 +55,7 @@ class GroundTest : public testing::Test {
     static const Scene kScene = ground(two_rows(Aisles::kGrass));
     return kScene;
   }
-  static Terrain terrain() { return terrain_of(two_rows(Aisles::kSoil)); }
+  static Terrain terrain() { return lay_out(two_rows(Aisles::kSoil)).terrain; }
   static const Model& model_of(const Scene& scene, const Instance& instance) {
     return scene.models.at(static_cast<std::size_t>(instance.model));
   }
@@ -98,8 +98,7 @@ TEST_F(GroundTest, TheApronIsTheRestOfTheSquare) {
 TEST_F(GroundTest, TilesStandWhereTheirNodesAre) {
   WorldConfig world;
   world.block = WorldConfig::Block{3, 9, 2, 30, {1, -2}};
-  world.place();
-  const Terrain grid = terrain_of(world);
+  const Terrain grid = lay_out(world).terrain;
   const Scene scene = ground(world);
   for (int ty = 0; ty < grid.tiles_y(); ++ty) {
     for (int tx = 0; tx < grid.tiles_x(); ++tx) {

@@ -42,5 +42,23 @@ TEST(OccluderPoseTest, APersonStandsUprightAndACrateLeans) {
   EXPECT_NEAR(up.x() / up.z(), -0.1, 1e-9);  // square to the slope
 }
 
+// 1 m/s to the west from x = 5 m: after 2 s at x = 3 m, where the ground's height is 0.
+TEST(OccluderMotionTest, APersonFollowsTheGroundAndLooksWhereItGoes) {
+  Occluder person;
+  person.shape = Occluder::Shape::kPerson;
+  person.path.emplace();
+  person.path->waypoints = {{{5, 1}}, {{1, 1}}};
+  const OccluderMotion motion(person, slope());
+  EXPECT_LT((motion.at(0).translation - Eigen::Vector3d(5, 1, 0.2)).norm(), 1e-9);
+  const Pose later = motion.at(2 * kNanosecondsPerSecond);
+  EXPECT_LT((later.translation - Eigen::Vector3d(3, 1, 0)).norm(), 1e-9);
+  EXPECT_LT((later.rotation * Eigen::Vector3d::UnitX() + Eigen::Vector3d::UnitX()).norm(), 1e-9);
+  EXPECT_EQ(occluder_pose(person, slope()).translation, motion.at(0).translation);
+  // Sideways: its own x axis is turned from west to south.
+  person.yaw_deg = 90;
+  const Pose sideways = OccluderMotion(person, slope()).at(0);
+  EXPECT_LT((sideways.rotation * Eigen::Vector3d::UnitX() + Eigen::Vector3d::UnitY()).norm(), 1e-9);
+}
+
 }  // namespace
 }  // namespace vinebench::sim

@@ -77,8 +77,6 @@ TEST(WorldFileTest, ProblemsAreNamed) {
               AllOf(HasSubstr("vines.meshes.0"), HasSubstr("nowhere.glb")));
 }
 
-}
-
 TEST(WorldFileTest, TheShippedWorldsAreWhatTheySay) {
   const auto load = [](const char* name) {
     const auto file = std::filesystem::path(VINEBENCH_SOURCE_DIR) / "worlds" / name;

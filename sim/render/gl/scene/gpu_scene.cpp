@@ -163,13 +163,23 @@ bool is_vegetation(const Scene& scene, int texture) {
   return true;
 }
 
-std::vector<Eigen::Vector3d> corners_of(const Model& model) {
+/// The finest vertices: the rover's own cameras are within its bounds.
+std::vector<Eigen::Vector3d> vertices_of(const Model& model) {
   std::vector<Eigen::Vector3d> corners;
   if (model.levels.empty()) return corners;
   for (const Primitive& primitive : model.levels.front().primitives) {
     for (const Vertex& vertex : primitive.vertices) {
       corners.push_back(vertex.position.cast<double>());
     }
+  }
+  return corners;
+}
+
+std::vector<Eigen::Vector3d> corners_of(const Eigen::AlignedBox3f& bounds) {
+  std::vector<Eigen::Vector3d> corners;
+  for (int i = 0; i < 8 && !bounds.isEmpty(); ++i) {
+    const auto corner = static_cast<Eigen::AlignedBox3f::CornerType>(i);
+    corners.push_back(bounds.corner(corner).cast<double>());
   }
   return corners;
 }
@@ -246,8 +256,14 @@ GpuScene::GpuScene(const GlFunctions& functions, const Scene& scene)
     instances.push_back(place(instance.model, models[static_cast<std::size_t>(instance.model)],
                               instance.T_world_model, static_cast<double>(instance.scale)));
   }
+  for (const Motion& motion : scene.motions) {
+    GpuInstance& instance = instances[static_cast<std::size_t>(motion.instance)];
+    instance.moves = true;
+    const GpuModel& model = models[static_cast<std::size_t>(instance.model)];
+    moving_.push_back({motion, corners_of(model.bounds)});
+  }
   if (rover_model >= 0) {
-    rover_corners = corners_of(scene.models[static_cast<std::size_t>(rover_model)]);
+    rover_hull_ = vertices_of(scene.models[static_cast<std::size_t>(rover_model)]);
   }
   array_ = make_vertex_array(gl);
   vertices_ = make_buffer(gl, GL_ARRAY_BUFFER, geometry.vertices);
@@ -267,6 +283,24 @@ GpuScene::GpuScene(const GlFunctions& functions, const Scene& scene)
     GpuWires pieces = upload_wires(gl, scene, i);
     if (!pieces.chunks.empty()) wires.push_back(std::move(pieces));
   }
+}
+
+std::vector<Mover> GpuScene::movers(double time, const std::optional<Pose>& T_world_rover) const {
+  const Stamp stamp = from_seconds(time);
+  std::vector<Mover> movers;
+  for (const Moving& moving : moving_) {
+    const auto index = static_cast<std::size_t>(moving.motion.instance);
+    const GpuInstance& still = instances[index];
+    const GpuModel& model = models[static_cast<std::size_t>(still.model)];
+    const Pose pose = moving.motion.T_world_model(stamp);
+    movers.push_back({index, pose, place(still.model, model, pose, still.scale), &moving.hull});
+  }
+  if (T_world_rover && rover_model >= 0) {
+    const GpuModel& model = models[static_cast<std::size_t>(rover_model)];
+    movers.push_back({instances.size(), *T_world_rover,
+                      place(rover_model, model, *T_world_rover, 1), &rover_hull_});
+  }
+  return movers;
 }
 
 void GpuScene::set_instances(const std::vector<InstanceRow>& rows) const {

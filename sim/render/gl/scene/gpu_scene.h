@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
 #include "sim/render/gl/platform/gl_objects.h"
@@ -50,6 +51,7 @@ struct GpuInstance {
   double scale = 1;
   Eigen::Vector3d centre;  ///< m, world frame
   double radius = 0;       ///< m
+  bool moves = false;      ///< it stands elsewhere at other times
 };
 
 /// `scale` is the instance's.
@@ -72,6 +74,19 @@ struct GpuWires {
   GlBuffer vertices;
 };
 
+/// What moves, where it is at an instant.
+struct Mover {
+  std::size_t index = 0;  ///< among the scene's instances; their number for the rover
+  Pose T_world_model;
+  GpuInstance placed;  ///< there
+  /// m, the model's frame: points whose hull has all of it inside.
+  const std::vector<Eigen::Vector3d>* hull = nullptr;
+
+  Eigen::Vector3d in_world(const Eigen::Vector3d& p) const {
+    return T_world_model * (placed.scale * p);
+  }
+};
+
 /// What the shaders read of an instance: one row of its matrix after the other, and its number.
 struct InstanceRow {
   Eigen::Matrix<float, 3, 4, Eigen::RowMajor> matrix;
@@ -87,6 +102,8 @@ struct GpuScene {
   void set_instances(const std::vector<InstanceRow>& rows) const;
   /// Draws `count` of the rows from `first` on, in that order of triangles.
   void draw(const GpuPrimitive& primitive, int order, std::size_t first, std::size_t count) const;
+  /// Everything that moves at a time, s, and the rover where it is there.
+  std::vector<Mover> movers(double time, const std::optional<Pose>& T_world_rover) const;
 
   const GlFunctions& gl;  ///< of the context that the scene lives in
   std::vector<GlTexture> textures;
@@ -94,12 +111,18 @@ struct GpuScene {
   std::vector<GpuModel> models;
   std::vector<GpuInstance> instances;
   int rover_model = -1;
-  std::vector<Eigen::Vector3d> rover_corners;  ///< m, the rover's frame: its finest vertices
   std::vector<GpuWires> wires;
   Light light;
   Wind wind;
 
  private:
+  /// An instance that moves, and the hull of its model.
+  struct Moving {
+    Motion motion;
+    std::vector<Eigen::Vector3d> hull;
+  };
+  std::vector<Moving> moving_;
+  std::vector<Eigen::Vector3d> rover_hull_;
   GlVertexArray array_;
   GlBuffer vertices_;
   GlBuffer indices_;

@@ -15,7 +15,7 @@ inline constexpr GLint kImageUnit = 0;
 inline constexpr GLint kShadowUnit = 1;
 inline constexpr GLint kGroundLightUnit = 2;
 inline constexpr GLint kCoarseShadowUnit = 3;
-inline constexpr GLint kRoverShadowUnit = 4;
+inline constexpr GLint kMovingShadowUnit = 4;
 
 /// The leanest shader that shows the material.
 MeshShader shader_for(const Material& material);

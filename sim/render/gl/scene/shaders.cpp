@@ -14,7 +14,7 @@ layout(std140, binding = 0) uniform View {
   mat4 cam_from_world;
   mat4 world_from_cam;
   mat4 shadow_from_cam;
-  mat4 rover_shadow_from_cam;
+  mat4 moving_shadow_from_cam;
   vec4 towards_sun;
   vec4 up;
   vec4 sun;
@@ -30,7 +30,7 @@ layout(std140, binding = 0) uniform View {
 
 constexpr const char* kLighting = R"(
 layout(binding = 3) uniform sampler2DShadow coarse_shadow_map;
-layout(binding = 4) uniform sampler2DShadow rover_shadow_map;
+layout(binding = 4) uniform sampler2DShadow moving_shadow_map;
 
 vec3 encode(vec3 light) { return pow(light, vec3(1.0 / 2.2)); }
 
@@ -86,14 +86,14 @@ out vec3 v_sun;
 out vec3 v_shadow;
 #elif defined(LIGHT_MAP)
 out vec2 v_map;
-#ifdef ROVER
+#ifdef MOVING
 out vec3 v_shade;
 #endif
 #else
 out vec3 v_light;
 #endif
-#if defined(ROVER) && (defined(PIXEL_SHADOWS) || defined(LIGHT_MAP))
-out vec3 v_rover;
+#if defined(MOVING) && (defined(PIXEL_SHADOWS) || defined(LIGHT_MAP))
+out vec3 v_moving;
 #endif
 
 void main() {
@@ -130,9 +130,9 @@ void main() {
 #endif
 #ifdef LIGHT_MAP
   v_map = (world_from_cam * vec4(p_cam, 1.0)).xy * light_map.xy + light_map.zw;
-#ifdef ROVER
+#ifdef MOVING
   v_shade = encode(surface.rgb * ambient_light(n_cam, occlusion));
-  v_rover = (rover_shadow_from_cam * vec4(p_cam, 1.0)).xyz;
+  v_moving = (moving_shadow_from_cam * vec4(p_cam, 1.0)).xyz;
 #endif
 #else
   vec3 shade = surface.rgb * ambient_light(n_cam, occlusion);
@@ -144,14 +144,14 @@ void main() {
   v_shade = encode(shade);
   v_sun = encode(shade + lit) - v_shade;
   v_shadow = p_shadow;
-#ifdef ROVER
-  v_rover = (rover_shadow_from_cam * vec4(p_bias, 1.0)).xyz;
+#ifdef MOVING
+  v_moving = (moving_shadow_from_cam * vec4(p_bias, 1.0)).xyz;
 #endif
 #else
-#ifdef ROVER
-  vec3 p_rover = (rover_shadow_from_cam * vec4(p_bias, 1.0)).xyz;
-  p_rover.z = min(p_rover.z, 1.0);
-  lit *= textureLod(rover_shadow_map, p_rover, 0.0);
+#ifdef MOVING
+  vec3 p_moving = (moving_shadow_from_cam * vec4(p_bias, 1.0)).xyz;
+  p_moving.z = min(p_moving.z, 1.0);
+  lit *= textureLod(moving_shadow_map, p_moving, 0.0);
 #endif
   v_light = encode(shade + lit * textureLod(coarse_shadow_map, p_shadow, 0.0));
 #endif
@@ -182,21 +182,21 @@ in vec3 v_shadow;
 in vec2 v_map;
 layout(binding = 2) uniform sampler2D ground_light;
 uniform vec3 tint;
-#ifdef ROVER
+#ifdef MOVING
 in vec3 v_shade;
 #endif
 #else
 in vec3 v_light;
 #endif
-#if defined(ROVER) && (defined(PIXEL_SHADOWS) || defined(LIGHT_MAP))
-in vec3 v_rover;
-layout(binding = 4) uniform sampler2DShadow rover_shadow_map;
+#if defined(MOVING) && (defined(PIXEL_SHADOWS) || defined(LIGHT_MAP))
+in vec3 v_moving;
+layout(binding = 4) uniform sampler2DShadow moving_shadow_map;
 
-// Share of the sun that the rover leaves; few pixels are near enough to have to look.
-float past_rover() {
-  vec2 off = abs(v_rover.xy - 0.5);
+// Share of the sun that what moves leaves; few pixels are near enough to have to look.
+float past_movers() {
+  vec2 off = abs(v_moving.xy - 0.5);
   if (max(off.x, off.y) > 0.5) return 1.0;
-  return textureLod(rover_shadow_map, vec3(v_rover.xy, min(v_rover.z, 1.0)), 0.0);
+  return textureLod(moving_shadow_map, vec3(v_moving.xy, min(v_moving.z, 1.0)), 0.0);
 }
 #endif
 layout(location = 0) out vec4 colour;
@@ -214,14 +214,14 @@ void main() {
 #endif
 #ifdef PIXEL_SHADOWS
   float sun_share = texture(shadow_map, v_shadow);
-#ifdef ROVER
-  sun_share *= past_rover();
+#ifdef MOVING
+  sun_share *= past_movers();
 #endif
   vec3 light = v_shade + v_sun * sun_share;
 #elif defined(LIGHT_MAP)
   vec3 light = texture(ground_light, v_map).rgb * tint;
-#ifdef ROVER
-  float past = past_rover();
+#ifdef MOVING
+  float past = past_movers();
   // What is left is the sky's light; where a plant's shadow lies there is no more to take.
   if (past < 1.0) light = mix(min(light, v_shade), light, past);
 #endif
@@ -366,7 +366,7 @@ std::string defines(const MeshShader& shader) {
   define(shader.wind, "WIND");
   define(shader.truth, "TRUTH");
   define(shader.baking, "BAKING");
-  define(shader.rover, "ROVER");
+  define(shader.moving, "MOVING");
   return text;
 }
 

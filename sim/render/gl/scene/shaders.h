@@ -22,13 +22,13 @@ struct MeshShader {
   bool wind = false;
   bool truth = false;   ///< also writes instance, part, normal and motion
   bool baking = false;  ///< draws the light map itself: light alone, from above
-  bool rover = false;   ///< the rover's shadow may fall on it
+  bool moving = false;  ///< the shadow of what moves may fall on it
 
   /// Different for different shaders.
   int key() const {
     return (textured ? 1 : 0) | (cutout ? 2 : 0) | static_cast<int>(shadows) << 2 |
            (haze ? 16 : 0) | (wind ? 32 : 0) | (truth ? 64 : 0) | (baking ? 128 : 0) |
-           (rover ? 256 : 0);
+           (moving ? 256 : 0);
   }
 };
 

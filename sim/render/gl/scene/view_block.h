@@ -17,7 +17,7 @@ struct ViewBlock {
   Eigen::Matrix4f cam_from_world = Eigen::Matrix4f::Identity();
   Eigen::Matrix4f world_from_cam = Eigen::Matrix4f::Identity();
   Eigen::Matrix4f shadow_from_cam = Eigen::Matrix4f::Identity();
-  Eigen::Matrix4f rover_shadow_from_cam = Eigen::Matrix4f::Identity();
+  Eigen::Matrix4f moving_shadow_from_cam = Eigen::Matrix4f::Identity();
   Eigen::Vector4f towards_sun = Eigen::Vector4f::Zero();  ///< camera frame
   Eigen::Vector4f up = Eigen::Vector4f::Zero();           ///< camera frame
   Eigen::Vector4f sun = Eigen::Vector4f::Zero();
@@ -35,7 +35,7 @@ struct ViewBlock {
 /// What of a view does not come with the scene.
 struct ViewSettings {
   double exposure = 1;    ///< all light is multiplied by this
-  double time = 0;        ///< s, for what the wind moves
+  double time = 0;        ///< s, for all that moves
   double other_time = 0;  ///< s; motion is from `time` to this
 };
 

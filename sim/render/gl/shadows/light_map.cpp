@@ -21,7 +21,7 @@ Eigen::AlignedBox2d shaded_ground(const GpuScene& scene) {
   Eigen::AlignedBox2d box;
   for (const GpuInstance& instance : scene.instances) {
     const GpuModel& model = scene.models[static_cast<std::size_t>(instance.model)];
-    if (!model.casts_shadow || model.bounds.isEmpty()) continue;
+    if (!model.casts_shadow || model.bounds.isEmpty() || instance.moves) continue;
     const Eigen::Vector2d foot = instance.centre.head<2>();
     const double reach = instance.radius / std::max(1e-3, sun.z()) * sun.head<2>().norm();
     const Eigen::Vector2d away = sun.head<2>().norm() > 1e-6

@@ -15,7 +15,7 @@ Eigen::AlignedBox3d casters(const GpuScene& scene, const Eigen::Matrix3d& R_sun_
   Eigen::AlignedBox3d box;
   for (const GpuInstance& instance : scene.instances) {
     const GpuModel& model = scene.models[static_cast<std::size_t>(instance.model)];
-    if (!model.casts_shadow || model.bounds.isEmpty()) continue;
+    if (!model.casts_shadow || model.bounds.isEmpty() || instance.moves) continue;
     for (int i = 0; i < 8; ++i) {
       const auto corner = static_cast<Eigen::AlignedBox3f::CornerType>(i);
       const Eigen::Vector3d p = model.bounds.corner(corner).cast<double>();
@@ -74,7 +74,7 @@ void ShadowMap::draw(const GpuScene& scene, const Eigen::Matrix4d& light) {
   scene.set_instances(rows);
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const GpuModel& model = scene.models[static_cast<std::size_t>(scene.instances[i].model)];
-    if (!model.casts_shadow) continue;
+    if (!model.casts_shadow || scene.instances[i].moves) continue;
     for (const GpuPrimitive& primitive : caster_level(model, texel_).primitives) {
       const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
       const bool holes = material.cutout && material.texture >= 0;

@@ -46,6 +46,14 @@ TEST_F(FlowCheckTest, WhatMayMoveIsLeftOut) {
   EXPECT_FALSE(folder_.faults_of(check_flow_image).empty());
 }
 
+TEST_F(FlowCheckTest, OccludersMoveOnlyWhereOneHasAPath) {
+  put_flow(12);
+  folder_.put("semantic", LabelFolder::filled(CV_8UC1, static_cast<int>(Label::kPerson)));
+  EXPECT_FALSE(folder_.faults_of(check_flow_image).empty());
+  folder_.sequence().busy = true;
+  EXPECT_THAT(folder_.faults_of(check_flow_image), IsEmpty());
+}
+
 TEST_F(FlowCheckTest, TheLastFrameHasNone) {
   put_flow(12);
   folder_.sequence().frames.pop_back();

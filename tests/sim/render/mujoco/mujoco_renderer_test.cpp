@@ -67,6 +67,21 @@ TEST_F(MujocoRendererTest, EnlargesAnInstanceAboutItsFoot) {
   EXPECT_EQ(hue(render(), pixel(-0.2, 0.35)), 1);
 }
 
+TEST_F(MujocoRendererTest, PutsWhatMovesWhereItIsAtThatTime) {
+  // Twice as large, and 0.2 m further left after 2 s: its middle goes from x = 0.1 m to -0.1 m.
+  scene_.instances[0].scale = 2;
+  add_motion(scene_, {0.1, 0, 0.3}, {-0.1, 0, 0});
+  MujocoRenderer renderer(scene_, {});
+  const auto render_at = [&](double time) {
+    return renderer.render(small_camera(), T_world_cam_, {.time = time}).rgb;
+  };
+  const cv::Mat now = render_at(0), later = render_at(2);
+  // Red is left of the middle and green right of it.
+  EXPECT_EQ(hue(now, pixel(0, 0.4)), 1);
+  EXPECT_EQ(hue(later, pixel(0, 0.4)), 2);
+  EXPECT_EQ(hue(later, pixel(-0.2, 0.4)), 1);
+}
+
 TEST_F(MujocoRendererTest, TakesTheLevelOfTheDistance) {
   LevelOfDetail coarse = scene_.models[0].levels[0];
   coarse.primitives[0].indices.resize(3);

@@ -24,6 +24,10 @@ WorldConfig one_row() {
   return world;
 }
 
+RoverConfig csl_rover() {
+  return load_rover(std::filesystem::path(VINEBENCH_SOURCE_DIR) / "models/csl-rover/rover.yaml");
+}
+
 Scene scene_with(const WorldConfig& world) {
   Scene scene;
   add_occluders(scene, world, lay_out(world), 1);
@@ -108,6 +112,24 @@ TEST(OccludersTest, NumbersCountWithinEachListOfTheFile) {
   EXPECT_EQ(scene.instances[3].id, 0);
 }
 
+TEST(OccludersTest, OneWithAPathMovesItsModelWithItsOrigin) {
+  WorldConfig world = one_row();
+  world.occluders.resize(2);
+  world.occluders[1].size = {0.4, 0.4, 0.6};
+  world.occluders[1].path.emplace();
+  world.occluders[1].path->waypoints = {{{2, 1}}, {{4, 1}}};
+  const Scene scene = scene_with(world);
+  ASSERT_EQ(scene.motions.size(), 1u);
+  EXPECT_EQ(scene.motions[0].instance, 1);
+  // The box's model has its origin in its middle, 0.3 m above the ground; it goes 1 m/s.
+  const auto at = [&](double seconds) {
+    return scene.motions[0].T_world_model(from_seconds(seconds)).translation;
+  };
+  EXPECT_LT((at(0) - Eigen::Vector3d(2, 1, 0.3)).norm(), 1e-9);
+  EXPECT_LT((at(0) - scene.instances[1].T_world_model.translation).norm(), 1e-9);
+  EXPECT_LT((at(1.5) - Eigen::Vector3d(3.5, 1, 0.3)).norm(), 1e-9);
+}
+
 TEST(OccluderShapeTest, ThePersonsBlocksEncloseTheFigure) {
   Occluder person;
   person.shape = Shape::kPerson;
@@ -122,12 +144,10 @@ TEST(OccluderShapeTest, ThePersonsBlocksEncloseTheFigure) {
 }
 
 TEST(OccludersTest, APersonAndACrateBlockTheRover) {
-  const auto config =
-      load_rover(std::filesystem::path(VINEBENCH_SOURCE_DIR) / "models/csl-rover/rover.yaml");
   for (const Shape shape : {Shape::kPerson, Shape::kCrate}) {
     WorldConfig world = one_row();
     world.occluders = {{.shape = shape, .position = {1, 3}}};
-    Rover rover(config, world, {0, 3, 0}, 1);
+    Rover rover(csl_rover(), world, {0, 3, 0}, 1);
     std::vector<ImuSample> imu;
     std::vector<WheelSample> wheels;
     rover.command({0.4, 0, 0});
@@ -137,6 +157,26 @@ TEST(OccludersTest, APersonAndACrateBlockTheRover) {
     EXPECT_GT(rover.T_world_body().translation.x(), 0.35);
     EXPECT_LT(rover.T_world_body().translation.x(), 0.72);
   }
+}
+
+TEST(OccludersTest, AMovingBoxPushesTheRoverAlong) {
+  WorldConfig world = one_row();
+  world.occluders.resize(1);
+  world.occluders[0].size = {0.4, 0.8, 0.6};
+  world.occluders[0].path.emplace();
+  world.occluders[0].path->speed = 0.3;
+  world.occluders[0].path->waypoints = {{{-1, 3}}, {{1, 3}}};
+  Rover rover(csl_rover(), world, {0, 3, 0}, 1);
+  std::vector<ImuSample> imu;
+  std::vector<WheelSample> wheels;
+  rover.command({0, 0, 0});
+  rover.advance_to(kNanosecondsPerSecond, imu, wheels);
+  // The box's face begins at -0.8 m and reaches the rover's tail, 0.25 m behind it, after 1.8 s.
+  EXPECT_NEAR(rover.T_world_body().translation.x(), 0, 0.001);
+  rover.advance_to(4 * kNanosecondsPerSecond, imu, wheels);
+  // Then the face is at 0.4 m; contacts give way by a few centimetres, and it may roll ahead.
+  EXPECT_GT(rover.T_world_body().translation.x(), 0.55);
+  EXPECT_LT(rover.T_world_body().translation.x(), 0.8);
 }
 
 }  // namespace

@@ -65,6 +65,18 @@ TEST_F(OccluderListsTest, AnyShapeMayBeOfAnyClass) {
   EXPECT_EQ(read(format_yaml(file)).occluders.size(), 2u);
 }
 
+TEST_F(OccluderListsTest, APathIsReadAndWrittenAndAbsentWhereThereIsNone) {
+  const File file = read(
+      "occluders:\n"
+      "  - shape: person\n"
+      "    path: {waypoints: [{position: [1, 2]}, {position: [3, 2], wait: 1}], loop: true}\n");
+  ASSERT_TRUE(file.occluders.at(0).path);
+  EXPECT_EQ(file.occluders[0].path->waypoints.at(1).wait, 1);
+  EXPECT_TRUE(file.occluders[0].path->loop);
+  EXPECT_EQ(format_yaml(read(format_yaml(file))), format_yaml(file));
+  EXPECT_THAT(format_yaml(read("occluders: [{shape: person}]\n")), Not(HasSubstr("path")));
+}
+
 TEST_F(OccluderListsTest, ErrorsNameTheKey) {
   const auto error = [&](const std::string& entry) {
     return test::error_of([&] { read("occluders: [" + entry + "]\n"); });
