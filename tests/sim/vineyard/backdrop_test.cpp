@@ -15,7 +15,7 @@ class BackdropTest : public testing::Test {
 
   Scene backdrop(std::uint64_t seed = 1) const {
     Scene scene;
-    add_backdrop(scene, world_, lay_out(world_), seed);
+    add_backdrop(scene, world_, lay_out(world_).terrain, seed);
     return scene;
   }
   /// The wall of that name, and where it stands.

@@ -45,7 +45,7 @@ TEST_F(GroundCoverTest, WeedsStandInEveryMetreOfARow) {
 TEST_F(GroundCoverTest, BareSoilHasLitterNearTheVinesAndGrassBeyond) {
   auto found = places(cover());
   EXPECT_EQ(found.count("mown") + found.count("fringe"), 0u);
-  const RowIndex rows(world_);
+  const RowIndex rows(world_.rows);
   EXPECT_GT(found["litter"].size(), 10u);
   for (const Eigen::Vector3d& p : found["litter"]) EXPECT_LT(rows.distance(p.head<2>()), 1.2);
   EXPECT_GT(found["grass"].size(), 10u);

@@ -12,10 +12,8 @@
 namespace vinebench::sim {
 namespace {
 
-WorldConfig three_rows() {
-  WorldConfig world;
-  world.rows = {{{0, 0}, {30, 0}}, {{0, 2}, {30, 2}}, {{-20, 5}, {-12, 13}}};
-  return world;
+std::vector<RowConfig> three_rows() {
+  return {{{0, 0}, {30, 0}}, {{0, 2}, {30, 2}}, {{-20, 5}, {-12, 13}}};
 }
 
 TEST(RowIndexTest, FindsTheDistanceToTheNearestRow) {
@@ -30,13 +28,13 @@ TEST(RowIndexTest, FindsTheDistanceToTheNearestRow) {
 
 /// Against every row, one after the other, wherever squares of the index meet.
 TEST(RowIndexTest, AgreesWithASearchOfAllRows) {
-  const WorldConfig world = three_rows();
-  const RowIndex index(world);
+  const std::vector<RowConfig> rows = three_rows();
+  const RowIndex index(rows);
   RandomSequence random(RandomStream(1, "places"));
   for (int i = 0; i < 3000; ++i) {
     const Eigen::Vector2d p(random.uniform(-26, 36), random.uniform(-6, 19));
     double nearest = RowIndex::kReach;
-    for (const WorldConfig::Row& row : world.rows) {
+    for (const RowConfig& row : rows) {
       const Eigen::Vector2d along = row.end - row.start;
       const double t = std::clamp((p - row.start).dot(along) / along.squaredNorm(), 0.0, 1.0);
       nearest = std::min(nearest, (p - row.start - t * along).norm());
@@ -46,7 +44,7 @@ TEST(RowIndexTest, AgreesWithASearchOfAllRows) {
 }
 
 TEST(RowIndexTest, WithoutRowsAllIsOutOfReach) {
-  EXPECT_EQ(RowIndex(WorldConfig{}).distance({0, 0}), RowIndex::kReach);
+  EXPECT_EQ(RowIndex({}).distance({0, 0}), RowIndex::kReach);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/render/gl/draw_list.h"
 
+#include <optional>
+
 #include "tests/support/gl_fixture.h"
 #include "tests/support/test_scene.h"
 
@@ -18,7 +20,8 @@ class DrawListTest : public test::GlTest {
   }
   DrawList list(double lod_scale = 1) const {
     const GpuScene gpu(gl_, scene_);
-    return make_draw_list(gpu, camera_, T_world_cam_, lod_scale, rover_);
+    const std::vector<Mover> movers = gpu.movers(0, T_world_rover_);
+    return make_draw_list(gpu, camera_, T_world_cam_, lod_scale, {movers, nullptr});
   }
   /// The level of the only instance; -1 where it is not drawn.
   int level(double lod_scale = 1) const {
@@ -30,7 +33,7 @@ class DrawListTest : public test::GlTest {
   int panel_ = 0;
   PinholeCamera camera_{1100, 1100, kLevelFocalLength, kLevelFocalLength, 549.5, 549.5, {}};
   Pose T_world_cam_ = test::look_at({0, 0, 0}, {0, 1, 0});
-  RoverInView rover_;
+  std::optional<Pose> T_world_rover_;
 };
 
 TEST_F(DrawListTest, HasWhatIsInViewWithItsNumberAndPlace) {
@@ -96,12 +99,12 @@ TEST_F(DrawListTest, TheRoverIsOneMoreInstanceWhereItStands) {
   test::add_instance(scene_, panel_, {0, 5, 0});
   scene_.rover_model = panel_;
   EXPECT_EQ(list().rows.size(), 1u);  // it is not there
-  rover_.T_world_rover = Pose{Eigen::Quaterniond::Identity(), {0, 2, 0}};
+  T_world_rover_ = Pose{Eigen::Quaterniond::Identity(), {0, 2, 0}};
   const DrawList drawn = list();
   ASSERT_EQ(drawn.rows.size(), 2u);
   EXPECT_EQ(drawn.rows[0].number, 2u);
   EXPECT_NEAR(drawn.rows[0].matrix(2, 3), 2, 1e-6);
-  rover_.T_world_rover = Pose{Eigen::Quaterniond::Identity(), {0, -3, 0}};
+  T_world_rover_ = Pose{Eigen::Quaterniond::Identity(), {0, -3, 0}};
   EXPECT_EQ(list().rows.size(), 1u);  // behind the camera
 }
 

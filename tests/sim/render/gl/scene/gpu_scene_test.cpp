@@ -117,12 +117,15 @@ TEST_F(GpuSceneTest, AModelsBoundsAreOfAllItsLevels) {
   EXPECT_FALSE(gpu.models[0].ordered);
 }
 
-TEST_F(GpuSceneTest, TheRoversCornersAreItsFinestVertices) {
+TEST_F(GpuSceneTest, TheRoversHullHoldsItsFinestVertices) {
   scene_.rover_model = test::add_model(scene_, test::panel(1, 2, 1));
   scene_.models[0].levels.push_back({1e9, {test::panel(1, 9, 9)}});
   const GpuScene gpu(gl_, scene_);
-  ASSERT_EQ(gpu.rover_corners.size(), 4u);
-  for (const Eigen::Vector3d& corner : gpu.rover_corners) {
+  EXPECT_TRUE(gpu.movers(0, std::nullopt).empty());
+  const std::vector<Mover> movers = gpu.movers(0, Pose{});
+  ASSERT_EQ(movers.size(), 1u);
+  ASSERT_EQ(movers[0].hull->size(), 4u);
+  for (const Eigen::Vector3d& corner : *movers[0].hull) {
     EXPECT_LT((corner.cwiseAbs() - Eigen::Vector3d(1, 0, 0.5)).norm(), 1e-6);
   }
 }

@@ -43,11 +43,11 @@ class ShadersTest : public test::GlTest {
 /// what adds any.
 TEST_F(ShadersTest, VertexAndFragmentShadersOfAMeshFit) {
   for (const Shadows shadows : {Shadows::kVertices, Shadows::kPixels, Shadows::kLightMap}) {
-    for (const bool rover : {false, true}) {
+    for (const bool moving : {false, true}) {
       for (const bool more : {false, true}) {
         MeshShader shader;
         shader.shadows = shadows;
-        shader.rover = rover;
+        shader.moving = moving;
         shader.textured = shader.cutout = shader.haze = shader.wind = shader.truth = more;
         expect_links(shader);
       }

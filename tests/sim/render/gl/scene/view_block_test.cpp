@@ -87,7 +87,7 @@ class ViewBufferTest : public test::GlTest {};
 /// The members' order is that of the shaders' uniform block.
 TEST_F(ViewBufferTest, ShadersReadTheBlockAsItIsLaidOut) {
   ViewBlock block;
-  block.rover_shadow_from_cam(1, 2) = 0.2f;
+  block.moving_shadow_from_cam(1, 2) = 0.2f;
   block.sun.x() = 0.4f;
   block.gust.w() = 0.6f;
   block.lens.z() = 0.8f;
@@ -95,11 +95,11 @@ TEST_F(ViewBufferTest, ShadersReadTheBlockAsItIsLaidOut) {
   buffer.set(block);
   const cv::Mat seen = shade(1, 1, R"(#version 420 core
 layout(std140, binding = 0) uniform View {
-  mat4 clip_from_cam, cam_from_world, world_from_cam, shadow_from_cam, rover_shadow_from_cam;
+  mat4 clip_from_cam, cam_from_world, world_from_cam, shadow_from_cam, moving_shadow_from_cam;
   vec4 towards_sun, up, sun, sky, bounce, haze, light_map, gust, gust_phase, lens;
 };
 layout(location = 0) out vec4 colour;
-void main() { colour = vec4(rover_shadow_from_cam[2][1], sun.x, gust.w, lens.z); })");
+void main() { colour = vec4(moving_shadow_from_cam[2][1], sun.x, gust.w, lens.z); })");
   EXPECT_EQ(seen.at<cv::Vec4b>(0, 0), cv::Vec4b(51, 102, 153, 204));
 }
 
