@@ -38,7 +38,7 @@ TEST(RowFrameTest, RowsMayBeListedInAnyOrderAndDirection) {
 TEST(RowFrameTest, UnevenRowsHaveTheWorldsAxes) {
   std::vector<RowConfig> uneven = three_rows(), oblique = three_rows(), close = three_rows();
   uneven[2].start.x() = uneven[2].end.x() = -4.5;
-  oblique[2] = {{-4, 0}, {-5, 5}};
+  oblique[2] = {{-3.5, 0}, {-4.5, 5}};           // 2 m apart in the middle
   close[1].start.x() = close[1].end.x() = -0.2;  // rows are at least 0.25 m apart
   close[2].start.x() = close[2].end.x() = -0.4;
   for (const auto& rows : {uneven, oblique, close}) {

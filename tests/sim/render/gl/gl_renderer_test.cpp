@@ -2,19 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/render/gl/gl_renderer.h"
 
-#include <apriltag/apriltag.h>
-#include <apriltag/tag36h11.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <memory>
 #include <opencv2/imgproc.hpp>
 #include <thread>
 
 #include "core/util/error.h"
 #include "tests/support/chessboard.h"
+#include "tests/support/tag_reading.h"
 #include "tests/support/test_scene.h"
 
 namespace vinebench::sim {
@@ -77,52 +74,21 @@ TEST_F(ChessboardTest, FarFromTheWorldsOriginNothingMoves) {
   EXPECT_LT(changed, 1e-4 * 255 * near_image.rgb.total());
 }
 
-/// The tag's image from the library's own code table, one white module around the black square.
-cv::Mat tag_image(int id, int module) {
-  const std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)> family(tag36h11_create(),
-                                                                                tag36h11_destroy);
-  // Debian's library does not export its own image_u8_destroy(), which frees these two.
-  const auto destroy = [](image_u8_t* image) {
-    std::free(image->buf);
-    std::free(image);
-  };
-  const std::unique_ptr<image_u8_t, decltype(destroy)> image(
-      apriltag_to_image(family.get(), static_cast<std::uint32_t>(id)), destroy);
-  const cv::Mat grey(image->height, image->width, CV_8UC1, image->buf,
-                     static_cast<std::size_t>(image->stride));
+/// The tag's print, one white module around the black square.
+cv::Mat tag_image(const TagFamily& family, int id, int module) {
   cv::Mat large;
-  cv::resize(grey, large, {}, module, module, cv::INTER_NEAREST);
+  cv::resize(family.image(id), large, {}, module, module, cv::INTER_NEAREST);
   cv::cvtColor(large, large, cv::COLOR_GRAY2RGBA);
   return large;
-}
-
-std::vector<Eigen::Vector2d> detect_tag(const cv::Mat& grey) {
-  apriltag_family_t* family = tag36h11_create();
-  apriltag_detector_t* detector = apriltag_detector_create();
-  apriltag_detector_add_family(detector, family);
-  detector->quad_decimate = 1;
-  detector->refine_edges = true;
-  image_u8_t image{grey.cols, grey.rows, static_cast<int>(grey.step), grey.data};
-  zarray_t* detections = apriltag_detector_detect(detector, &image);
-  std::vector<Eigen::Vector2d> corners;
-  for (int i = 0; i < zarray_size(detections); ++i) {
-    apriltag_detection_t* detection = nullptr;
-    zarray_get(detections, i, static_cast<void*>(&detection));
-    // The library's pixel (0, 0) is the top left pixel's corner; ours its centre.
-    for (const auto& p : detection->p) corners.emplace_back(p[0] - 0.5, p[1] - 0.5);
-  }
-  apriltag_detections_destroy(detections);
-  apriltag_detector_destroy(detector);
-  tag36h11_destroy(family);
-  return corners;
 }
 
 TEST(RendererTest, TagCornersAreWhereTheCameraProjectsThem) {
   constexpr double kSize = 0.161;            // m, the black square of 8 modules
   constexpr double kPanel = kSize * 10 / 8;  // with its white border
+  const TagFamily family("tag36h11");
   Scene scene;
   const int material =
-      add_material(scene, Label::kTag, Eigen::Vector3f::Constant(0.8f), tag_image(0, 32));
+      add_material(scene, Label::kTag, Eigen::Vector3f::Constant(0.8f), tag_image(family, 0, 32));
   add_instance(scene, add_model(scene, panel(material, kPanel, kPanel)), {0, 0, 0});
   light_evenly(scene);
   GlRenderer renderer(scene, {});
@@ -131,14 +97,15 @@ TEST(RendererTest, TagCornersAreWhereTheCameraProjectsThem) {
   for (const Pose& pose :
        {look_at({0, -0.6, 0}, {0, 0, 0}, 0.05), look_at({0.3, -0.5, 0.1}, {0, 0, 0}),
         look_at({-0.2, -0.9, -0.1}, {0, 0, 0}, 0.2)}) {
-    const auto corners = detect_tag(grey_of(renderer.render(camera, pose, {})));
-    ASSERT_EQ(corners.size(), 4u);
+    const std::vector<ReadTag> tags = read_tags(grey_of(renderer.render(camera, pose, {})), family);
+    ASSERT_EQ(tags.size(), 1u);
     // The library's order: counter-clockwise in the image from the bottom left.
     const double h = kSize / 2;
     const Eigen::Vector3d expected[] = {{-h, 0, -h}, {h, 0, -h}, {h, 0, h}, {-h, 0, h}};
     for (int i = 0; i < 4; ++i) {
       const Eigen::Vector2d pixel = camera.project(pose.inverse() * expected[i]);
-      EXPECT_LT((corners[static_cast<std::size_t>(i)] - pixel).norm(), 0.1) << "corner " << i;
+      EXPECT_LT((tags[0].corners[static_cast<std::size_t>(i)] - pixel).norm(), 0.1)
+          << "corner " << i;
     }
   }
 }

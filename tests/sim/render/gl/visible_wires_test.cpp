@@ -2,25 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/render/gl/visible_wires.h"
 
-#include <gtest/gtest.h>
-
 #include "core/geometry/rig.h"
-#include "sim/render/gl/platform/gl_context.h"
+#include "tests/support/gl_fixture.h"
 #include "tests/support/test_scene.h"
 
 namespace vinebench::sim {
 namespace {
 
-class VisibleWiresTest : public testing::Test {
+class VisibleWiresTest : public test::GlTest {
  protected:
   /// Vertices drawn by a camera at the origin that looks along +x.
   int vertices_of(const Wire& wire) const {
     Scene scene;
     test::add_material(scene, Label::kWire, Eigen::Vector3f::Ones());
     scene.wires.push_back(wire);
-    const std::unique_ptr<GlContext> context = make_gl_context();
-    const CurrentContext current(*context);
-    const GpuScene gpu(current.gl(), scene);
+    const GpuScene gpu(gl_, scene);
     int count = 0;
     const Pose T_world_cam = Rig::mount({0, 0, 0.5}, {0, 0, 0});
     for (const VisibleWires& run : visible_wires(gpu, test::small_camera(), T_world_cam)) {

@@ -26,10 +26,11 @@ struct NotedView : ViewEffect {
   bool with_labels;
 };
 
-/// Active from 1 s on; adds an eighth of white.
+/// Active from some second on; adds an eighth of white.
 struct NotedLight : LightEffect {
-  NotedLight(Journal& to, std::string as) : journal(to), name(std::move(as)) {}
-  bool is_active(Stamp instant) const override { return instant >= from_seconds(1); }
+  NotedLight(Journal& to, std::string as, double seconds)
+      : journal(to), name(std::move(as)), from(seconds) {}
+  bool is_active(Stamp instant) const override { return instant >= from_seconds(from); }
   void apply(cv::Mat& light, const Shot&) const override {
     EXPECT_EQ(light.type(), CV_32FC3);
     light += cv::Scalar::all(0.125);
@@ -37,6 +38,7 @@ struct NotedLight : LightEffect {
   }
   Journal& journal;
   std::string name;
+  double from;
 };
 
 struct NotedCode : CodeEffect {
@@ -53,9 +55,9 @@ class EffectChainTest : public testing::Test {
  protected:
   EffectChainTest() {
     chain_.add(std::make_unique<NotedCode>(journal_, "code 1"));
-    chain_.add(std::make_unique<NotedLight>(journal_, "light 1"));
+    chain_.add(std::make_unique<NotedLight>(journal_, "light 1", 1));
     chain_.add(std::make_unique<NotedCode>(journal_, "code 2"));
-    chain_.add(std::make_unique<NotedLight>(journal_, "light 2"));
+    chain_.add(std::make_unique<NotedLight>(journal_, "light 2", 1));
   }
   Journal journal_;
   EffectChain chain_;
@@ -74,6 +76,14 @@ TEST_F(EffectChainTest, InactiveLightEffectsAreLeftOutAndCodesStay) {
   chain_.develop(image, test::shot_at(0.999));
   EXPECT_EQ(journal_, (Journal{"code 1", "code 2"}));
   EXPECT_EQ(image.at<cv::Vec3b>(0, 0), cv::Vec3b(3, 100, 254));
+}
+
+TEST_F(EffectChainTest, OfLightEffectsTheActiveOnesAreApplied) {
+  chain_.add(std::make_unique<NotedLight>(journal_, "light 3", 5));
+  chain_.add(std::make_unique<NotedLight>(journal_, "light 4", 0));
+  cv::Mat image(1, 1, CV_8UC3, cv::Scalar::all(0));
+  chain_.develop(image, test::shot_at(1));
+  EXPECT_EQ(journal_, (Journal{"light 1", "light 2", "light 4", "code 1", "code 2"}));
 }
 
 TEST_F(EffectChainTest, LightBecomesCodesWithoutAnyEffect) {
