@@ -6,6 +6,7 @@
 
 #include <set>
 
+#include "core/config/yaml_writer.h"
 #include "core/util/files.h"
 #include "harness/run/run_hash.h"
 
@@ -37,7 +38,7 @@ const std::string& program_digits() {
 }  // namespace
 
 std::string fingerprint_of_inputs(const ScenarioConfig& scenario) {
-  const std::string settings = resolved_settings(scenario);
+  const std::string settings = format_yaml(scenario);
   std::set<std::filesystem::path> files;
   gather_files(YAML::Load(settings), files);
   RunHash hash;
