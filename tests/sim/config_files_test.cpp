@@ -16,12 +16,13 @@ using testing::HasSubstr;
 
 constexpr const char* kWorld = "name: small\nblock: {rows: 2, length: 10, spacing: 2}\n";
 
-TEST(ConfigFilesTest, AWorldIsReadAndItsBlockPlaced) {
+TEST(ConfigFilesTest, AWorldIsReadAsItIsWritten) {
   const test::TestFolder folder;
   const WorldConfig world = load_world(folder.write("world.yaml", kWorld));
   EXPECT_EQ(world.name, "small");
-  ASSERT_EQ(world.rows.size(), 2u);
-  EXPECT_LT((world.rows[1].start - Eigen::Vector2d(0, 2)).norm(), 1e-12);
+  ASSERT_TRUE(world.block);
+  EXPECT_EQ(world.block->rows, 2);
+  EXPECT_TRUE(world.rows.empty());  // those of the block are the layout's
 }
 
 TEST(ConfigFilesTest, OverridesWinOverTheFile) {
@@ -30,7 +31,7 @@ TEST(ConfigFilesTest, OverridesWinOverTheFile) {
   const WorldConfig world =
       load_world(file, {{"name", "other"}, {"block.rows", "3"}, {"sun.elevation_deg", "12.5"}});
   EXPECT_EQ(world.name, "other");
-  EXPECT_EQ(world.rows.size(), 3u);
+  EXPECT_EQ(world.block->rows, 3);
   EXPECT_EQ(world.sun.elevation_deg, 12.5);
   EXPECT_THAT(error_of([&] {
                 load_world(file, {{"sun.colour", "red"}});

@@ -33,12 +33,19 @@ class Files {
  public:
   Files() { mj_defaultVFS(files_.get()); }
   void add(const std::string& name, const Bytes& bytes) {
-    const int problem =
-        mj_makeEmptyFileVFS(files_.get(), name.c_str(), static_cast<int>(bytes.size()));
+    const int size = static_cast<int>(bytes.size());
+#ifdef mjMAXVFS  // MuJoCo 2
+    const int problem = mj_makeEmptyFileVFS(files_.get(), name.c_str(), size);
     if (problem != 0) fail("MuJoCo takes at most {} files, no more {}", mjMAXVFS, name);
     std::memcpy(files_->filedata[files_->nfile - 1], bytes.data(), bytes.size());
+#else
+    const int problem = mj_addBufferVFS(files_.get(), name.c_str(), bytes.data(), size);
+    if (problem != 0) fail("MuJoCo does not take the file {}", name);
+#endif
   }
-  const mjVFS* get() const { return files_.get(); }
+  const mjVFS* get() const {
+    return files_.get();
+  }
 
  private:
   struct Free {
