@@ -16,7 +16,7 @@ namespace {
 /// A map begins with at least this many stereo points.
 constexpr int kMinFirstPoints = 100;
 
-/// Frames in a row that see that many and find nothing of the map: it begins anew.
+/// Frames in a row that see that many and find nothing of the map: a new map part starts.
 constexpr int kFramesBeforeRestart = 3;
 
 /// While a tag is in view keyframes are this near to each other, so that it is seen from several

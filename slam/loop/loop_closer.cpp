@@ -175,7 +175,7 @@ Matrix6d LoopCloser::localisation_covariance(const std::vector<TagSighting>& sig
 }
 
 /// Of the way from `since` to `path_length`: the greatest drift along one axis is made the edge of
-/// what the chi-square test lets pass when the sighting is exact. A turn in a odometry gap
+/// what the chi-square test lets pass when the sighting is exact. A turn in an odometry gap
 /// moves the body sideways on all of the way after it.
 Matrix6d LoopCloser::drift(double since, double path_length) const {
   const LoopConfig& limits = settings_.loop;

@@ -52,8 +52,8 @@ class LoopCloser {
   std::vector<RejectedTag> gate(FrameFeatures& frame, const Pose& T_map_body, double path_length,
                                 const Map& map);
 
-  /// Tells of a stretch of the way that no camera saw, and how uncertain the motion in it is: tags
-  /// may be that much farther from their place in the map from here on.
+  /// Reports an odometry gap (a part of the path that no camera saw), and how uncertain the motion
+  /// in it is: tags may be that much farther from their place in the map from here on.
   void cross_gap(double path_length, const Matrix6d& covariance) {
     gaps_.push_back({path_length, covariance});
   }
@@ -81,7 +81,7 @@ class LoopCloser {
     bool in_keyframe = false;            ///< a keyframe saw it: a loop has an earlier end
     Matrix6d mapped = Matrix6d::Zero();  ///< covariance of the place it was mapped at
   };
-  /// A stretch of the way without sight.
+  /// An odometry gap.
   struct Gap {
     double path_length = 0;  ///< m, the way driven until its end
     Matrix6d covariance = Matrix6d::Zero();

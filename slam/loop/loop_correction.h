@@ -14,7 +14,7 @@ inline constexpr double kStepTurn = 2e-4;    // rad
 /// Spreads the correction of a loop before the global adjustment: the likeliest way that `last` can
 /// have come near `corrected`, whose covariance (of the steps of step_of about it) is given, from
 /// `first`, which stays. Errors of the steps between are independent, as above, or what the dead
-/// reckoning of a odometry gap says; an early turn swings all of the way after it. In
+/// reckoning of an odometry gap says; an early turn swings all of the way after it. In
 /// closed form to first order (Dubbelman and Browning, "COP-SLAM: closed-form online pose-chain
 /// optimization for visual SLAM", 2015). Every landmark moves with the keyframe that made it.
 void spread_correction(Map& map, int first, int last, const Pose& corrected,

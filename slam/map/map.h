@@ -17,7 +17,7 @@
 
 namespace vinebench::slam {
 
-/// What dead reckoning says of a stretch between two keyframes that no landmark ties together.
+/// What dead reckoning says of the motion between two keyframes that no landmark ties together.
 struct OdometryLink {
   int from = 0;  ///< keyframe
   Pose T_from_to;
@@ -38,7 +38,7 @@ struct Keyframe {
   std::optional<InertialState> inertial;  ///< where an inertial unit takes part
   Associations landmarks;
   std::vector<PatchList> patches;    ///< of each view; none where it has no images
-  std::optional<OdometryLink> link;  ///< to an earlier keyframe, after a odometry gap
+  std::optional<OdometryLink> link;  ///< to an earlier keyframe, after an odometry gap
   std::map<int, int> covisible;      ///< keyframe id to the number of landmarks both see
 
   /// Whether it came with a map that was loaded: frames of earlier runs have negative indices.

@@ -48,7 +48,7 @@ class DeadReckoning {
   double sigma_rotation() const;  ///< rad
   bool is_lost() const { return sigma_position() > config_.max_sigma; }
 
-  /// Covariance of the stretch's motion, in the step of step_of.
+  /// Covariance of the motion since then, in the step of step_of.
   Matrix6d covariance() const;
 
  private:

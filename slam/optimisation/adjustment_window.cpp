@@ -11,7 +11,7 @@ AdjustmentWindow local_window(const Map& map, int keyframe, int size) {
   at(keyframe) = 1;
   for (const int id : map.covisible(keyframe, size - 1)) at(id) = 1;
   at(0) = 2;
-  // Behind a odometry gap the map hangs on the keyframe that began it anew.
+  // Behind an odometry gap the map depends on the keyframe that restarted it.
   for (const Keyframe& other : map.keyframes()) {
     if (other.link) at(other.id) = 2;
   }

@@ -16,7 +16,7 @@ struct AdjustmentWindow {
 };
 
 /// The keyframe, those that share most landmarks with it, and as fixed ones all others that see
-/// their landmarks. The first keyframe of the map and those that begin it anew after a stretch
+/// their landmarks. The first keyframe of the map and those that restart it after an interval
 /// without sight are fixed.
 AdjustmentWindow local_window(const Map& map, int keyframe, int size);
 

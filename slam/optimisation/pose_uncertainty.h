@@ -24,11 +24,11 @@ class PoseUncertainty {
   /// A keyframe at T_last_now from the one before, held by that information.
   void keyframe(const Pose& T_last_now, const Matrix6d& information);
 
-  /// A odometry gap ends in a keyframe.
+  /// An odometry gap ends in a keyframe.
   void cross_gap(const Pose& T_last_now, const Matrix6d& covariance);
 
   /// Of a frame at T_last_now from the last keyframe; without information (a zero matrix) that of a
-  /// stretch of dead reckoning is to be added by the caller.
+  /// period of dead reckoning is to be added by the caller.
   Matrix6d at(const Pose& T_last_now, const Matrix6d& information) const;
 
  private:

@@ -10,7 +10,7 @@
 
 namespace vinebench::slam {
 
-/// Places the corners of a tag's black square anew, to a few hundredths of a pixel: the edge is
+/// Places the corners of a tag's black square again, to a few hundredths of a pixel: the edge is
 /// found along each side where the grey level rises from black to white, lines are fitted to the
 /// four sides (in the undistorted image) and intersected. AprilTag itself looks for edges in
 /// steps of a quarter of a pixel. `grey` is CV_8UC1, corners are px in AprilTag's order; `module`

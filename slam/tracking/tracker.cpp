@@ -17,7 +17,7 @@ namespace {
 constexpr double kNearby = 1.0;                                 // m
 constexpr double kSameHeading = 40.0 * std::numbers::pi / 180;  // rad
 
-/// What a pose found after a odometry gap may differ from the dead-reckoned one: this many
+/// What a pose found after an odometry gap may differ from the dead-reckoned one: this many
 /// standard deviations, and what the found one's own error may be.
 constexpr double kMaxSigmas = 4;
 constexpr double kPoseNoise = 0.05;     // m
@@ -176,7 +176,7 @@ bool Tracker::is_credible(const TrackedFrame& tracked, const Pose& predicted) co
 
 void Tracker::accept(const TrackedFrame& tracked) {
   const double dt = to_seconds(tracked.frame->stamp - stamp_);
-  // After a odometry gap the step holds the stretch's error too: the old velocity is
+  // After an odometry gap the step also has the error of the gap: the old velocity is
   // truer.
   if (dt > 0 && !dead_reckoning_.active()) {
     const Pose step = T_map_body_.inverse() * tracked.motion.T_map_body;

@@ -27,7 +27,7 @@ struct TrackerSettings {
 struct TrackedFrame {
   std::shared_ptr<FrameFeatures> frame;
   bool tracked = false;
-  /// Nothing ties this frame to the map but dead reckoning; it begins the map anew.
+  /// Nothing ties this frame to the map but dead reckoning; it restarts the map.
   std::optional<OdometryLink> link;
   MotionEstimate motion;
   Associations associations;  ///< inliers only

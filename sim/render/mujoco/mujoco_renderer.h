@@ -13,7 +13,7 @@ namespace vinebench::sim {
 
 struct MujocoRendererConfig {
   double level_distance = 0;  ///< m, for MujocoScene: 0 takes the finest meshes
-  bool shadows = false;       ///< drawn anew for each image, as MuJoCo does
+  bool shadows = false;       ///< drawn again for each image, as MuJoCo does
 };
 
 /// MuJoCo's own renderer on a software context: a second opinion on the same scene. It gives

@@ -12,7 +12,7 @@
 
 namespace vinebench::sim {
 
-/// Depth of what moves alone as seen from the sun, drawn anew whenever it has moved: one map,
+/// Depth of what moves alone as seen from the sun, drawn again whenever it has moved: one map,
 /// fitted around all whose shadows may be in view.
 class MovingShadow {
  public:
