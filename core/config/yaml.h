@@ -126,7 +126,7 @@ class YamlReader {
       if (node.IsNull()) {
         value.reset();
       } else {
-        read(node, key, value.emplace(), range);
+        read(node, key, value.emplace(typename T::value_type{}), range);
       }
     } else if constexpr (field_types::IsVector<T>::value) {
       value.clear();
