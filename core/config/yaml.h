@@ -123,10 +123,14 @@ class YamlReader {
       read_name(node, key, yaml_names(T{}), index);
       value = static_cast<T>(index);
     } else if constexpr (field_types::IsOptional<T>::value) {
+      using Value = typename T::value_type;
       if (node.IsNull()) {
         value.reset();
+      } else if constexpr (field_types::IsEigen<Value>::value) {
+        read(node, key, value.emplace(), range);
       } else {
-        read(node, key, value.emplace(typename T::value_type{}), range);
+        // Not emplace(): to Clang a nested struct with defaults has no default constructor yet.
+        read(node, key, value.emplace(Value{}), range);
       }
     } else if constexpr (field_types::IsVector<T>::value) {
       value.clear();

@@ -52,9 +52,11 @@ if [[ " $* " == *" harness "* ]]; then
 fi
 if [[ " $* " == *" program "* ]]; then
   cd "$work/empty"
-  "$prefix/bin/vinebench" list scenarios | grep -q "^  occluded-camera "
-  "$prefix/bin/vinebench" __complete -- run occl | grep -qx occluded-camera
+  "$prefix/bin/vinebench" list scenarios >"$work/said"
+  grep -q "^  occluded-camera " "$work/said"
+  "$prefix/bin/vinebench" __complete -- run occl >"$work/said"
+  grep -qx occluded-camera "$work/said"
   [[ -f $prefix/share/bash-completion/completions/vinebench ]]
-  # The data is the installed copy, not that of the source tree.
-  "$prefix/bin/vinebench" run occluded-camera --set nonsense=1 2>&1 | grep -q "nonsense: unknown key"
+  if "$prefix/bin/vinebench" run occluded-camera --set nonsense=1 2>"$work/said"; then exit 1; fi
+  grep -q "nonsense: unknown key" "$work/said"
 fi

@@ -9,7 +9,8 @@
 namespace vinebench::harness {
 namespace {
 
-TEST(RenderBenchmarkTest, MeasuresImagesAloneAndFramesWithThreads) {
+// Suites of this name run first: Mesa's threads, which other tests start, do not survive a fork.
+TEST(RenderBenchmarkDeathTest, MeasuresImagesAloneAndFramesWithThreads) {
   const test::TestFolder folder;
   RenderBenchmark benchmark = test::small_render_case(folder);
   benchmark.threads = 2;

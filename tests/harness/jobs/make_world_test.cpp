@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/config_files.h"
+#include "sim/world/world_layout.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::harness {
@@ -28,7 +29,8 @@ TEST(MakeWorldTest, WritesTheWorldAndSaysWhatItHolds) {
   const std::string line = make_world(request(folder));
   const sim::WorldConfig world = sim::load_world(folder / "world.yaml");
   EXPECT_EQ(world.name, "two rows");
-  EXPECT_EQ(world.rows.size(), 2u);
+  ASSERT_TRUE(world.block);
+  EXPECT_EQ(world.block->rows, 2);
   // Two rows of 4 m with a plant each metre, and a tag at every row's end.
   EXPECT_THAT(line, testing::StartsWith(request(folder).out + ": 2 rows, 8 vines, "));
   EXPECT_THAT(line, testing::EndsWith(" posts, 4 tags\n"));
@@ -43,7 +45,7 @@ TEST(MakeWorldTest, OverwritesAFileOnlyByForce) {
   EXPECT_EQ(read_file(folder / "world.yaml"), "mine");
   wanted.force = true;
   make_world(wanted);
-  EXPECT_EQ(sim::load_world(folder / "world.yaml").rows.size(), 2u);
+  EXPECT_EQ(sim::lay_out(sim::load_world(folder / "world.yaml")).rows.size(), 2u);
 }
 
 TEST(MakeWorldTest, AFaultyRecipeLeavesNoFile) {
