@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/truth/labels.h"
+#include "core/truth/occlusion.h"
 
 namespace vinebench::harness {
 
@@ -17,10 +17,18 @@ constexpr double kTolerance = 0.1;  // px
 constexpr double kAgreeing = 0.9;   // share of the pixels
 constexpr double kNearest = 0.05;   // m in front of a camera
 
+bool is_occluder(Label label) {
+  for (std::size_t i = 0; i < kOccluderClasses; ++i) {
+    if (label_of(static_cast<OccluderClass>(i)) == label) return true;
+  }
+  return false;
+}
+
 /// Whether a pixel's object may move.
 bool may_move(const cv::Mat& semantic, const RecordedSequence& sequence, int y, int x) {
   if (semantic.empty()) return sequence.windy || sequence.busy;
-  switch (static_cast<Label>(semantic.at<std::uint8_t>(y, x))) {
+  const auto label = static_cast<Label>(semantic.at<std::uint8_t>(y, x));
+  switch (label) {
     case Label::kRover:
       return true;
     case Label::kLeaf:
@@ -28,15 +36,8 @@ bool may_move(const cv::Mat& semantic, const RecordedSequence& sequence, int y, 
     case Label::kBunch:
     case Label::kGrass:
       return sequence.windy;
-    case Label::kBox:
-    case Label::kCrate:
-    case Label::kPerson:
-    case Label::kTarpaulin:
-    case Label::kLooseLeaf:
-    case Label::kOccluder:
-      return sequence.busy;
     default:
-      return false;
+      return sequence.busy && is_occluder(label);
   }
 }
 

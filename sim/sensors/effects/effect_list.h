@@ -8,8 +8,8 @@
 #include "sim/sensors/effects/bayer.h"
 #include "sim/sensors/effects/effect_chain.h"
 #include "sim/sensors/effects/fixed_pattern.h"
-#include "sim/sensors/effects/lens_dirt.h"
-#include "sim/sensors/effects/lens_leaf.h"
+#include "sim/sensors/effects/glass/lens_dirt.h"
+#include "sim/sensors/effects/glass/lens_leaf.h"
 #include "sim/sensors/effects/photon_transfer.h"
 #include "sim/sensors/effects/vignette.h"
 

@@ -18,7 +18,7 @@ namespace vinebench::sim {
 /// Something that may stand, lie or hang between a camera and the vineyard. Its frame: the middle
 /// of its foot, x ahead (where a person looks), z up; m.
 struct Occluder {
-  /// How it is drawn and what the rover bumps into: an entry of occluder_shapes() each.
+  /// How it is drawn and what the rover bumps into: each has an entry in shape_of().
   enum class Shape { kBox, kPerson, kCrate, kCylinder, kSheet, kMesh };
   /// Which list of its file it stands in; also the order in which occluders are drawn and counted.
   enum class List { kBoxes, kObstacles, kOccluders };

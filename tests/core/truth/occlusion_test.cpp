@@ -28,6 +28,7 @@ TEST(OcclusionTest, EachClassHasANameAndALabelOfItsOwn) {
   }
   EXPECT_EQ(names.size(), kOccluderClasses);
   EXPECT_EQ(labels.size(), kOccluderClasses);
+  EXPECT_FALSE(labels.contains(Label::kSky));  // what an entry that is missing would have
   EXPECT_EQ(name_of(OccluderClass::kTarpaulin), "tarpaulin");
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/sensors/effects/lens_dirt.h"
+#include "sim/sensors/effects/glass/lens_dirt.h"
 
 #include <Eigen/Core>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/util/random.h"
-#include "sim/sensors/effects/lens_cover.h"
+#include "sim/sensors/effects/glass/lens_cover.h"
 
 namespace vinebench::sim {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/sensors/effects/lens_cover.h"
+#include "sim/sensors/effects/glass/lens_cover.h"
 
 #include <algorithm>
 #include <cmath>

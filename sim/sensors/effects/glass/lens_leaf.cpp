@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/sensors/effects/lens_leaf.h"
+#include "sim/sensors/effects/glass/lens_leaf.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "sim/sensors/effects/lens_cover.h"
+#include "sim/sensors/effects/glass/lens_cover.h"
 
 namespace vinebench::sim {
 namespace {
