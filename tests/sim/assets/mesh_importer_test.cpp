@@ -63,7 +63,8 @@ TEST(MeshImporterTest, AnEdgeStaysSharpAndACurveSmooth) {
                                 "f 1 2 3 4\nf 2 5 6 3\n",
                                 x, z));
     std::vector<float> upward;  // z of the normals at the edge's first point
-    for (const Primitive& primitive : load_asset(file).model.levels.at(0).primitives) {
+    const Asset asset = load_asset(file);
+    for (const Primitive& primitive : asset.model.levels.at(0).primitives) {
       for (const Vertex& v : primitive.vertices) {
         if (v.position.norm() < 1e-5f) upward.push_back(v.normal.z());
       }
