@@ -6,10 +6,6 @@
 # Eigen types in Debian's libraries.
 function(vinebench_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wno-psabi)
-  # GCC 12 warns of std::string's own functions, depending on the length of a path (GCC bug 105651).
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    target_compile_options(${target} PRIVATE -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow)
-  endif()
   target_compile_options(${target} PRIVATE -ffp-contract=off)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     target_compile_options(${target} PRIVATE -march=x86-64-v2)
@@ -98,10 +94,9 @@ function(vinebench_tests folder)
   target_link_libraries(${name}_test PRIVATE ${ARGN} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name}_test PRIVATE VINEBENCH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   vinebench_flags(${name}_test)
-  # Tests compile in two thirds of the time; what they test is optimised as ever. The SLAM core's
-  # make images and trajectories themselves.
-  if(NOT name STREQUAL "slam")
-    target_compile_options(${name}_test PRIVATE $<$<CONFIG:Release>:-O1>)
+  # GCC 12 warns of std::string's own functions, depending on the length of a path (GCC bug 105651).
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    target_compile_options(${name}_test PRIVATE -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow)
   endif()
   vinebench_precompile(${name}_test ${VINEBENCH_COMMON_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
   if(VINEBENCH_SANITIZE AND VINEBENCH_SLAM_ONLY)
