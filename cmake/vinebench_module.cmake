@@ -40,6 +40,23 @@ function(vinebench_precompile target)
   endif()
 endfunction()
 
+# vinebench_unity(TARGET sources...): compiles each folder's sources at once. Names that are local to a file are
+# unique in its folder therefore.
+function(vinebench_unity target)
+  if(NOT VINEBENCH_UNITY)
+    return()
+  endif()
+  foreach(source IN LISTS ARGN)
+    if(source MATCHES "\\.cpp$")
+      get_filename_component(folder ${source} DIRECTORY)
+      file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
+      string(REPLACE "/" "_" folder ${folder})
+      set_property(SOURCE ${source} PROPERTY UNITY_GROUP ${folder})
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()
+
 # vinebench_module(NAME PUBLIC dependencies... PRIVATE dependencies...): one static library of every source in this folder and those
 # below it, but for folders that are libraries of their own, and for files that match
 # vinebench_without_NAME, a regular expression.
@@ -53,6 +70,7 @@ function(vinebench_module name)
   target_link_libraries(vinebench_${name} ${ARGN})
   vinebench_flags(vinebench_${name})
   vinebench_precompile(vinebench_${name} ${VINEBENCH_COMMON_HEADERS})
+  vinebench_unity(vinebench_${name} ${sources})
 endfunction()
 
 # vinebench_shards(PROGRAM): its tests in several processes, because a process with sanitizers
@@ -99,6 +117,7 @@ function(vinebench_tests folder)
     target_compile_options(${name}_test PRIVATE -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow)
   endif()
   vinebench_precompile(${name}_test ${VINEBENCH_COMMON_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
+  vinebench_unity(${name}_test ${sources})
   if(VINEBENCH_SANITIZE AND VINEBENCH_SLAM_ONLY)
     vinebench_shards(${name}_test)
   else()

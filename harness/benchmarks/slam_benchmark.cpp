@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kImages = 40;  // for measuring ORB and tags, at most
+constexpr std::size_t kMostImages = 40;  // for measuring ORB and tags, at most
 constexpr std::size_t kQuarters = 4;
 
 double mean(const std::vector<double>& values) {
@@ -83,7 +83,7 @@ Json measure_cameras(const SlamBenchmark& benchmark, const std::string& name,
 Json measure_images(const SlamBenchmark& benchmark, int camera,
                     const std::function<void(const cv::Mat&)>& work) {
   std::vector<double> cpu;
-  const std::size_t step = std::max<std::size_t>(1, benchmark.frames.size() / kImages);
+  const std::size_t step = std::max<std::size_t>(1, benchmark.frames.size() / kMostImages);
   for (std::size_t i = 0; i < benchmark.frames.size(); i += step) {
     const cv::Mat& image = benchmark.frames[i].images[static_cast<std::size_t>(camera)];
     if (image.empty()) continue;

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "core/geometry/angle.h"
 #include "core/geometry/rig.h"
 #include "core/util/error.h"
 #include "harness/datasets/labels/label_table.h"
@@ -16,8 +17,6 @@
 
 namespace vinebench::harness {
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180;
 
 std::vector<double> parse_numbers(const std::string& text, const std::string& expected) {
   std::vector<double> numbers;
@@ -57,7 +56,8 @@ Pose parse_view(const std::string& text) {
   const std::vector<double> n = parse_numbers(text, "a pose " + expected);
   if (n.size() != 4 && n.size() != 5) fail("'{}': expected a pose {}", text, expected);
   const double pitch_up = n.size() == 5 ? n[4] : 0;
-  return {from_roll_pitch_yaw({0, -pitch_up * kRadians, n[3] * kRadians}), {n[0], n[1], n[2]}};
+  return {from_roll_pitch_yaw({0, -pitch_up * kRadiansPerDegree, n[3] * kRadiansPerDegree}),
+          {n[0], n[1], n[2]}};
 }
 
 cv::Mat colour_labels(const cv::Mat& labels) {
@@ -74,7 +74,7 @@ cv::Mat turntable(const sim::WorldConfig& world, std::uint64_t seed, const Pinho
                   const sim::RendererConfig& config, const std::filesystem::path& plant_cache) {
   constexpr int kViews = 8;
   constexpr int kColumns = 4;
-  constexpr double kPitchDown = 22 * kRadians;
+  constexpr double kPitchDown = 22 * kRadiansPerDegree;
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector2d& post : sim::lay_out(world).post_feet()) box.extend(post);
   const double distance = 1.5 + 0.75 * box.diagonal().norm();

@@ -14,7 +14,7 @@
 namespace vinebench::harness {
 namespace {
 
-constexpr double kNormTolerance = 0.01;                    // of a quaternion
+constexpr double kFileNormTolerance = 0.01;                // of a quaternion
 constexpr Stamp kSameFrame = kNanosecondsPerSecond / 100;  // ns, evo's rule too
 
 Pose pose_of(const TableRow& row, bool scalar_first) {
@@ -23,7 +23,7 @@ Pose pose_of(const TableRow& row, bool scalar_first) {
   Eigen::Quaterniond q = scalar_first ? Eigen::Quaterniond(at(4), at(5), at(6), at(7))
                                       : Eigen::Quaterniond(at(7), at(4), at(5), at(6));
   const double norm = q.norm();
-  if (std::abs(norm - 1) > kNormTolerance) {
+  if (std::abs(norm - 1) > kFileNormTolerance) {
     row.fault(fmt::format("expected a unit quaternion, found norm {}", norm));
   }
   q.coeffs() /= norm;

@@ -12,7 +12,7 @@
 namespace vinebench::sim {
 namespace {
 
-constexpr std::size_t kDeepest = 64;  // nodes in each other
+constexpr std::size_t kDeepestNode = 64;  // nodes in each other
 constexpr std::size_t kDeepestElement = 200;
 constexpr double kMostNodes = 100'000;
 
@@ -88,13 +88,13 @@ class ColladaCheck {
 
   /// A node that contains itself exceeds any depth limit.
   Extent unfold(const std::string& name, std::size_t level) {
-    if (level > kDeepest) {
-      fail("{}: nodes lie more than {} deep in each other, or in themselves", file_, kDeepest);
+    if (level > kDeepestNode) {
+      fail("{}: nodes lie more than {} deep in each other, or in themselves", file_, kDeepestNode);
     }
     const auto id = ids_.find(name);
     const std::string& node = id == ids_.end() ? name : id->second;
     if (const auto known = extents_.find(node); known != extents_.end()) {
-      if (level + known->second.depth <= kDeepest) return known->second;
+      if (level + known->second.depth <= kDeepestNode) return known->second;
     }
     Extent extent;
     if (const auto found = graph_.find(node); found != graph_.end()) {

@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/sensors/calibration_error.h"
 
-#include <numbers>
-
+#include "core/geometry/angle.h"
 #include "core/util/error.h"
 #include "core/util/random.h"
 
 namespace vinebench::sim {
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180;
 
 Eigen::Vector3d draw(const RandomStream& stream, std::uint64_t first) {
   return {stream.normal(first), stream.normal(first + 1), stream.normal(first + 2)};
@@ -40,7 +37,7 @@ void apply(const CalibrationErrorConfig::Camera& error, RigCamera& camera) {
   for (std::size_t i = 0; i < 4; ++i) model.distortion[i] += error.distortion[i];
   if (error.position.isZero(0) && error.rotation_deg.isZero(0)) return;
   camera.T_body_cam =
-      camera.T_body_cam * Pose{exp_so3(kRadians * error.rotation_deg), error.position};
+      camera.T_body_cam * Pose{exp_so3(kRadiansPerDegree * error.rotation_deg), error.position};
 }
 
 }  // namespace

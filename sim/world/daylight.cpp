@@ -8,14 +8,14 @@
 #include <cstdio>
 #include <numbers>
 
+#include "core/geometry/angle.h"
 #include "core/util/error.h"
 
 namespace vinebench::sim {
 namespace {
 
 using std::numbers::pi;
-constexpr double kRadians = pi / 180;
-constexpr double kNominalElevation = 50 * kRadians;
+constexpr double kNominalElevation = 50 * kRadiansPerDegree;
 
 bool read_date(const std::string& text, std::chrono::year_month_day& date) {
   int year = 0, read = 0;
@@ -41,8 +41,9 @@ bool read_time(const std::string& text, double& hours) {
 
 /// Relative air mass, 1 at the zenith (Kasten and Young, Applied Optics 28, 1989).
 double air_mass(double elevation) {
-  const double degrees = std::max(0.0, elevation / kRadians);
-  return 1 / (std::sin(degrees * kRadians) + 0.50572 * std::pow(degrees + 6.07995, -1.6364));
+  const double degrees = std::max(0.0, elevation / kRadiansPerDegree);
+  return 1 /
+         (std::sin(degrees * kRadiansPerDegree) + 0.50572 * std::pow(degrees + 6.07995, -1.6364));
 }
 
 /// Transmission of the sun's red, green and blue through clear rural air.
@@ -56,7 +57,7 @@ double sky_brightness(double elevation) {
   const auto day = [](double e) { return 0.22 + 0.78 * std::sin(e); };
   const double above = day(std::max(0.0, elevation)) / day(kNominalElevation);
   // Civil twilight decreases by a factor of about 100 over six degrees.
-  return above * std::pow(10.0, std::min(0.0, elevation / (3 * kRadians)));
+  return above * std::pow(10.0, std::min(0.0, elevation / (3 * kRadiansPerDegree)));
 }
 
 }  // namespace
@@ -79,17 +80,19 @@ SunPosition sun_position(const SunConfig::At& at) {
   constexpr double kUnixToJ2000 = 10957.5;  // days
   const double n =
       std::chrono::sys_days(date).time_since_epoch().count() + hours / 24 - kUnixToJ2000;
-  const double mean_longitude = (280.460 + 0.9856474 * n) * kRadians;
-  const double anomaly = (357.528 + 0.9856003 * n) * kRadians;
+  const double mean_longitude = (280.460 + 0.9856474 * n) * kRadiansPerDegree;
+  const double anomaly = (357.528 + 0.9856003 * n) * kRadiansPerDegree;
   const double longitude =
-      mean_longitude + (1.915 * std::sin(anomaly) + 0.020 * std::sin(2 * anomaly)) * kRadians;
-  const double obliquity = (23.439 - 4e-7 * n) * kRadians;
+      mean_longitude +
+      (1.915 * std::sin(anomaly) + 0.020 * std::sin(2 * anomaly)) * kRadiansPerDegree;
+  const double obliquity = (23.439 - 4e-7 * n) * kRadiansPerDegree;
   const double ascension =
       std::atan2(std::cos(obliquity) * std::sin(longitude), std::cos(longitude));
   const double declination = std::asin(std::sin(obliquity) * std::sin(longitude));
   const double sidereal_hours = 6.697375 + 0.0657098242 * n + hours;
-  const double hour_angle = (15 * sidereal_hours + at.longitude_deg) * kRadians - ascension;
-  const double latitude = at.latitude_deg * kRadians;
+  const double hour_angle =
+      (15 * sidereal_hours + at.longitude_deg) * kRadiansPerDegree - ascension;
+  const double latitude = at.latitude_deg * kRadiansPerDegree;
   const double east = -std::cos(declination) * std::sin(hour_angle);
   const double north = std::sin(declination) * std::cos(latitude) -
                        std::cos(declination) * std::cos(hour_angle) * std::sin(latitude);
@@ -99,16 +102,16 @@ SunPosition sun_position(const SunConfig::At& at) {
 }
 
 Light daylight(const SunConfig& sun, const SkyConfig& sky) {
-  const SunPosition p = sun.at
-                            ? sun_position(*sun.at)
-                            : SunPosition{sun.azimuth_deg * kRadians, sun.elevation_deg * kRadians};
+  const SunPosition p = sun.at ? sun_position(*sun.at)
+                               : SunPosition{sun.azimuth_deg * kRadiansPerDegree,
+                                             sun.elevation_deg * kRadiansPerDegree};
   Light light;
   light.towards_sun =
       Eigen::Vector3d(std::sin(p.azimuth) * std::cos(p.elevation),
                       std::cos(p.azimuth) * std::cos(p.elevation), std::sin(p.elevation))
           .cast<float>();
   // The disc sets within half a degree.
-  const double risen = std::clamp(p.elevation / (0.5 * kRadians) + 0.5, 0.0, 1.0);
+  const double risen = std::clamp(p.elevation / (0.5 * kRadiansPerDegree) + 0.5, 0.0, 1.0);
   const Eigen::Array3d through =
       transmission(p.elevation).array() / transmission(kNominalElevation).array();
   const double clear = 1 - sky.overcast;
@@ -130,7 +133,7 @@ Light daylight(const SunConfig& sun, const SkyConfig& sky) {
 }
 
 Wind make_wind(const WindConfig& config, std::uint64_t seed) {
-  const double heading = config.heading_deg * kRadians;
+  const double heading = config.heading_deg * kRadiansPerDegree;
   Wind wind;
   wind.speed = static_cast<float>(config.speed);
   wind.towards = Eigen::Vector2d(std::cos(heading), std::sin(heading)).cast<float>();

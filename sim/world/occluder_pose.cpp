@@ -3,15 +3,14 @@
 #include "sim/world/occluder_pose.h"
 
 #include <algorithm>
-#include <numbers>
+
+#include "core/geometry/angle.h"
 
 namespace vinebench::sim {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180.0;
-
 double lowest_ground(const Occluder& occluder, const Terrain& terrain) {
-  const Eigen::Rotation2Dd turn(occluder.yaw_deg * kRadians);
+  const Eigen::Rotation2Dd turn(occluder.yaw_deg * kRadiansPerDegree);
   const Eigen::Vector3d size = size_of(occluder);
   double lowest = terrain.height(occluder.position);
   for (const double x : {-0.5, 0.5}) {
@@ -26,7 +25,7 @@ double lowest_ground(const Occluder& occluder, const Terrain& terrain) {
 /// The occluder where it stands.
 Pose standing_pose(const Occluder& occluder, const Terrain& terrain) {
   const Eigen::Vector2d& at = occluder.position;
-  const double yaw = occluder.yaw_deg * kRadians;
+  const double yaw = occluder.yaw_deg * kRadiansPerDegree;
   if (occluder.shape == Occluder::Shape::kCrate) {
     Pose lying = terrain.lie(at, yaw, size_of(occluder).y() / 2);
     lying.translation.z() += occluder.lift;
@@ -50,7 +49,7 @@ Pose OccluderMotion::at(Stamp stamp) const {
   const Eigen::Vector3d there = motion_.at(stamp);
   Occluder standing = occluder_;
   standing.position = there.head<2>();
-  standing.yaw_deg += there.z() / kRadians;
+  standing.yaw_deg += there.z() / kRadiansPerDegree;
   return standing_pose(standing, terrain_);
 }
 

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "core/geometry/angle.h"
 
 namespace vinebench::sim {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kTile = 4.0;       // m, about the side of a tile
 constexpr double kEvenCell = 0.25;  // m; even ground needs no more for its shades
 constexpr double kFade = 2.0;       // m over which the bumps end at the grid's edge
@@ -32,7 +32,7 @@ std::uint64_t key_of(std::int64_t x, std::int64_t y) {
 Terrain::Terrain(const TerrainConfig& config, const GroundConfig& ground,
                  const std::vector<RowConfig>& rows)
     : config_(config), ground_(ground), frame_(row_frame(rows)) {
-  const double uphill = config_.slope_heading_deg * kRadians - frame_.heading();
+  const double uphill = config_.slope_heading_deg * kRadiansPerDegree - frame_.heading();
   slope_ = config_.slope_percent / 100 * Eigen::Vector2d(std::cos(uphill), std::sin(uphill));
   const auto seed = static_cast<std::uint64_t>(config_.seed);
   for (std::size_t i = 0; i < kOctaveShare.size(); ++i) {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/geometry/angle.h"
 #include "core/util/error.h"
 #include "sim/world/occluder_pose.h"
 #include "sim/world/row_frame.h"
@@ -14,7 +14,6 @@
 namespace vinebench::sim {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kSamePlace = 1e-3;  // m; two posts nearer than this are one
 
 /// Key and problem, as WorldConfig::layout_problem().
@@ -25,7 +24,7 @@ std::vector<RowConfig> rows_of(const WorldConfig& world) {
   std::vector<RowConfig> rows = world.rows;
   if (!world.block) return rows;
   const BlockConfig& block = *world.block;
-  const double heading = block.heading_deg * kRadians;
+  const double heading = block.heading_deg * kRadiansPerDegree;
   const Eigen::Vector2d along(std::cos(heading), std::sin(heading));
   const Eigen::Vector2d across(-along.y(), along.x());
   for (int i = 0; i < block.rows; ++i) {
@@ -50,7 +49,7 @@ std::vector<Eigen::Vector2d> along(const RowConfig& row, double offset, double s
 
 std::vector<TrellisPost> posts_of(const WorldConfig::Trellis& trellis,
                                   const std::vector<RowConfig>& rows) {
-  const double lean = std::tan(trellis.end_lean_deg * kRadians);
+  const double lean = std::tan(trellis.end_lean_deg * kRadiansPerDegree);
   std::vector<TrellisPost> posts;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const RowConfig& row = rows[r];
@@ -154,7 +153,7 @@ TagPlace hang(const WorldConfig::Tag& tag, const TrellisPost& post, const RowCon
                      half_board * std::abs(facing.dot(post.lean)) + kTagBoardThickness;
   TagPlace place;
   place.position << post.at(tag.post->height) + off * facing, tag.post->height;
-  place.facing_deg = std::atan2(facing.y(), facing.x()) / kRadians;
+  place.facing_deg = std::atan2(facing.y(), facing.x()) / kRadiansPerDegree;
   return place;
 }
 
@@ -231,7 +230,7 @@ WorldConfig written_out(WorldConfig world) {
 }
 
 Pose tag_pose(const TagPlace& place) {
-  const double facing = place.facing_deg * kRadians;
+  const double facing = place.facing_deg * kRadiansPerDegree;
   const Eigen::Vector3d into(-std::cos(facing), -std::sin(facing), 0);
   const Eigen::Vector3d down = -Eigen::Vector3d::UnitZ();
   Eigen::Matrix3d axes;
@@ -275,7 +274,7 @@ Site site_of(const WorldConfig& world) {
     const Occluder& occluder = world.occluders[i];
     const Eigen::Vector2d centre = layout.occluders[i].translation.head<2>();
     const double yaw =
-        occluder.path ? yaw_of(layout.occluders[i].rotation) / kRadians : occluder.yaw_deg;
+        occluder.path ? yaw_of(layout.occluders[i].rotation) / kRadiansPerDegree : occluder.yaw_deg;
     site.objects.push_back(
         {class_of(occluder), centre, size_of(occluder).head<2>(), yaw, colour_of(occluder)});
   }

@@ -11,7 +11,7 @@ namespace vinebench::slam {
 namespace {
 
 constexpr int kRadius = 3;
-constexpr int kBits = 7;
+constexpr int kWeightBits = 7;
 /// exp(-k^2 / 8) from the middle outwards in 1/128; 28 + 2 (24 + 17 + 9) = 128.
 constexpr std::array<std::uint16_t, kRadius + 1> kWeights{28, 24, 17, 9};
 
@@ -28,7 +28,7 @@ void sum_rows(const Rows& rows, int columns, std::uint16_t* sums) {
 
 /// The upper half of a product with weight << 9 is the product with weight / 128.
 std::uint16_t weigh(std::uint16_t value, std::uint16_t weight) {
-  const auto scaled = static_cast<std::uint16_t>(weight << (16 - kBits));
+  const auto scaled = static_cast<std::uint16_t>(weight << (16 - kWeightBits));
   return static_cast<std::uint16_t>((std::uint32_t{value} * scaled) >> 16);
 }
 
@@ -42,7 +42,7 @@ void sum_columns(const std::uint16_t* sums, int columns, std::uint8_t* smoothed)
     const auto sum = static_cast<std::uint16_t>(
         weigh(at[0], kWeights[0]) + weigh(pair(at[-1], at[1]), kWeights[1]) +
         weigh(pair(at[-2], at[2]), kWeights[2]) + weigh(pair(at[-3], at[3]), kWeights[3]));
-    smoothed[x] = static_cast<std::uint8_t>((sum + (1 << (kBits - 1))) >> kBits);
+    smoothed[x] = static_cast<std::uint8_t>((sum + (1 << (kWeightBits - 1))) >> kWeightBits);
   }
 }
 

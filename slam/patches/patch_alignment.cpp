@@ -13,12 +13,12 @@
 namespace vinebench::slam {
 namespace {
 
-constexpr int kRadius = 5;
-constexpr int kSide = 2 * kRadius + 1;
-constexpr int kArea = kSide * kSide;
-constexpr int kSearch = 5;            ///< px, whole shifts tried on either side of the guess
-constexpr int kMaxSteps = 5;          ///< of Gauss-Newton
-constexpr double kConverged = 0.005;  ///< px
+constexpr int kAlignedRadius = 5;
+constexpr int kAlignedSide = 2 * kAlignedRadius + 1;
+constexpr int kAlignedArea = kAlignedSide * kAlignedSide;
+constexpr int kSearch = 5;          ///< px, whole shifts tried on either side of the guess
+constexpr int kAlignmentSteps = 5;  ///< of Gauss-Newton
+constexpr double kAlignmentConverged = 0.005;  ///< px
 constexpr double kMaxCorrection =
     2;  ///< px; a solution farther from the whole shift is not its own
 /// Slopes are expected within about 0.4 px a pixel, and pixels to agree within about 4 grey levels.
@@ -28,11 +28,11 @@ constexpr double kSlopePrior = (4.0 / 0.4) * (4.0 / 0.4);
 /// stands there does not count.
 constexpr int kPitch = 12;
 constexpr int kLanes = 4;
-using Window = std::array<float, kSide * kPitch>;
+using PitchedWindow = std::array<float, kAlignedSide * kPitch>;
 using Vector3f = Eigen::Vector3f;
 
 /// Sum of products, in a fixed order whatever the processor's width.
-float dot(const Window& a, const Window& b) {
+float dot(const PitchedWindow& a, const PitchedWindow& b) {
   std::array<float, kLanes> lanes{};
   for (std::size_t i = 0; i < a.size(); i += kLanes) {
     for (std::size_t k = 0; k < kLanes; ++k) lanes[k] += a[i + k] * b[i + k];
@@ -41,40 +41,40 @@ float dot(const Window& a, const Window& b) {
 }
 
 /// 1 where a pixel counts.
-const Window& ones() {
-  static const Window window = [] {
-    Window w;
-    for (std::size_t i = 0; i < w.size(); ++i) w[i] = i % kPitch < kSide ? 1.0F : 0.0F;
+const PitchedWindow& ones() {
+  static const PitchedWindow window = [] {
+    PitchedWindow w;
+    for (std::size_t i = 0; i < w.size(); ++i) w[i] = i % kPitch < kAlignedSide ? 1.0F : 0.0F;
     return w;
   }();
   return window;
 }
 
-void remove_mean(Window& window) {
-  const float mean = dot(window, ones()) / kArea;
+void remove_mean(PitchedWindow& window) {
+  const float mean = dot(window, ones()) / kAlignedArea;
   for (std::size_t i = 0; i < window.size(); ++i) window[i] = (window[i] - mean) * ones()[i];
 }
 
 /// Mean absolute deviation from the mean.
-float deviation(Window window) {
+float deviation(PitchedWindow window) {
   remove_mean(window);
   for (float& value : window) value = std::abs(value);
-  return dot(window, ones()) / kArea;
+  return dot(window, ones()) / kAlignedArea;
 }
 
 /// Left window, and its derivatives by shift and slopes, of zero mean: the brightness solved for.
 struct Template {
-  Window grey;
-  std::array<Window, 3> derivative;
+  PitchedWindow grey;
+  std::array<PitchedWindow, 3> derivative;
   Eigen::Matrix3f normal;
 };
 
 Template make_template(const cv::Mat& left, int x, int y) {
   Template t;
   std::size_t i = 0;
-  for (int dy = -kRadius; dy <= kRadius; ++dy, ++i) {
+  for (int dy = -kAlignedRadius; dy <= kAlignedRadius; ++dy, ++i) {
     const std::uint8_t* row = left.ptr<std::uint8_t>(y + dy) + x;
-    for (int dx = -kRadius; dx <= kRadius; ++dx, ++i) {
+    for (int dx = -kAlignedRadius; dx <= kAlignedRadius; ++dx, ++i) {
       const float gradient = 0.5F * static_cast<float>(row[dx + 1] - row[dx - 1]);
       t.grey[i] = row[dx];
       t.derivative[0][i] = gradient;
@@ -82,9 +82,9 @@ Template make_template(const cv::Mat& left, int x, int y) {
       t.derivative[2][i] = gradient * static_cast<float>(dy);
     }
     t.grey[i] = 0;
-    for (Window& derivative : t.derivative) derivative[i] = 0;
+    for (PitchedWindow& derivative : t.derivative) derivative[i] = 0;
   }
-  for (Window& derivative : t.derivative) remove_mean(derivative);
+  for (PitchedWindow& derivative : t.derivative) remove_mean(derivative);
   for (int r = 0; r < 3; ++r) {
     for (int c = r; c < 3; ++c) {
       t.normal(r, c) =
@@ -108,14 +108,14 @@ Eight load_eight(const std::uint8_t* at) {
 constexpr int kTriedLanes = 16;  ///< tried columns are 11 at most; two times eight are computed
 static_assert(2 * kSearch + 1 <= kTriedLanes);
 /// The right image's rows as far as windows at all tried columns reach.
-using Strip = std::array<std::array<std::uint8_t, kSide + kTriedLanes - 1>, kSide>;
+using Strip = std::array<std::array<std::uint8_t, kAlignedSide + kTriedLanes - 1>, kAlignedSide>;
 
 Strip cut_strip(const cv::Mat& right, int first, int last, int y) {
   Strip strip{};
-  const auto bytes = static_cast<std::size_t>(last - first + kSide);
-  for (int row = 0; row < kSide; ++row) {
+  const auto bytes = static_cast<std::size_t>(last - first + kAlignedSide);
+  for (int row = 0; row < kAlignedSide; ++row) {
     std::memcpy(strip[static_cast<std::size_t>(row)].data(),
-                right.ptr<std::uint8_t>(y - kRadius + row) + first - kRadius, bytes);
+                right.ptr<std::uint8_t>(y - kAlignedRadius + row) + first - kAlignedRadius, bytes);
   }
   return strip;
 }
@@ -123,17 +123,18 @@ Strip cut_strip(const cv::Mat& right, int first, int last, int y) {
 /// By how much the left window is brighter than the right one at each of eight columns, rounded.
 Eight brightness_offsets(int left_sum, const Strip& strip, std::size_t lane) {
   Eight sums{};
-  for (std::size_t row = 0; row < kSide; ++row) {
-    for (std::size_t column = 0; column < kSide; ++column) {
+  for (std::size_t row = 0; row < kAlignedSide; ++row) {
+    for (std::size_t column = 0; column < kAlignedSide; ++column) {
       sums += load_eight(&strip[row][column + lane]);
     }
   }
   Eight offsets;
-  for (int k = 0; k < 8; ++k) offsets[k] = static_cast<std::int16_t>((left_sum - sums[k]) / kArea);
+  for (int k = 0; k < 8; ++k)
+    offsets[k] = static_cast<std::int16_t>((left_sum - sums[k]) / kAlignedArea);
   return offsets;
 }
 
-using LeftWindow = std::array<std::int16_t, kArea>;
+using LeftWindow = std::array<std::int16_t, kAlignedArea>;
 
 /// Sums of absolute differences at eight columns, windows less their mean. The largest possible,
 /// 121 * 510, fits 16 bits without a sign.
@@ -142,8 +143,8 @@ void zero_mean_sads(const LeftWindow& left, int left_sum, const Strip& strip, st
   const Eight offsets = brightness_offsets(left_sum, strip, lane);
   Eight sum{};
   const std::int16_t* grey = left.data();
-  for (std::size_t row = 0; row < kSide; ++row) {
-    for (std::size_t column = 0; column < kSide; ++column, ++grey) {
+  for (std::size_t row = 0; row < kAlignedSide; ++row) {
+    for (std::size_t column = 0; column < kAlignedSide; ++column, ++grey) {
       const Eight difference = *grey - load_eight(&strip[row][column + lane]) - offsets;
       sum += difference < 0 ? -difference : difference;
     }
@@ -156,9 +157,9 @@ std::array<std::uint16_t, kTriedLanes> zero_mean_sads(const cv::Mat& left, int x
   LeftWindow window;
   int left_sum = 0;
   std::size_t i = 0;
-  for (int dy = -kRadius; dy <= kRadius; ++dy) {
+  for (int dy = -kAlignedRadius; dy <= kAlignedRadius; ++dy) {
     const std::uint8_t* row = left.ptr<std::uint8_t>(y + dy) + x;
-    for (int dx = -kRadius; dx <= kRadius; ++dx, ++i) left_sum += window[i] = row[dx];
+    for (int dx = -kAlignedRadius; dx <= kAlignedRadius; ++dx, ++i) left_sum += window[i] = row[dx];
   }
   std::array<std::uint16_t, kTriedLanes> sads;
   zero_mean_sads(window, left_sum, strip, 0, sads.data());
@@ -169,8 +170,8 @@ std::array<std::uint16_t, kTriedLanes> zero_mean_sads(const cv::Mat& left, int x
 /// Column of `right` with the best window about `guess`; -1 where it is at the end of the search
 /// or of the image.
 int search_whole(const cv::Mat& left, const cv::Mat& right, int x, int y, int guess) {
-  const int first = std::max(kRadius, guess - kSearch);
-  const int last = std::min(right.cols - 1 - kRadius, guess + kSearch);
+  const int first = std::max(kAlignedRadius, guess - kSearch);
+  const int last = std::min(right.cols - 1 - kAlignedRadius, guess + kSearch);
   if (first > last) return -1;
   const auto sads = zero_mean_sads(left, x, y, cut_strip(right, first, last, y));
   const auto end = sads.begin() + (last - first + 1);
@@ -200,17 +201,18 @@ void sample(const std::uint8_t* row, const std::array<float, kPitch>& x, float* 
 }
 
 /// Right window under (position, slope along x, slope along y), less the left one.
-bool compare(const cv::Mat& right, int y, const Vector3f& p, const Window& left, Window& residual) {
-  const float reach = kRadius * (1 + std::abs(p[1]) + std::abs(p[2]));
+bool compare(const cv::Mat& right, int y, const Vector3f& p, const PitchedWindow& left,
+             PitchedWindow& residual) {
+  const float reach = kAlignedRadius * (1 + std::abs(p[1]) + std::abs(p[2]));
   if (!(p[0] - reach >= 1) || !(p[0] + reach < static_cast<float>(right.cols - 2))) return false;
   std::array<float, kPitch> x;
-  for (int row = 0; row < kSide; ++row) {
-    const float centre = p[0] + p[2] * static_cast<float>(row - kRadius);
+  for (int row = 0; row < kAlignedSide; ++row) {
+    const float centre = p[0] + p[2] * static_cast<float>(row - kAlignedRadius);
     for (int k = 0; k < kPitch; ++k) {
       x[static_cast<std::size_t>(k)] =
-          centre + (1 + p[1]) * static_cast<float>(std::min(k, kSide - 1) - kRadius);
+          centre + (1 + p[1]) * static_cast<float>(std::min(k, kAlignedSide - 1) - kAlignedRadius);
     }
-    sample(right.ptr<std::uint8_t>(y - kRadius + row), x,
+    sample(right.ptr<std::uint8_t>(y - kAlignedRadius + row), x,
            &residual[static_cast<std::size_t>(row * kPitch)]);
   }
   for (std::size_t i = 0; i < residual.size(); ++i) residual[i] -= left[i];
@@ -221,7 +223,8 @@ bool compare(const cv::Mat& right, int y, const Vector3f& p, const Window& left,
 
 std::optional<PatchAlignment> align_patch(const cv::Mat& left, const cv::Mat& right, int x, int y,
                                           double guess) {
-  const cv::Rect inside(kRadius + 1, kRadius, left.cols - kSide - 1, left.rows - kSide + 1);
+  const cv::Rect inside(kAlignedRadius + 1, kAlignedRadius, left.cols - kAlignedSide - 1,
+                        left.rows - kAlignedSide + 1);
   if (left.size() != right.size() || !inside.contains({x, y})) return std::nullopt;
   const int whole = search_whole(left, right, x, y, static_cast<int>(std::lround(x - guess)));
   if (whole < 0) return std::nullopt;
@@ -234,9 +237,9 @@ std::optional<PatchAlignment> align_patch(const cv::Mat& left, const cv::Mat& ri
   if (solver.info() != Eigen::Success) return std::nullopt;
 
   Vector3f p(static_cast<float>(whole), 0, 0);
-  Window residual;
+  PitchedWindow residual;
   bool converged = false;
-  for (int step = 0; step < kMaxSteps && !converged; ++step) {
+  for (int step = 0; step < kAlignmentSteps && !converged; ++step) {
     if (!compare(right, y, p, t.grey, residual)) return std::nullopt;
     Vector3f gradient(0, static_cast<float>(kSlopePrior) * p[1],
                       static_cast<float>(kSlopePrior) * p[2]);
@@ -246,7 +249,7 @@ std::optional<PatchAlignment> align_patch(const cv::Mat& left, const cv::Mat& ri
     const Vector3f delta = solver.solve(gradient);
     p -= delta;
     if (!(std::abs(p[0] - static_cast<float>(whole)) < kMaxCorrection)) return std::nullopt;
-    converged = std::abs(delta[0]) < kConverged;
+    converged = std::abs(delta[0]) < kAlignmentConverged;
   }
   // Once converged, what is left before the last step is as good as what is left after it.
   if (!converged && !compare(right, y, p, t.grey, residual)) return std::nullopt;

@@ -8,7 +8,7 @@
 namespace vinebench::slam {
 namespace {
 
-constexpr int kTile = 4;  // px
+constexpr int kRegionTile = 4;  // px
 using Bytes = std::vector<std::uint8_t>;
 
 /// Darkest and brightest grey level of each tile.
@@ -19,22 +19,23 @@ struct Tiles {
   Bytes brightest;
 
   explicit Tiles(const cv::Mat& image)
-      : columns(image.cols / kTile),
-        rows(image.rows / kTile),
+      : columns(image.cols / kRegionTile),
+        rows(image.rows / kRegionTile),
         darkest(static_cast<std::size_t>(columns * rows)),
         brightest(darkest.size()) {
-    const auto width = static_cast<std::size_t>(columns * kTile);
+    const auto width = static_cast<std::size_t>(columns * kRegionTile);
     Bytes low(width);
     Bytes high(width);
     std::size_t tile = 0;
     for (int row = 0; row < rows; ++row) {
-      const std::uint8_t* line[kTile];
-      for (int i = 0; i < kTile; ++i) line[i] = image.ptr<std::uint8_t>(row * kTile + i);
+      const std::uint8_t* line[kRegionTile];
+      for (int i = 0; i < kRegionTile; ++i)
+        line[i] = image.ptr<std::uint8_t>(row * kRegionTile + i);
       for (std::size_t x = 0; x < width; ++x) {
         low[x] = std::min(std::min(line[0][x], line[1][x]), std::min(line[2][x], line[3][x]));
         high[x] = std::max(std::max(line[0][x], line[1][x]), std::max(line[2][x], line[3][x]));
       }
-      for (std::size_t x = 0; x < width; x += kTile, ++tile) {
+      for (std::size_t x = 0; x < width; x += kRegionTile, ++tile) {
         darkest[tile] = std::min({low[x], low[x + 1], low[x + 2], low[x + 3]});
         brightest[tile] = std::max({high[x], high[x + 1], high[x + 2], high[x + 3]});
       }
@@ -131,12 +132,12 @@ BlackRegions find_black_regions(const cv::Mat& image, int contrast) {
   std::size_t above = 0;
   for (int row = 0; row < image.rows; ++row) {
     // What is left over at the right and the bottom belongs to the last tiles.
-    if (row % kTile == 0 && row / kTile < tiles.rows) {
+    if (row % kRegionTile == 0 && row / kRegionTile < tiles.rows) {
       for (int column = 0; column < tiles.columns; ++column) {
         const bool last = column + 1 == tiles.columns;
-        std::fill(limits.begin() + column * kTile,
-                  last ? limits.end() : limits.begin() + (column + 1) * kTile,
-                  tiles.limit(column, row / kTile, contrast));
+        std::fill(limits.begin() + column * kRegionTile,
+                  last ? limits.end() : limits.begin() + (column + 1) * kRegionTile,
+                  tiles.limit(column, row / kRegionTile, contrast));
       }
     }
     const std::size_t begin = found.runs.size();

@@ -14,11 +14,11 @@ namespace vinebench::slam {
 namespace {
 
 /// Poses nearer than this are one place.
-constexpr double kSamePlace = 0.5;                              // m
-constexpr double kSameHeading = 20.0 * std::numbers::pi / 180;  // rad
+constexpr double kSamePlace = 0.5;                           // m
+constexpr double kSameView = 20.0 * std::numbers::pi / 180;  // rad
 
 /// What two frames' poses may differ by for their noise alone.
-constexpr double kPoseNoise = 0.05;                          // m
+constexpr double kFoundPoseNoise = 0.05;                     // m
 constexpr double kTurnNoise = 2.0 * std::numbers::pi / 180;  // rad
 
 /// A camera with fewer matches says nothing for or against a pose.
@@ -28,7 +28,7 @@ constexpr double kSearchRadius = 8;  // px, around projections by the sampled po
 
 bool same_place(const Pose& a, const Pose& b) {
   return (a.translation - b.translation).norm() < kSamePlace &&
-         angle_of(a.rotation.conjugate() * b.rotation) < kSameHeading;
+         angle_of(a.rotation.conjugate() * b.rotation) < kSameView;
 }
 
 /// Whether the matches of all cameras together, and of each that has some, mostly fit.
@@ -98,7 +98,7 @@ bool Relocaliser::agree(const Relocation& now, Stamp stamp) const {
   const double dt = to_seconds(stamp - stamp_);
   if (!before_ || dt <= 0 || dt > options_.max_gap_seconds) return false;
   const Pose moved = before_->T_map_body.inverse() * now.T_map_body;
-  return moved.translation.norm() <= kPoseNoise + options_.max_speed * dt &&
+  return moved.translation.norm() <= kFoundPoseNoise + options_.max_speed * dt &&
          angle_of(moved.rotation) <= kTurnNoise + options_.max_turn * dt;
 }
 

@@ -19,12 +19,12 @@
 namespace vinebench::harness {
 namespace {
 
-const std::filesystem::path kSource = VINEBENCH_SOURCE_DIR;
+const std::filesystem::path kRoot = VINEBENCH_SOURCE_DIR;
 
 class WorldImageTest : public testing::Test {
  protected:
-  sim::WorldConfig world_ = sim::load_world(kSource / "worlds" / "csl-vineyard.yaml");
-  Rig rig_ = load_rig(kSource / "models" / "csl-rover" / "rig.yaml");
+  sim::WorldConfig world_ = sim::load_world(kRoot / "worlds" / "csl-vineyard.yaml");
+  Rig rig_ = load_rig(kRoot / "models" / "csl-rover" / "rig.yaml");
 };
 
 TEST_F(WorldImageTest, TheTagsCornersAreWhereTheSideCameraProjectsThem) {

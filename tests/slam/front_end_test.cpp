@@ -18,9 +18,6 @@ namespace {
 using test::SyntheticPlane;
 using test::SyntheticTag;
 
-using test::SyntheticPlane;
-using test::SyntheticTag;
-
 /// The rover's rig with small images.
 Rig small_rig() {
   RigConfig config;

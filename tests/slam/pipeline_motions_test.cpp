@@ -33,7 +33,7 @@ struct WorstError {
   double turn = 0;
 };
 
-WorstError worst_error(const Trajectory& estimate, const std::vector<Pose>& truth) {
+WorstError worst_errors(const Trajectory& estimate, const std::vector<Pose>& truth) {
   WorstError worst;
   for (std::size_t i = 0; i < estimate.size(); ++i) {
     const Pose moved = estimate.front().pose.inverse() * estimate[i].pose;
@@ -53,11 +53,11 @@ WorstError drive(const SyntheticAisle& aisle, const std::vector<Pose>& truth) {
   }
   const SlamSummary summary = pipeline.finish();
   EXPECT_EQ(summary.trajectory.size(), truth.size());
-  return worst_error(summary.trajectory, truth);
+  return worst_errors(summary.trajectory, truth);
 }
 
 /// Along the aisle at `speed`, 15 frames a second, swaying in heading.
-Pose driving(std::int64_t frame, double speed) {
+Pose driving_at(std::int64_t frame, double speed) {
   const double x = speed / 15 * static_cast<double>(frame);
   return {exp_so3({0, 0, 0.1 * std::sin(2.0 * x)}), {x, 0.05 * std::sin(x), 0}};
 }
@@ -67,7 +67,7 @@ class RigOfPairsTest : public testing::TestWithParam<std::size_t> {};
 TEST_P(RigOfPairsTest, RecoversTheWayExactlyWithoutNoise) {
   const SyntheticAisle aisle = make_aisle(0, 1, 3000, GetParam());
   std::vector<Pose> truth;
-  for (std::int64_t i = 0; i < 45; ++i) truth.push_back(driving(i, 0.3));
+  for (std::int64_t i = 0; i < 45; ++i) truth.push_back(driving_at(i, 0.3));
   const WorstError worst = drive(aisle, truth);
   // Pixels are held as floats, 3e-5 px at 500: about 1e-7 m a keyframe at half a metre.
   EXPECT_LT(worst.position, 2e-6);
@@ -77,7 +77,7 @@ TEST_P(RigOfPairsTest, RecoversTheWayExactlyWithoutNoise) {
 TEST_P(RigOfPairsTest, DriftsLittleWithNoise) {
   const SyntheticAisle aisle = make_aisle(0.5, 2, 3000, GetParam());
   std::vector<Pose> truth;
-  for (std::int64_t i = 0; i < 90; ++i) truth.push_back(driving(i, 0.3));
+  for (std::int64_t i = 0; i < 90; ++i) truth.push_back(driving_at(i, 0.3));
   const WorstError worst = drive(aisle, truth);
   // Half a pixel of a coarse level, 1.8 px, at half a metre is 3.4 mm for one feature and 0.2 mm
   // for 300; over some ten keyframes and the lever of their headings ten times that, and three
@@ -113,7 +113,7 @@ TEST(PipelineMotionsTest, TurnsOnTheSpot) {
 TEST(PipelineMotionsTest, DoesNotDriftInAMinuteOfRest) {
   const SyntheticAisle aisle = make_aisle(0.5, 4, 700);
   Pipeline pipeline(SlamConfig{}, aisle.rig, {});
-  for (std::int64_t i = 0; i < 900; ++i) pipeline.process(aisle.frame(i, driving(10, 0.3)));
+  for (std::int64_t i = 0; i < 900; ++i) pipeline.process(aisle.frame(i, driving_at(10, 0.3)));
   const SlamSummary summary = pipeline.finish();
   ASSERT_EQ(summary.trajectory.size(), 900u);
   EXPECT_LE(summary.keyframes.size(), 2u);

@@ -15,9 +15,6 @@ namespace {
 using test::render_image;
 using test::SyntheticTexture;
 
-using test::render_image;
-using test::SyntheticTexture;
-
 // Two pairs look at two walls 1.5 m away (0.12 m of baseline at 200 px is 16 px) and move to their
 // right, 15 mm a frame, which is 2 px.
 constexpr int kWidth = 320;

@@ -14,7 +14,7 @@
 namespace vinebench::tools {
 namespace {
 
-constexpr const char* kDefaultScenario = "occluded-camera";
+constexpr const char* kRecordedByDefault = "occluded-camera";
 
 struct BenchRecordArguments {
   std::string scenario;
@@ -26,7 +26,7 @@ struct BenchRecordArguments {
 };
 
 int bench_record(const BenchRecordArguments& arguments, const Surroundings& surroundings) {
-  const std::string scenario = arguments.scenario.empty() ? kDefaultScenario : arguments.scenario;
+  const std::string scenario = arguments.scenario.empty() ? kRecordedByDefault : arguments.scenario;
   harness::RecordBenchmark benchmark;
   benchmark.scenario =
       harness::load_scenario(surroundings.catalogue.find(harness::DataKind::kScenario, scenario),

@@ -16,7 +16,7 @@
 namespace vinebench::tools {
 namespace {
 
-constexpr const char* kDefaultScenario = "quick-loop";
+constexpr const char* kRunByDefault = "quick-loop";
 
 struct BenchSlamArguments {
   std::string dataset;
@@ -42,7 +42,7 @@ int bench_slam(const BenchSlamArguments& arguments, const Surroundings& surround
   harness::SlamBenchmark benchmark;
   benchmark.threads = arguments.threads;
   if (arguments.dataset.empty()) {
-    const std::string scenario = arguments.scenario.empty() ? kDefaultScenario : arguments.scenario;
+    const std::string scenario = arguments.scenario.empty() ? kRunByDefault : arguments.scenario;
     simulate_frames({surroundings.catalogue.find(harness::DataKind::kScenario, scenario),
                      parse_overrides(arguments.overrides), arguments.frames, surroundings.machine},
                     benchmark);

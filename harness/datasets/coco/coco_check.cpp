@@ -18,7 +18,7 @@ namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr int kPanopticLookedAt = 12;
 

@@ -5,13 +5,12 @@
 #include <fmt/format.h>
 
 #include "core/truth/occlusion.h"
+#include "harness/datasets/flow/flow_writer.h"
 
 namespace vinebench::harness {
 
 namespace {
 
-constexpr double kFlowStep = 1.0 / 64;
-constexpr double kFlowZero = 32768;
 constexpr double kHalfMillimetre = 0.0005 + 1e-6;
 constexpr double kTolerance = 0.1;  // px
 constexpr double kAgreeing = 0.9;   // share of the pixels
@@ -78,8 +77,8 @@ void check_flow_image(LabelImages& images) {
       if (z <= 0 || code[0] == 0 || may_move(semantic, images.sequence(), y, x)) continue;
       const Eigen::Vector2d expected = place(x, y, z);
       const double by_depth = (place(x, y, z + kHalfMillimetre) - expected).norm();
-      const Eigen::Vector2d recorded(x + (code[2] - kFlowZero) * kFlowStep,
-                                     y + (code[1] - kFlowZero) * kFlowStep);
+      const Eigen::Vector2d recorded(x + (code[2] - kFlowZero) / kFlowSteps,
+                                     y + (code[1] - kFlowZero) / kFlowSteps);
       ++compared;
       if ((recorded - expected).norm() <= kTolerance + by_depth) ++agreeing;
     }

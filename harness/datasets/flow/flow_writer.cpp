@@ -18,8 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kFlowSteps = 64;  // per px, KITTI
-constexpr double kFlowZero = 32768;
 constexpr double kMostCode = 65535;
 
 }  // namespace

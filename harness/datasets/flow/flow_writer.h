@@ -29,6 +29,10 @@ class FlowWriter : public FormatWriter {
 FlowTruth flow_between(const DatasetFrame& a, const DatasetFrame& b, std::size_t camera,
                        const Pose& T_body_cam);
 
+/// KITTI's code of a flow of 0 px; a pixel has 64.
+inline constexpr double kFlowZero = 32768;
+inline constexpr double kFlowSteps = 64;
+
 /// KITTI's code of a flow, CV_16UC3 (RGB).
 cv::Mat kitti_flow(const cv::Mat& flow);
 

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr double kFar = 8;  // m; coarser beyond
+constexpr double kCrateFar = 8;  // m; coarser beyond
 
 /// Slats between corner posts round an open top, and a floor.
 Primitive crate_mesh(const Vector3f& half, bool fine) {
@@ -46,7 +46,8 @@ OccluderModel crate_model(const Occluder& occluder, std::uint64_t seed) {
   model.asset.add(make_material("crate", label_of(class_of(occluder)), 0));
   model.asset.materials[0].colour = linear_colour(colour_of(occluder));
   const Vector3f half = (size_of(occluder) / 2).cast<float>();
-  model.asset.model.levels = {{kFar, {crate_mesh(half, true)}}, {1e9, {crate_mesh(half, false)}}};
+  model.asset.model.levels = {{kCrateFar, {crate_mesh(half, true)}},
+                              {1e9, {crate_mesh(half, false)}}};
   return model;
 }
 

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 constexpr double kPersonHeight = 1.75;  // m, as the figure below is drawn
-constexpr double kFar = 8;              // m; coarser beyond
+constexpr double kPersonFar = 8;        // m; coarser beyond
 
 enum Cloth { kShirt, kTrousers, kSkin, kStraw, kShoe };
 
@@ -120,7 +120,7 @@ OccluderModel person_model(const Occluder& occluder, std::uint64_t seed) {
     model.asset.add(make_material(names[i], label_of(class_of(occluder)), 0));
     model.asset.materials.back().colour = colours[i];
   }
-  model.asset.model.levels = {{kFar, person_mesh(14)}, {1e9, person_mesh(6)}};
+  model.asset.model.levels = {{kPersonFar, person_mesh(14)}, {1e9, person_mesh(6)}};
   return model;
 }
 

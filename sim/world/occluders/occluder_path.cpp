@@ -6,11 +6,10 @@
 #include <numbers>
 
 #include "core/config/validate.h"
+#include "core/geometry/angle.h"
 
 namespace vinebench::sim {
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180.0;
 
 double heading_of(const Eigen::Vector2d& direction) {
   return std::atan2(direction.y(), direction.x());
@@ -21,7 +20,7 @@ double heading_of(const Eigen::Vector2d& direction) {
 PathMotion::PathMotion(const OccluderPath& path) : loop_(path.loop) {
   validate(path);
   const std::vector<OccluderPath::Waypoint>& stops = path.waypoints;
-  const double rate = path.turn_rate_deg * kRadians;
+  const double rate = path.turn_rate_deg * kRadiansPerDegree;
   const double first = heading_of(stops[1].position - stops[0].position);
   last_ << stops[0].position, first;
   add(stops[0].wait, last_);

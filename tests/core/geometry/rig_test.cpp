@@ -14,7 +14,7 @@
 namespace vinebench {
 namespace {
 
-constexpr double kRounding = 1e-14;  // m; a few roundings of numbers about 1
+constexpr double kMetreRounding = 1e-14;  // m; a few roundings of numbers about 1
 
 Rig rover() {
   return load_rig(VINEBENCH_SOURCE_DIR "/models/csl-rover/rig.yaml");
@@ -46,12 +46,12 @@ TEST(RigTest, BaselinesAreTwelveCentimetresAlongTheLeftCamerasXAxis) {
   const Rig rig = rover();
   ASSERT_EQ(rig.stereo_pairs.size(), 2u);
   for (const StereoPair& pair : rig.stereo_pairs) {
-    EXPECT_NEAR(rig.baseline(pair), 0.12, kRounding);
+    EXPECT_NEAR(rig.baseline(pair), 0.12, kMetreRounding);
     const Pose T_left_right =
         rig.cameras[static_cast<std::size_t>(pair.left)].T_body_cam.inverse() *
         rig.cameras[static_cast<std::size_t>(pair.right)].T_body_cam;
-    EXPECT_LT((T_left_right.translation - Eigen::Vector3d(0.12, 0, 0)).norm(), kRounding);
-    EXPECT_LT(angle_of(T_left_right.rotation), kRounding);
+    EXPECT_LT((T_left_right.translation - Eigen::Vector3d(0.12, 0, 0)).norm(), kMetreRounding);
+    EXPECT_LT(angle_of(T_left_right.rotation), kMetreRounding);
   }
 }
 
@@ -60,8 +60,8 @@ TEST(RigTest, TheBackPairLooksTheOppositeWay) {
   // the back pair swap sides of the rover.
   const Pose T_front_back = between(rover(), "front_left", "back_left");
   const Eigen::Matrix3d half_turn = Eigen::Vector3d(-1, 1, -1).asDiagonal();
-  EXPECT_LT((T_front_back.rotation.toRotationMatrix() - half_turn).norm(), kRounding);
-  EXPECT_LT((T_front_back.translation - Eigen::Vector3d(0.12, 0, -0.30)).norm(), kRounding);
+  EXPECT_LT((T_front_back.rotation.toRotationMatrix() - half_turn).norm(), kMetreRounding);
+  EXPECT_LT((T_front_back.translation - Eigen::Vector3d(0.12, 0, -0.30)).norm(), kMetreRounding);
 }
 
 TEST(RigTest, TheSideCameraLooksRight) {
@@ -69,30 +69,33 @@ TEST(RigTest, TheSideCameraLooksRight) {
   const Pose T_front_side = between(rover(), "front_left", "side");
   Eigen::Matrix3d turned;
   turned << 0, 0, 1, 0, 1, 0, -1, 0, 0;
-  EXPECT_LT((T_front_side.rotation.toRotationMatrix() - turned).norm(), kRounding);
-  EXPECT_LT((T_front_side.translation - Eigen::Vector3d(0.21, 0, -0.09)).norm(), kRounding);
+  EXPECT_LT((T_front_side.rotation.toRotationMatrix() - turned).norm(), kMetreRounding);
+  EXPECT_LT((T_front_side.translation - Eigen::Vector3d(0.21, 0, -0.09)).norm(), kMetreRounding);
 }
 
 TEST(RigTest, AStereoRigLooksAheadFromItsLeftCamera) {
   const Rig rig = Rig::stereo({640, 400, 400, 400, 319.5, 199.5}, 0.12);
   ASSERT_EQ(rig.stereo_pairs.size(), 1u);
-  EXPECT_NEAR(rig.baseline(rig.stereo_pairs[0]), 0.12, kRounding);
+  EXPECT_NEAR(rig.baseline(rig.stereo_pairs[0]), 0.12, kMetreRounding);
   // A point 2 m ahead of the left camera is 0.12 m to the left of the right camera's axis.
   const Eigen::Vector3d p_body(2, 0, 0);
   const Pose T_right_body = rig.cameras[1].T_body_cam.inverse();
   EXPECT_LT((rig.cameras[0].T_body_cam.inverse() * p_body - Eigen::Vector3d(0, 0, 2)).norm(),
-            kRounding);
-  EXPECT_LT((T_right_body * p_body - Eigen::Vector3d(-0.12, 0, 2)).norm(), kRounding);
+            kMetreRounding);
+  EXPECT_LT((T_right_body * p_body - Eigen::Vector3d(-0.12, 0, 2)).norm(), kMetreRounding);
 }
 
 TEST(RigTest, AMountLooksAlongXOfTheBody) {
   const Pose T_body_cam = Rig::mount({1, 2, 3}, {0, 0, 0});
-  EXPECT_LT((T_body_cam * Eigen::Vector3d::UnitZ() - Eigen::Vector3d(2, 2, 3)).norm(), kRounding);
-  EXPECT_LT((T_body_cam * Eigen::Vector3d::UnitX() - Eigen::Vector3d(1, 1, 3)).norm(), kRounding);
-  EXPECT_LT((T_body_cam * Eigen::Vector3d::UnitY() - Eigen::Vector3d(1, 2, 2)).norm(), kRounding);
+  EXPECT_LT((T_body_cam * Eigen::Vector3d::UnitZ() - Eigen::Vector3d(2, 2, 3)).norm(),
+            kMetreRounding);
+  EXPECT_LT((T_body_cam * Eigen::Vector3d::UnitX() - Eigen::Vector3d(1, 1, 3)).norm(),
+            kMetreRounding);
+  EXPECT_LT((T_body_cam * Eigen::Vector3d::UnitY() - Eigen::Vector3d(1, 2, 2)).norm(),
+            kMetreRounding);
   // Pitched by 30 degrees it looks down.
   const Pose pitched = Rig::mount({0, 0, 0}, {0, std::numbers::pi / 6, 0});
-  EXPECT_NEAR((pitched * Eigen::Vector3d::UnitZ()).z(), -0.5, kRounding);
+  EXPECT_NEAR((pitched * Eigen::Vector3d::UnitZ()).z(), -0.5, kMetreRounding);
 }
 
 TEST(RigTest, UnknownNamesAreErrorsWithFileAndKey) {

@@ -21,7 +21,7 @@
 namespace vinebench::harness {
 namespace {
 
-constexpr std::size_t kFrames = 6;
+constexpr std::size_t kFrameCount = 6;
 
 std::vector<std::string> lines_of(const std::filesystem::path& file) {
   const std::string text = read_file(file);
@@ -50,7 +50,7 @@ TEST_F(RecordedFormatsTest, Euroc) {
   const auto mav = out() / "euroc/mav0";
   const auto left = lines_of(mav / "cam0/data.csv");
   EXPECT_EQ(left.at(0), "#timestamp [ns],filename");
-  ASSERT_EQ(left.size(), kFrames + 1);
+  ASSERT_EQ(left.size(), kFrameCount + 1);
   for (std::size_t i = 1; i < left.size(); ++i) {
     std::smatch parts;
     ASSERT_TRUE(std::regex_match(left[i], parts, std::regex("([0-9]+),([0-9]+)\\.png"))) << left[i];
@@ -58,7 +58,7 @@ TEST_F(RecordedFormatsTest, Euroc) {
   }
   EXPECT_EQ(lines_of(mav / "cam1/data.csv"), left);
   const auto times = lines_of(out() / "euroc/times.txt");
-  ASSERT_EQ(times.size(), kFrames);
+  ASSERT_EQ(times.size(), kFrameCount);
   EXPECT_EQ(times[1], "66666667");
   const auto imu = lines_of(mav / "imu0/data.csv");
   EXPECT_EQ(numbers_of(imu.at(1), ',').size(), 7u);
@@ -66,8 +66,8 @@ TEST_F(RecordedFormatsTest, Euroc) {
   // 17 columns, w first: of a rover that hardly turns, w is near 1. TUM has it last.
   const auto truth = lines_of(mav / "state_groundtruth_estimate0/data.csv");
   const auto tum = lines_of(out() / "tum/body.txt");
-  ASSERT_EQ(truth.size(), kFrames + 1);
-  for (std::size_t i = 0; i < kFrames; ++i) {
+  ASSERT_EQ(truth.size(), kFrameCount + 1);
+  for (std::size_t i = 0; i < kFrameCount; ++i) {
     const auto euroc = numbers_of(truth[i + 1], ',');
     const auto body = numbers_of(tum[i], ' ');
     ASSERT_EQ(euroc.size(), 17u);
@@ -132,10 +132,10 @@ TEST_F(RecordedFormatsTest, Kitti) {
   ASSERT_EQ(P1.size(), 12u);
   EXPECT_NEAR(P1[3], -test::kFocal * test::kBaseline, 1e-9);
   const auto poses = lines_of(out() / "kitti/poses.txt");
-  ASSERT_EQ(poses.size(), kFrames);
+  ASSERT_EQ(poses.size(), kFrameCount);
   EXPECT_EQ(lines_of(out() / "kitti/times.txt").at(1), "0.066666667");
   const Trajectory left = read_tum(out() / "tum/left.txt");
-  for (std::size_t i = 0; i < kFrames; ++i) {
+  for (std::size_t i = 0; i < kFrameCount; ++i) {
     const auto p = numbers_of(poses[i], ' ');
     ASSERT_EQ(p.size(), 12u);
     const Eigen::Matrix4d T = (left[0].pose.inverse() * left[i].pose).matrix();
@@ -154,7 +154,7 @@ TEST_F(RecordedFormatsTest, Kitti) {
 TEST_F(RecordedFormatsTest, DcVslam) {
   record({"dcvslam"});
   const YAML::Node config = YAML::LoadFile((out() / "dcvslam/config.yaml").string());
-  EXPECT_EQ(config["numOfFrames"].as<std::size_t>(), kFrames);
+  EXPECT_EQ(config["numOfFrames"].as<std::size_t>(), kFrameCount);
   EXPECT_EQ(config["Multi"]["T_c1_c2"]["data"].as<std::vector<float>>().size(), 16u);
   EXPECT_NEAR(config["Camera"]["bl"].as<float>(), 0.12f, 1e-6f);
   for (const char* key : {"Camera_l", "Camera_r", "CameraB_l", "CameraB_r"}) {
@@ -192,9 +192,9 @@ TEST_F(RecordedFormatsTest, AReplayGivesTheFramesOfTheRun) {
       sim::make_simulation(scenario.simulation, 1, request_.machine.plant_cache, pool);
   const std::vector<Sample> euroc = test::play_all(out() / "euroc");
   const std::vector<Sample> kitti = test::play_all(out() / "kitti");
-  ASSERT_EQ(euroc.size(), kFrames);
-  ASSERT_EQ(kitti.size(), kFrames);
-  for (std::size_t i = 0; i < kFrames; ++i) {
+  ASSERT_EQ(euroc.size(), kFrameCount);
+  ASSERT_EQ(kitti.size(), kFrameCount);
+  for (std::size_t i = 0; i < kFrameCount; ++i) {
     const Frame run = source->next()->frame;
     EXPECT_EQ(euroc[i].frame.stamp, run.stamp);
     EXPECT_EQ(kitti[i].frame.stamp, run.stamp);

@@ -11,7 +11,7 @@ namespace {
 
 /// Poses off by `offset` along the body's x axis, with standard deviations of 1 cm and 0.01 rad;
 /// the first frame saw the tag.
-RunRecord record_of(const std::vector<double>& offsets) {
+RunRecord record_with(const std::vector<double>& offsets) {
   RunRecord record;
   record.rig = test::fake_rig();
   record.tags = test::fake_trial().site.tags;
@@ -33,14 +33,14 @@ RunRecord record_of(const std::vector<double>& offsets) {
 
 TEST(ConsistencyTest, IsTheErrorInStandardDeviationsSquared) {
   // 1, 2, 3 and 4 sigma: (1 + 4 + 9 + 16) / 4 = 7.5; 16 is above 12.59.
-  const auto found = check_consistency(record_of({0.01, 0.02, 0.03, 0.04}));
+  const auto found = check_consistency(record_with({0.01, 0.02, 0.03, 0.04}));
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->nees_mean, 7.5, 1e-9);
   EXPECT_DOUBLE_EQ(found->within_95, 0.75);
 }
 
 TEST(ConsistencyTest, FramesWithoutPoseTruthOrCovarianceAreLeftOut) {
-  RunRecord record = record_of({0.01, 0.05, 0.05, 0.05});
+  RunRecord record = record_with({0.01, 0.05, 0.05, 0.05});
   record.ticks[1].estimate.T_map_body.reset();
   record.ticks[2].truth.known = false;
   record.ticks[3].estimate.covariance.setZero();
@@ -48,7 +48,7 @@ TEST(ConsistencyTest, FramesWithoutPoseTruthOrCovarianceAreLeftOut) {
 }
 
 TEST(ConsistencyTest, CountsWhatItLeavesOutForItsCovariance) {
-  RunRecord record = record_of({0.01, 0.05, 0.05, 0.05});
+  RunRecord record = record_with({0.01, 0.05, 0.05, 0.05});
   record.ticks[1].estimate.T_map_body.reset();  // has no pose: not counted
   record.ticks[2].estimate.covariance.setZero();
   record.ticks[3].estimate.covariance(0, 0) = 0;  // of rank five
@@ -62,7 +62,7 @@ TEST(ConsistencyTest, CountsWhatItLeavesOutForItsCovariance) {
 }
 
 TEST(ConsistencyTest, SaysSoWhereNoCovarianceCanBeInverted) {
-  RunRecord record = record_of({0.01, 0.01});
+  RunRecord record = record_with({0.01, 0.01});
   for (Tick& tick : record.ticks) tick.estimate.covariance(0, 0) = -1e-4;
   ASSERT_TRUE(check_consistency(record));
   EXPECT_EQ(check_consistency(record)->frames, 0);
@@ -73,10 +73,10 @@ TEST(ConsistencyTest, SaysSoWhereNoCovarianceCanBeInverted) {
 }
 
 TEST(ConsistencyTest, NeedsARegisteredTagInTheFirstFrame) {
-  RunRecord record = record_of({0.01, 0.01});
+  RunRecord record = record_with({0.01, 0.01});
   record.tags[0].registered = false;
   EXPECT_FALSE(check_consistency(record));
-  record = record_of({0.01, 0.01});
+  record = record_with({0.01, 0.01});
   record.ticks[0].estimate.tags.clear();
   EXPECT_FALSE(check_consistency(record));
   EXPECT_FALSE(check_consistency(RunRecord{}));

@@ -8,7 +8,7 @@
 namespace vinebench::harness {
 namespace {
 
-/// Results that meet everything().
+/// Results that meet every_check().
 RunResults good() {
   RunResults results;
   results.coverage = 1;
@@ -21,7 +21,7 @@ RunResults good() {
   return results;
 }
 
-Expectations everything() {
+Expectations every_check() {
   Expectations expectations;
   expectations.coverage_min = 1;
   expectations.losses_max = 0;
@@ -36,14 +36,14 @@ Expectations everything() {
 
 std::vector<std::string> failures(const RunResults& results) {
   std::vector<std::string> names;
-  for (const Check& check : failed_of(check_expectations(everything(), results))) {
+  for (const Check& check : failed_of(check_expectations(every_check(), results))) {
     names.push_back(check.what);
   }
   return names;
 }
 
 TEST(VerdictTest, HoldsForGoodResults) {
-  const auto checks = check_expectations(everything(), good());
+  const auto checks = check_expectations(every_check(), good());
   EXPECT_EQ(checks.size(), 9u);
   EXPECT_TRUE(all_hold(checks)) << format_checks(checks);
 }
@@ -76,7 +76,7 @@ TEST(VerdictTest, WhatWasNotMeasuredFails) {
   RunResults results = good();
   results.corrected.reset();
   results.blind.reset();
-  const auto failed = failed_of(check_expectations(everything(), results));
+  const auto failed = failed_of(check_expectations(every_check(), results));
   ASSERT_EQ(failed.size(), 4u);
   EXPECT_EQ(failed[0].what, "ATE, SE(3)-aligned");
   EXPECT_EQ(failed[0].measured, "none");

@@ -22,7 +22,7 @@ using testing::AllOf;
 using testing::AnyOf;
 using testing::HasSubstr;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
 
 class BrokenAssetsTest : public test::BrokenFiles {};
 
@@ -109,11 +109,11 @@ TEST_F(BrokenAssetsTest, NumbersThatAreNone) {
     change(plant, plant.model.levels[0].primitives[1].vertices[2]);
     return problem("nan.glb", to_glb(plant));
   };
-  EXPECT_THAT(broken([](Asset&, Vertex& v) { v.position.y() = kNan; }),
+  EXPECT_THAT(broken([](Asset&, Vertex& v) { v.position.y() = kNotANumber; }),
               HasSubstr("vertex 2 is not a finite number"));
-  EXPECT_THAT(broken([](Asset&, Vertex& v) { v.normal.x() = kNan; }), HasSubstr("vertex 2"));
+  EXPECT_THAT(broken([](Asset&, Vertex& v) { v.normal.x() = kNotANumber; }), HasSubstr("vertex 2"));
   EXPECT_THAT(broken([](Asset&, Vertex& v) { v.uv.x() = INFINITY; }), HasSubstr("vertex 2"));
-  EXPECT_THAT(broken([](Asset&, Vertex& v) { v.occlusion = kNan; }), HasSubstr("vertex 2"));
+  EXPECT_THAT(broken([](Asset&, Vertex& v) { v.occlusion = kNotANumber; }), HasSubstr("vertex 2"));
   EXPECT_THAT(broken([](Asset&, Vertex& v) { v.position.z() = 1e20f; }),
               HasSubstr("vertex 2 lies more than"));
 }

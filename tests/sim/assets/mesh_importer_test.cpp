@@ -18,7 +18,7 @@ using test::error_of;
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
 
 const char* const kObj = "v 0 0 0\nv 1 0 0\nv 0 0 2\nvt 0 0\nvt 1 0\nvt 0 1\n";
 
@@ -133,13 +133,13 @@ TEST(MeshImporterTest, BrokenStlIsNamed) {
     const auto file = folder.write("short.stl", whole.substr(0, size));
     EXPECT_THAT(error_of([&] { load_asset(file); }), HasSubstr(file.string())) << size;
   }
-  const auto nan = folder.write("nan.stl", stl({{0, 0, 0}, {1, kNan, 0}, {0, 0, 2}}));
+  const auto nan = folder.write("nan.stl", stl({{0, 0, 0}, {1, kNoNumber, 0}, {0, 0, 2}}));
   EXPECT_THAT(error_of([&] { load_asset(nan); }),
               AllOf(HasSubstr(nan.string()), HasSubstr("finite")));
 }
 
 /// One triangle (0, 0, 0), (1, 0, 0), (0, 0, 2) in a document of that axis and unit.
-std::string dae(const std::string& axis, const std::string& unit) {
+std::string triangle_dae(const std::string& axis, const std::string& unit) {
   return R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
 <asset><unit name="u" meter=")" +
          unit + R"("/><up_axis>)" + axis + R"(</up_axis></asset>
@@ -157,13 +157,13 @@ std::string dae(const std::string& axis, const std::string& unit) {
 
 TEST(MeshImporterTest, DaeHasTheAxisAndUnitThatItSays) {
   const test::TestFolder folder;
-  const Asset upright = load_asset(folder.write("z.dae", dae("Z_UP", "1")));
+  const Asset upright = load_asset(folder.write("z.dae", triangle_dae("Z_UP", "1")));
   vertex_at(upright, {1, 0, 0});
   vertex_at(upright, {0, 0, 2});
-  const Asset turned = load_asset(folder.write("y.dae", dae("Y_UP", "1")));
+  const Asset turned = load_asset(folder.write("y.dae", triangle_dae("Y_UP", "1")));
   vertex_at(turned, {1, 0, 0});
   vertex_at(turned, {0, -2, 0});  // its z points to us, which is -y with z up
-  const Asset centimetres = load_asset(folder.write("cm.dae", dae("Z_UP", "0.01")));
+  const Asset centimetres = load_asset(folder.write("cm.dae", triangle_dae("Z_UP", "0.01")));
   vertex_at(centimetres, {0.01f, 0, 0});
   vertex_at(centimetres, {0, 0, 0.02f});
 }
@@ -171,7 +171,7 @@ TEST(MeshImporterTest, DaeHasTheAxisAndUnitThatItSays) {
 TEST(MeshImporterTest, BrokenDaeIsNamed) {
   const test::TestFolder folder;
   for (const std::string& text :
-       {std::string("<COLLADA>"), std::string("text"), dae("Z_UP", "1").substr(0, 700)}) {
+       {std::string("<COLLADA>"), std::string("text"), triangle_dae("Z_UP", "1").substr(0, 700)}) {
     const auto file = folder.write("broken.dae", text);
     EXPECT_THAT(error_of([&] { load_asset(file); }), HasSubstr(file.string()));
   }

@@ -13,8 +13,6 @@
 namespace vinebench::sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 RouteConfig::Waypoint waypoint(double x, double y, double heading_deg = 0) {
   RouteConfig::Waypoint result;
   result.position = {x, y};
@@ -69,19 +67,19 @@ TEST(RouteTest, TheSlowerOfWayAndTurnSetsThePace) {
   // Turning by 360 deg at 90 deg/s with 90 deg/s^2 takes 5 s; 1 m alone would take 3 s.
   const Route turning(route_of({waypoint(0, 0), waypoint(1, 0, 360)}));
   EXPECT_EQ(turning.duration(), from_seconds(5));
-  EXPECT_NEAR(turning.at(from_seconds(2.5)).velocity.z(), kPi / 2, 1e-12);
-  EXPECT_NEAR(turning.at(from_seconds(2.5)).pose.z(), kPi, 1e-12);
+  EXPECT_NEAR(turning.at(from_seconds(2.5)).velocity.z(), std::numbers::pi / 2, 1e-12);
+  EXPECT_NEAR(turning.at(from_seconds(2.5)).pose.z(), std::numbers::pi, 1e-12);
   EXPECT_NEAR(turning.at(from_seconds(2.5)).pose.x(), 0.5, 1e-12);
   // 2 m take 5 s; turning by 90 deg alone would take 2 s.
   const Route moving(route_of({waypoint(0, 0), waypoint(2, 0, 90)}));
   EXPECT_EQ(moving.duration(), from_seconds(5));
-  EXPECT_NEAR(moving.at(from_seconds(5)).pose.z(), kPi / 2, 1e-12);
+  EXPECT_NEAR(moving.at(from_seconds(5)).pose.z(), std::numbers::pi / 2, 1e-12);
 }
 
 TEST(RouteTest, TurnsOnTheSpotAccumulate) {
   const Route route(route_of({waypoint(0, 0, 90), waypoint(0, 0, 450), waypoint(0, 0, 90)}));
   EXPECT_EQ(route.duration(), from_seconds(10));
-  EXPECT_NEAR(route.at(from_seconds(5)).pose.z(), 2.5 * kPi, 1e-12);
+  EXPECT_NEAR(route.at(from_seconds(5)).pose.z(), 2.5 * std::numbers::pi, 1e-12);
   EXPECT_LT(route.at(from_seconds(7)).velocity.z(), 0);
   EXPECT_EQ(route.length(), 0);
 }
@@ -137,14 +135,14 @@ TEST(RouteTest, IsContinuousAndKeepsItsLimits) {
     const Route::Reference here = route.at(t);
     const double s = to_seconds(t);
     EXPECT_LE(here.velocity.head<2>().norm(), 0.5 + 1e-9) << s;
-    EXPECT_LE(std::abs(here.velocity.z()), kPi / 2 + 1e-9) << s;
+    EXPECT_LE(std::abs(here.velocity.z()), std::numbers::pi / 2 + 1e-9) << s;
     // The mean of the velocities at both ends, except for a kink of at most 0.05 m/s or 9 deg/s.
     const Eigen::Vector3d predicted = last.pose + 0.5 * dt * (last.velocity + here.velocity);
     EXPECT_LT((here.pose - predicted).head<2>().norm(), 0.05 * dt) << s;
     EXPECT_LT(std::abs((here.pose - predicted).z()), 0.16 * dt) << s;
     last = here;
   }
-  EXPECT_NEAR((last.pose - Eigen::Vector3d(3, 1, -kPi / 2)).norm(), 0, 1e-12);
+  EXPECT_NEAR((last.pose - Eigen::Vector3d(3, 1, -std::numbers::pi / 2)).norm(), 0, 1e-12);
 }
 
 TEST(RouteTest, OneWaypointIsAPlace) {
@@ -153,7 +151,7 @@ TEST(RouteTest, OneWaypointIsAPlace) {
   const Route route(config);
   EXPECT_EQ(route.duration(), from_seconds(3));
   EXPECT_EQ(route.at(from_seconds(9)).pose, route.start());
-  EXPECT_NEAR(route.start().z(), kPi / 2, 1e-12);
+  EXPECT_NEAR(route.start().z(), std::numbers::pi / 2, 1e-12);
 }
 
 TEST(RouteTest, RefusesARouteWithoutWaypoints) {
@@ -164,8 +162,8 @@ TEST(RouteTest, RefusesARouteWithoutWaypoints) {
 TEST(FollowTest, OnTheRouteItIsTheRoutesVelocityInTheBodyFrame) {
   // Facing north, going east: that is to the right.
   Pose body;
-  body.rotation = from_roll_pitch_yaw({0, 0, kPi / 2});
-  const Route::Reference reference{{0, 0, kPi / 2}, {0.4, 0, 0.1}};
+  body.rotation = from_roll_pitch_yaw({0, 0, std::numbers::pi / 2});
+  const Route::Reference reference{{0, 0, std::numbers::pi / 2}, {0.4, 0, 0.1}};
   EXPECT_NEAR((follow(reference, body) - Eigen::Vector3d(0, -0.4, 0.1)).norm(), 0, 1e-12);
 }
 
@@ -181,7 +179,7 @@ TEST(FollowTest, CorrectsTowardsTheRouteWithinLimits) {
 }
 
 TEST(FollowTest, WholeTurnsAreNoError) {
-  const Route::Reference reference{{0, 0, 4 * kPi + 0.01}, {0, 0, 0}};
+  const Route::Reference reference{{0, 0, 4 * std::numbers::pi + 0.01}, {0, 0, 0}};
   EXPECT_NEAR(follow(reference, Pose{}).z(), 0.02, 1e-12);
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <numbers>
 
 #include "core/util/error.h"
 #include "tests/support/test_folder.h"
@@ -15,11 +16,11 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::filesystem::path kModel =
+const std::filesystem::path kRoverModel =
     std::filesystem::path(VINEBENCH_SOURCE_DIR) / "models/csl-rover/rover.xml";
 
 TEST(RoverAssetTest, HasTheModelsMeasures) {
-  const Asset rover = rover_asset(kModel);
+  const Asset rover = rover_asset(kRoverModel);
   // The collision hull is not visible; the wheels extend furthest: 0.15 + 0.10 m ahead, and to the
   // side 0.19 m and the rollers' 0.0623 m of half length at 45 degrees.
   EXPECT_NEAR(rover.model.bounds.max().y(), 0.236f, 0.005f);
@@ -47,17 +48,17 @@ TEST(RoverAssetTest, ShapesHaveTheirVolume) {
     }
     return six_volumes / 6;
   };
-  constexpr double kPi = 3.14159265358979;
+  using std::numbers::pi;
   EXPECT_NEAR(volume("type='box' size='0.1 0.2 0.3'"), 8 * 0.006, 1e-6);
   // Round shapes are inscribed polyhedra: of 8 to 20 sides, 2 to 20 % smaller.
   const auto expect_round = [&](double found, double exact) {
     EXPECT_LT(found, exact);
     EXPECT_GT(found, 0.78 * exact);
   };
-  expect_round(volume("type='cylinder' size='0.1 0.2'"), kPi * 0.01 * 0.4);
-  expect_round(volume("type='sphere' size='0.1'"), 4 / 3.0 * kPi * 0.001);
-  expect_round(volume("type='ellipsoid' size='0.1 0.2 0.3'"), 4 / 3.0 * kPi * 0.006);
-  expect_round(volume("type='capsule' size='0.1 0.2'"), kPi * 0.01 * (0.4 + 4 / 3.0 * 0.1));
+  expect_round(volume("type='cylinder' size='0.1 0.2'"), pi * 0.01 * 0.4);
+  expect_round(volume("type='sphere' size='0.1'"), 4 / 3.0 * pi * 0.001);
+  expect_round(volume("type='ellipsoid' size='0.1 0.2 0.3'"), 4 / 3.0 * pi * 0.006);
+  expect_round(volume("type='capsule' size='0.1 0.2'"), pi * 0.01 * (0.4 + 4 / 3.0 * 0.1));
 }
 
 TEST(RoverAssetTest, WhatIsNoRoverIsAnError) {

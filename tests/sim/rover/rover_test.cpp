@@ -22,14 +22,13 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kFrameRate = 15;
 
-const std::filesystem::path kModels =
+const std::filesystem::path kRoverFolder =
     std::filesystem::path(VINEBENCH_SOURCE_DIR) / "models/csl-rover";
 
 RoverConfig csl_rover() {
-  return load_rover(kModels / "rover.yaml");
+  return load_rover(kRoverFolder / "rover.yaml");
 }
 
 /// One row far from the test drives.
@@ -279,12 +278,13 @@ TEST(RoverTest, FollowsARouteWithinACentimetre) {
     const Pose body = rover.T_world_body();
     worst = std::max(worst, (position_of(rover) - reference.pose.head<2>()).norm());
     worst_turn = std::max(
-        worst_turn, std::abs(std::remainder(yaw_of(body.rotation) - reference.pose.z(), 2 * kPi)));
+        worst_turn,
+        std::abs(std::remainder(yaw_of(body.rotation) - reference.pose.z(), 2 * std::numbers::pi)));
     rover.command(follow(reference, body));
     rover.advance_to(stamp_of_frame(i + 1, 50), imu, wheels);
   }
   EXPECT_LT(worst, 0.01);
-  EXPECT_LT(worst_turn, 1.5 * kPi / 180);
+  EXPECT_LT(worst_turn, 1.5 * std::numbers::pi / 180);
   EXPECT_LT((position_of(rover) - Eigen::Vector2d(0.5, 0.8)).norm(), 0.01);
 }
 
@@ -385,23 +385,6 @@ TEST(RoverTest, ErrorsNameWhatIsWrong) {
         Rover(csl_rover(), field(), {0, 10, 0}, 1);
       },
       ThrowsMessage<Error>(HasSubstr("cannot start at (0.000, 10.000) m")));
-}
-
-TEST(MecanumDriveTest, BodyMotionInvertsWheelSpeeds) {
-  const MecanumDrive drive;
-  const Eigen::Vector3d twist(0.3, -0.2, 0.7);
-  EXPECT_NEAR((drive.body_motion(drive.wheel_speeds(twist)) - twist).norm(), 0, 1e-12);
-  // Forward, all wheels have the same speed: 0.3 m/s at 0.1 m are 3 rad/s.
-  EXPECT_THAT(drive.wheel_speeds({0.3, 0, 0}), testing::Each(testing::DoubleEq(3)));
-}
-
-TEST(SpeedLoopTest, KeepsItsLimitAndDoesNotWindUp) {
-  SpeedLoop loop(SpeedLoopConfig{});
-  for (int i = 0; i < 4000; ++i) EXPECT_LE(loop.torque(10, 0, 0.0025), 5);  // a blocked wheel
-  // Once the wheel is 1 rad/s too fast the torque changes its sign within 0.2 s.
-  double torque = 0;
-  for (int i = 0; i < 80; ++i) torque = loop.torque(10, 11, 0.0025);
-  EXPECT_LT(torque, 0);
 }
 
 }  // namespace

@@ -5,20 +5,19 @@
 #include <opencv2/core.hpp>
 
 #include "sim/textures/textures.h"
+#include "tests/support/same_texture.h"
 
 namespace vinebench::sim {
 namespace {
 
-bool same(const Texture& a, const Texture& b) {
-  return a.rgba.size() == b.rgba.size() && cv::norm(a.rgba, b.rgba, cv::NORM_INF) == 0;
-}
+using test::same_texels;
 
 TEST(GroundTexturesTest, ASeedIsOneImageThatRepeats) {
   for (const auto make : {grass_texture, stone_texture}) {
     const Texture first = make(1);
     EXPECT_TRUE(first.repeat) << first.name;
-    EXPECT_TRUE(same(first, make(1))) << first.name;
-    EXPECT_FALSE(same(first, make(2))) << first.name;
+    EXPECT_TRUE(same_texels(first, make(1))) << first.name;
+    EXPECT_FALSE(same_texels(first, make(2))) << first.name;
   }
 }
 

@@ -5,20 +5,19 @@
 #include <opencv2/core.hpp>
 
 #include "sim/textures/textures.h"
+#include "tests/support/same_texture.h"
 
 namespace vinebench::sim {
 namespace {
 
-bool same(const Texture& a, const Texture& b) {
-  return a.rgba.size() == b.rgba.size() && cv::norm(a.rgba, b.rgba, cv::NORM_INF) == 0;
-}
+using test::same_texels;
 
 TEST(PropTexturesTest, ASeedIsOneImage) {
   for (const auto make : {wood_texture, carton_texture, print_texture, cloth_texture}) {
     const Texture first = make(1);
     EXPECT_EQ(first.rgba.type(), CV_8UC4) << first.name;
-    EXPECT_TRUE(same(first, make(1))) << first.name;
-    EXPECT_FALSE(same(first, make(2))) << first.name;
+    EXPECT_TRUE(same_texels(first, make(1))) << first.name;
+    EXPECT_FALSE(same_texels(first, make(2))) << first.name;
   }
 }
 
@@ -28,7 +27,7 @@ TEST(PropTexturesTest, ACartonsUpperHalfIsPlainAndPale) {
   const cv::Mat upper = carton.rgba.rowRange(0, carton.rgba.rows / 2);
   const cv::Scalar mean = cv::mean(upper);
   for (int channel = 0; channel < 3; ++channel) EXPECT_GT(mean[channel], 150);
-  EXPECT_FALSE(same(carton, print_texture(1)));
+  EXPECT_FALSE(same_texels(carton, print_texture(1)));
 }
 
 }  // namespace

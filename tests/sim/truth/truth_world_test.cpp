@@ -102,16 +102,17 @@ TEST_F(TruthWorldTest, FlowWarpsOneImageOntoTheNext) {
 }
 
 TEST_F(TruthWorldTest, DisparityWarpsTheRightImageOntoTheLeft) {
-  constexpr double kBaseline = 0.12;  // m
+  constexpr double kStereoBaseline = 0.12;  // m
   GlRenderer renderer(grow(csl_vineyard()), {});
   const Pose left_camera = in_aisle();
-  const Pose right_camera = left_camera * Pose{Eigen::Quaterniond::Identity(), {kBaseline, 0, 0}};
+  const Pose right_camera =
+      left_camera * Pose{Eigen::Quaterniond::Identity(), {kStereoBaseline, 0, 0}};
   const TruthView left = view(renderer, left_camera), right = view(renderer, right_camera);
   const DisparityTruth truth = disparity(left, right);
   for (int y = 0; y < camera_.height; ++y) {
     for (int x = 0; x < camera_.width; ++x) {
       const float depth = left.image.depth.at<float>(y, x);
-      const double expected = depth == 0 ? 0 : camera_.fx * kBaseline / depth;
+      const double expected = depth == 0 ? 0 : camera_.fx * kStereoBaseline / depth;
       ASSERT_NEAR(truth.disparity.at<float>(y, x), expected, 0.01);
     }
   }

@@ -12,12 +12,12 @@
 namespace vinebench::sim {
 namespace {
 
-std::vector<RowConfig> three_rows() {
+std::vector<RowConfig> even_and_slanted_rows() {
   return {{{0, 0}, {30, 0}}, {{0, 2}, {30, 2}}, {{-20, 5}, {-12, 13}}};
 }
 
 TEST(RowIndexTest, FindsTheDistanceToTheNearestRow) {
-  const RowIndex rows(three_rows());
+  const RowIndex rows(even_and_slanted_rows());
   EXPECT_NEAR(rows.distance({15, 0.7}), 0.7, 1e-12);
   EXPECT_NEAR(rows.distance({15, 1.2}), 0.8, 1e-12);
   EXPECT_NEAR(rows.distance({32, 2}), 2, 1e-12);
@@ -28,7 +28,7 @@ TEST(RowIndexTest, FindsTheDistanceToTheNearestRow) {
 
 /// Against every row, one after the other, wherever squares of the index meet.
 TEST(RowIndexTest, AgreesWithASearchOfAllRows) {
-  const std::vector<RowConfig> rows = three_rows();
+  const std::vector<RowConfig> rows = even_and_slanted_rows();
   const RowIndex index(rows);
   RandomSequence random(RandomStream(1, "places"));
   for (int i = 0; i < 3000; ++i) {

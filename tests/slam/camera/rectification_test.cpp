@@ -17,9 +17,6 @@ namespace {
 using test::render_image;
 using test::SyntheticTexture;
 
-using test::render_image;
-using test::SyntheticTexture;
-
 constexpr double kWall = 1.5;  // m ahead of the body
 
 PinholeCamera lens(double fx, double fy, double cx, double cy) {

@@ -18,9 +18,6 @@ namespace {
 using test::render_image;
 using test::SyntheticTexture;
 
-using test::render_image;
-using test::SyntheticTexture;
-
 /// Contrast of the texture falls from full at the left to a tenth at the right.
 cv::Mat fading_image() {
   const SyntheticTexture texture(11);

@@ -19,9 +19,6 @@ namespace {
 using test::render_image;
 using test::SyntheticTexture;
 
-using test::render_image;
-using test::SyntheticTexture;
-
 constexpr int kWidth = 480;
 constexpr int kHeight = 360;
 

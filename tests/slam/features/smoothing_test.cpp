@@ -14,9 +14,6 @@ namespace {
 using test::render_image;
 using test::SyntheticTexture;
 
-using test::render_image;
-using test::SyntheticTexture;
-
 double worst(const cv::Mat& a, const cv::Mat& b) {
   return cv::norm(a, b, cv::NORM_INF);
 }

@@ -12,15 +12,15 @@ namespace {
 using test::distance;
 using test::SyntheticAisle;
 
-constexpr int kSide = 4;  // index of the rover's tag camera
+constexpr int kTagCamera = 4;  // index of the rover's tag camera
 
 /// Gating of sightings by the loop closer.
 class TagJudgementTest : public testing::Test {
  protected:
   TagSighting sighting(int id, const Pose& T_body_tag) const {
-    const RigCamera& side = rig_.rig.cameras[kSide];
+    const RigCamera& side = rig_.rig.cameras[kTagCamera];
     TagSighting seen;
-    seen.camera = kSide;
+    seen.camera = kTagCamera;
     seen.family = "tag36h11";
     seen.id = id;
     seen.T_cam_tag = side.T_body_cam.inverse() * T_body_tag;

@@ -45,7 +45,7 @@ class Place : public ceres::SizedCostFunction<3, 7> {
   Eigen::Vector3d wanted_;
 };
 
-ceres::Solver::Options dense() {
+ceres::Solver::Options dense_qr() {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.function_tolerance = 1e-14;
@@ -82,7 +82,7 @@ TEST_F(ProblemBuilderTest, OnlyMovedKeyframesMoveAndAreWrittenBack) {
   problem.add_factor(left, nullptr, {problem.pose_of(3)});
   problem.add_factor(start, nullptr, {problem.pose_of(0)});
   // Keyframe 0 is held 2 m off: half of 4.
-  EXPECT_NEAR(problem.solve(dense()), 2, 1e-12);
+  EXPECT_NEAR(problem.solve(dense_qr()), 2, 1e-12);
   EXPECT_EQ(map_.keyframe(3).T_map_body.translation, Eigen::Vector3d(3, 0, 0));
   problem.write_poses(map_);
   EXPECT_LT((map_.keyframe(3).T_map_body.translation - Eigen::Vector3d(3, 1, 0)).norm(), 1e-7);
@@ -100,11 +100,11 @@ TEST_F(ProblemBuilderTest, BlocksOfOthersAreHeldUntilReleased) {
   Wish four(4), two(2);
   problem.add_factor(four, nullptr, {&point});
   problem.add_factor(two, nullptr, {&other});
-  EXPECT_NEAR(problem.solve(dense()), 0.5 * 9, 1e-9);
+  EXPECT_NEAR(problem.solve(dense_qr()), 0.5 * 9, 1e-9);
   EXPECT_NEAR(point, 4, 1e-7);
   EXPECT_EQ(other, 5);
   problem.release(&other);
-  EXPECT_NEAR(problem.solve(dense()), 0, 1e-9);
+  EXPECT_NEAR(problem.solve(dense_qr()), 0, 1e-9);
   EXPECT_NEAR(other, 2, 1e-7);
 }
 
@@ -120,7 +120,7 @@ TEST_F(ProblemBuilderTest, TheCostIsUnderTheLoss) {
   problem.add_factor(zero, &huber, {&held});
   problem.add_factor(zero, nullptr, {&free});
   // Half of 2 * 10 - 1.
-  EXPECT_NEAR(problem.solve(dense()), 9.5, 1e-9);
+  EXPECT_NEAR(problem.solve(dense_qr()), 9.5, 1e-9);
 }
 
 }  // namespace

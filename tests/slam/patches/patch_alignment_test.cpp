@@ -13,8 +13,6 @@ namespace {
 
 using test::SyntheticPlane;
 
-using test::SyntheticPlane;
-
 struct Alignments {
   int tried = 0;
   int found = 0;

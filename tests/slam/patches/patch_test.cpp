@@ -16,9 +16,6 @@ namespace {
 using test::render_image;
 using test::SyntheticTexture;
 
-using test::render_image;
-using test::SyntheticTexture;
-
 constexpr int kWidth = 160;
 constexpr int kHeight = 120;
 constexpr double kNoise = 1.5;  // grey levels

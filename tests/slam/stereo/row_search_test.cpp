@@ -15,10 +15,6 @@ using test::render_image;
 using test::SyntheticPlane;
 using test::SyntheticTexture;
 
-using test::render_image;
-using test::SyntheticPlane;
-using test::SyntheticTexture;
-
 constexpr int kX = 150;
 constexpr int kY = 30;
 

@@ -17,10 +17,6 @@ using test::render_image;
 using test::SyntheticPlane;
 using test::SyntheticTexture;
 
-using test::render_image;
-using test::SyntheticPlane;
-using test::SyntheticTexture;
-
 constexpr double kBaseline = 0.12;             // m
 constexpr double kFocal = 263.2786;            // px
 constexpr double kReach = kFocal * kBaseline;  // px m: disparity times depth

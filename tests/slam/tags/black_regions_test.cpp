@@ -17,9 +17,6 @@ namespace {
 using test::render_image;
 using test::SyntheticTexture;
 
-using test::render_image;
-using test::SyntheticTexture;
-
 /// '#' is black, '.' white.
 cv::Mat drawn(const std::vector<std::string>& rows) {
   cv::Mat image(static_cast<int>(rows.size()), static_cast<int>(rows[0].size()), CV_8UC1);

@@ -14,8 +14,6 @@ namespace {
 
 using test::SyntheticTag;
 
-using test::SyntheticTag;
-
 constexpr double kSize = 0.161;  // m
 
 PinholeCamera camera(const std::array<double, 4>& distortion = {}) {

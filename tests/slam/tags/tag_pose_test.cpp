@@ -10,7 +10,7 @@
 namespace vinebench::slam {
 namespace {
 
-PinholeCamera camera(const std::array<double, 4>& distortion = {}) {
+PinholeCamera wide_camera(const std::array<double, 4>& distortion = {}) {
   return {1920, 1080, 733, 733, 959.5, 539.5, distortion};
 }
 
@@ -35,7 +35,7 @@ Pose draw_pose(RandomSequence& random) {
 
 TEST(TagPoseTest, IsExactForExactCorners) {
   RandomSequence random(RandomStream(1, "tag-poses"));
-  for (const PinholeCamera& lens : {camera(), camera({-0.05, 0.01, 1e-3, -5e-4})}) {
+  for (const PinholeCamera& lens : {wide_camera(), wide_camera({-0.05, 0.01, 1e-3, -5e-4})}) {
     for (int i = 0; i < 100; ++i) {
       const Pose truth = draw_pose(random);
       const Pose pose = estimate_tag_pose(corners_of(truth, lens, 0.161), lens, 0.161).T_cam_tag;
@@ -48,7 +48,7 @@ TEST(TagPoseTest, IsExactForExactCorners) {
 TEST(TagPoseTest, ScalesWithTheSizeOfTheTag) {
   const Pose truth{exp_so3({0.4, 0.2, 0.1}), {0.1, 0.2, 1.0}};
   const Pose pose =
-      estimate_tag_pose(corners_of(truth, camera(), 0.161), camera(), 0.322).T_cam_tag;
+      estimate_tag_pose(corners_of(truth, wide_camera(), 0.161), wide_camera(), 0.322).T_cam_tag;
   EXPECT_LT((pose.translation - 2 * truth.translation).norm(), 1e-7);
 }
 
@@ -58,12 +58,12 @@ TEST(TagPoseTest, OfTheTwoPosesThatASquareHasTheBetterIsTaken) {
   RandomSequence random(RandomStream(2, "tag-noise"));
   const Pose truth{exp_so3({0, 0.7, 0}), {0.1, 0.05, 2.0}};
   for (int i = 0; i < 50; ++i) {
-    auto corners = corners_of(truth, camera(), 0.161);
+    auto corners = corners_of(truth, wide_camera(), 0.161);
     for (Eigen::Vector2d& corner : corners) {
       corner.x() += random.normal(0, 0.1);
       corner.y() += random.normal(0, 0.1);
     }
-    const Pose pose = estimate_tag_pose(corners, camera(), 0.161).T_cam_tag;
+    const Pose pose = estimate_tag_pose(corners, wide_camera(), 0.161).T_cam_tag;
     EXPECT_LT(angle_of(pose.rotation.conjugate() * truth.rotation), 0.05) << i;
     EXPECT_LT((pose.translation - truth.translation).norm(), 0.02) << i;
   }
@@ -74,7 +74,7 @@ TEST(TagPoseTest, FarAwayTheTwoPosesCannotBeToldApart) {
   // 0.08 x 0.6 x 30 px = 1.4 px where the tag is 59 px wide at 2 m, and 0.06 px at 10 m (12 px).
   const auto seen = [](double range, double sigma) {
     const Pose truth{exp_so3({0, 0.6, 0}), {0.1, 0.05, range}};
-    return estimate_tag_pose(corners_of(truth, camera(), 0.161), camera(), 0.161, sigma);
+    return estimate_tag_pose(corners_of(truth, wide_camera(), 0.161), wide_camera(), 0.161, sigma);
   };
   EXPECT_FALSE(seen(2, 0.1).ambiguous);
   EXPECT_TRUE(seen(10, 0.1).ambiguous);
@@ -82,15 +82,16 @@ TEST(TagPoseTest, FarAwayTheTwoPosesCannotBeToldApart) {
   // Near and in a frontal view the two are one pose.
   const Pose frontal{{1, 0, 0, 0}, {0, 0, 0.5}};
   EXPECT_FALSE(
-      estimate_tag_pose(corners_of(frontal, camera(), 0.161), camera(), 0.161, 0.1).ambiguous);
+      estimate_tag_pose(corners_of(frontal, wide_camera(), 0.161), wide_camera(), 0.161, 0.1)
+          .ambiguous);
 }
 
 TEST(TagPoseTest, FourCornersThatAreNoSquareAreSeen) {
   const Pose truth{exp_so3({0.3, 0.4, 0.2}), {0.1, 0.05, 1.0}};
-  auto corners = corners_of(truth, camera(), 0.161);
-  EXPECT_TRUE(estimate_tag_pose(corners, camera(), 0.161).square);
+  auto corners = corners_of(truth, wide_camera(), 0.161);
+  EXPECT_TRUE(estimate_tag_pose(corners, wide_camera(), 0.161).square);
   corners[2] += Eigen::Vector2d(8, -5);  // of a side of 110 px
-  EXPECT_FALSE(estimate_tag_pose(corners, camera(), 0.161).square);
+  EXPECT_FALSE(estimate_tag_pose(corners, wide_camera(), 0.161).square);
 }
 
 }  // namespace

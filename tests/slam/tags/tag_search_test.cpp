@@ -20,11 +20,7 @@ using test::render_image;
 using test::SyntheticTag;
 using test::SyntheticTexture;
 
-using test::render_image;
-using test::SyntheticTag;
-using test::SyntheticTexture;
-
-constexpr double kSize = 0.161;  // m
+constexpr double kTagSize = 0.161;  // m
 const PinholeCamera kCamera{640, 480, 733, 733, 319.5, 239.5, {}};
 
 bool in_a_candidate(const std::vector<cv::Rect>& candidates, const SyntheticTag& tag,
@@ -45,7 +41,7 @@ class TagSearchTest : public testing::TestWithParam<std::pair<double, double>> {
 TEST_P(TagSearchTest, ATagLiesInACandidateSharpBlurredOrDim) {
   const auto [degrees, distance] = GetParam();
   for (const int id : {0, 3, 17, 100}) {
-    const SyntheticTag tag(id, kSize);
+    const SyntheticTag tag(id, kTagSize);
     const Pose pose{
         exp_so3(Eigen::Vector3d(0.1, degrees * std::numbers::pi / 180, 0.2 + 0.4 * (id % 5))),
         {0.013 * (id % 7), -0.02, distance}};

@@ -12,7 +12,7 @@ namespace vinebench::sim {
 namespace {
 
 constexpr double kTexel = 0.012;      // m; finer than the shadow of a cane is sharp
-constexpr double kLongestShadow = 8;  // m; of a low sun, longer ones are cut
+constexpr double kLongestMapped = 8;  // m; of a low sun, longer ones are cut
 constexpr double kMargin = 0.3;       // m of open ground round the shadows
 
 /// Where shadows lie: the footprint of all that casts one, and of its tops cast along the sun.
@@ -28,7 +28,7 @@ Eigen::AlignedBox2d shaded_ground(const GpuScene& scene) {
                                      ? Eigen::Vector2d(-sun.head<2>().normalized())
                                      : Eigen::Vector2d::Zero();
     const Eigen::Vector2d around = Eigen::Vector2d::Constant(instance.radius + kMargin);
-    const Eigen::Vector2d tip = foot + std::min(2 * reach, kLongestShadow) * away;
+    const Eigen::Vector2d tip = foot + std::min(2 * reach, kLongestMapped) * away;
     box.extend(foot - around).extend(foot + around);
     box.extend(tip - around).extend(tip + around);
   }
