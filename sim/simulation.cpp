@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/config/validate.h"
+#include "sim/render/engine_pool.h"
 #include "sim/render/factory/make_render_engine.h"
 #include "sim/rover/driven_rover.h"
 #include "sim/rover/rover_asset.h"
@@ -49,9 +50,8 @@ class Simulation : public SimulatedSource {
       cameras_.emplace_back(config.sensors.camera, rig_.cameras[i], static_cast<int>(i), seed,
                             scene.light);
     }
-    for (int i = 0; i < pool.threads(); ++i) {
-      renderers_.push_back(make_render_engine(scene, config.renderer));
-    }
+    engines_.emplace(static_cast<int>(lanes()),
+                     [&] { return make_render_engine(scene, config.renderer); });
     const double route_seconds = to_seconds(rover_.route().duration());
     const double seconds = std::min(config.duration.value_or(route_seconds), route_seconds);
     frames_ = static_cast<std::int64_t>(std::floor(seconds * rig_.rate_hz + 1e-9)) + 1;
@@ -128,7 +128,14 @@ class Simulation : public SimulatedSource {
     return plan_.labels || plan_.depth || plan_.instances || plan_.normals || plan_.motion;
   }
 
-  /// Each renderer renders every N-th camera; the assignment changes no pixel.
+  /// Threads that render cameras side by side.
+  std::size_t lanes() const {
+    std::size_t taken = 0;
+    for (std::size_t i = 0; i < rig_.cameras.size(); ++i) taken += takes(i) ? 1 : 0;
+    return std::clamp<std::size_t>(taken, 1, static_cast<std::size_t>(pool_.threads()));
+  }
+
+  /// Each lane takes the next camera; the assignment changes no pixel.
   void render(Sample& sample) {
     const std::size_t cameras = rig_.cameras.size();
     std::vector<double> spent(cameras);
@@ -144,12 +151,12 @@ class Simulation : public SimulatedSource {
     std::vector<std::vector<int>> visible(cameras);
     std::atomic<std::size_t> next{0};
     const std::vector<std::size_t> order = largest_first();
-    pool_.for_each(renderers_.size(), [&](std::size_t lane) {
+    pool_.for_each(lanes(), [&](std::size_t) {
       for (std::size_t i = next++; i < cameras; i = next++) {
         const std::size_t camera = order[i];
         if (timing_.is_dropped(index_, camera) || !takes(camera)) continue;
         const auto start = std::chrono::steady_clock::now();
-        render_camera(*renderers_[lane], camera, sample, visible[camera]);
+        render_camera(camera, sample, visible[camera]);
         spent[camera] =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
                 .count();
@@ -165,8 +172,7 @@ class Simulation : public SimulatedSource {
     sample.truth.visible_tags.erase(repeated.begin(), repeated.end());
   }
 
-  void render_camera(RenderEngine& renderer, std::size_t camera, Sample& sample,
-                     std::vector<int>& visible) {
+  void render_camera(std::size_t camera, Sample& sample, std::vector<int>& visible) {
     const bool reads_tags = std::ranges::count(rig_.tag_cameras, static_cast<int>(camera)) > 0;
     Shot shot;
     shot.frame = index_;
@@ -178,7 +184,10 @@ class Simulation : public SimulatedSource {
     RenderedImage image = cameras_[camera].capture(
         shot, [&](Stamp stamp) { return rover_.T_world_body(stamp); },
         [&](const PinholeCamera& view, const Pose& T_world_cam, const RenderRequest& request) {
-          return renderer.render(view, T_world_cam, request);
+          RenderedImage drawn;
+          engines_->with_engine(
+              [&](RenderEngine& engine) { drawn = engine.render(view, T_world_cam, request); });
+          return drawn;
         });
     if (wants_labels) {
       sample.truth.occlusion[camera] = occlusion_in(image.labels, occluders_);
@@ -240,7 +249,7 @@ class Simulation : public SimulatedSource {
   InertialSensor inertial_;
   WheelSensor wheels_;
   std::vector<CameraSensor> cameras_;
-  std::vector<std::unique_ptr<RenderEngine>> renderers_;
+  std::optional<EnginePool> engines_;
   StageTimes times_;
   Stamp window_ = 0;  ///< maximum time between an image's exposure and the frame's instant
   std::int64_t frames_ = 0;

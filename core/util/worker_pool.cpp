@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/util/worker_pool.h"
 
+#include <algorithm>
+
 namespace vinebench {
 
 WorkerPool::WorkerPool(int threads) {
@@ -24,7 +26,8 @@ void WorkerPool::for_each(std::size_t n, const std::function<void(std::size_t)>&
   count_ = n;
   finished_ = 0;
   errors_.assign(n, nullptr);
-  wake_.notify_all();
+  // The caller takes items too; to wake more workers than there are items costs time alone.
+  for (std::size_t i = 1; i < std::min(n, workers_.size() + 1); ++i) wake_.notify_one();
   take_items(lock);
   done_.wait(lock, [this] { return finished_ == count_; });
   work_ = nullptr;

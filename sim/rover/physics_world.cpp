@@ -189,9 +189,8 @@ GroundText height_field_mjcf(const Terrain& terrain) {
 
 }  // namespace
 
-std::string world_mjcf(const WorldConfig& world, const std::filesystem::path& rover_include,
-                       std::uint64_t seed) {
-  const WorldLayout layout = lay_out(world);
+std::string world_mjcf(const WorldConfig& world, const WorldLayout& layout,
+                       const std::filesystem::path& rover_include, std::uint64_t seed) {
   const Terrain& terrain = layout.terrain;
   std::string geoms = posts_mjcf(world, layout) + trunks_mjcf(world, layout, seed);
   geoms += occluders_mjcf(world, layout);
@@ -226,23 +225,24 @@ PhysicsWorld::PhysicsWorld(const std::filesystem::path& rover, const WorldConfig
   if (!std::filesystem::is_regular_file(rover, problem)) {
     fail("{}: no such file, expected the rover's MJCF model", rover.string());
   }
+  const WorldLayout layout = lay_out(world);
   const std::filesystem::path folder = temporary_folder();
   const TemporaryFile file((folder / "vinebench-XXXXXX.xml").string(), 4);
   // MuJoCo prepends the including file's folder to an included name, even an absolute one.
   const std::filesystem::path include = std::filesystem::relative(rover, folder, problem);
   if (problem) fail("{}: {}", rover.string(), problem.message());
-  write_file_atomically(file.name(), world_mjcf(world, include, seed));
+  write_file_atomically(file.name(), world_mjcf(world, layout, include, seed));
   std::array<char, 1000> reason{};
   model_.reset(mj_loadXML(file.name().c_str(), nullptr, reason.data(), reason.size()));
   if (!model_) fail("{}: is not a valid MJCF model: {}", rover.string(), reason.data());
-  const Terrain terrain = lay_out(world).terrain;
-  if (!terrain.flat()) raise_ground(terrain);
+  if (!layout.terrain.flat()) raise_ground(layout.terrain);
   state_.reset(mj_makeData(model_.get()));
   if (!state_) fail("{}: no memory for the physics' state", rover.string());
   for (std::size_t i = 0; i < world.occluders.size(); ++i) {
     if (!world.occluders[i].path) continue;
     const int body = find(mjOBJ_BODY, occluder_name(world, i));
-    moving_.push_back({model_->body_mocapid[body], OccluderMotion(world.occluders[i], terrain)});
+    moving_.push_back(
+        {model_->body_mocapid[body], OccluderMotion(world.occluders[i], layout.terrain)});
   }
 }
 

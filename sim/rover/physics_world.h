@@ -12,14 +12,16 @@
 
 #include "sim/world/occluder_pose.h"
 #include "sim/world/world.h"
+#include "sim/world/world_layout.h"
 
 namespace vinebench::sim {
 
 /// The MJCF text of a world: ground, posts, trunks and occluders as static geoms, occluders that
 /// move as mocap bodies, and the rover by include. `rover_include` is the rover's MJCF file
-/// relative to the text's folder. `seed` selects, as in build_scene, the missing vines.
-std::string world_mjcf(const WorldConfig& world, const std::filesystem::path& rover_include,
-                       std::uint64_t seed = 1);
+/// relative to the text's folder; `layout` is lay_out(world). `seed` selects, as in build_scene,
+/// the missing vines.
+std::string world_mjcf(const WorldConfig& world, const WorldLayout& layout,
+                       const std::filesystem::path& rover_include, std::uint64_t seed = 1);
 
 /// A MuJoCo model and its state. Positions and velocities always belong to the same instant: `step`
 /// integrates and then evaluates what depends on them, so poses, encoders and gyro refer to the

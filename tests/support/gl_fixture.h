@@ -57,6 +57,33 @@ void main() {
   const sim::GlFunctions& gl_ = current_.gl();
 };
 
+/// Objects of one context are not the other's: names are given from one on in each, and would
+/// differ if the contexts shared them.
+inline void expect_own_objects(sim::GlContext& a, sim::GlContext& b) {
+  const auto new_name = [](sim::GlContext& context) {
+    const sim::CurrentContext current(context);
+    GLuint name = 0;
+    current.gl().GenBuffers(1, &name);
+    return name;
+  };
+  const GLuint first = new_name(a);
+  EXPECT_EQ(new_name(b), first);
+}
+
+/// Whether the context has every function in use.
+inline void expect_all_functions(sim::GlContext& context) {
+  const sim::CurrentContext current(context);
+  EXPECT_NE(context.function("glDrawElementsInstancedBaseVertexBaseInstance"), nullptr);
+  EXPECT_NO_THROW(context.functions());
+}
+
+/// OpenGL 4.2 of the core profile, at least.
+inline void expect_core_profile(sim::GlBackend backend) {
+  const std::string version = sim::gl_version(backend);
+  EXPECT_GE(std::stod(version), 4.2) << version;
+  EXPECT_NE(version.find("Core"), std::string::npos) << version;
+}
+
 /// Whether the context can be taken from thread to thread and clears an image to a colour.
 inline void expect_working_context(sim::GlContext& context) {
   for (int i = 0; i < 2; ++i) {

@@ -6,7 +6,7 @@
 
 #include <utility>
 
-#include "core/truth/rover_flow.h"
+#include "core/truth/body_flow.h"
 #include "core/util/error.h"
 #include "core/util/files.h"
 #include "harness/datasets/files/image_codec.h"

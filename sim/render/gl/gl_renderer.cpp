@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/truth/rover_flow.h"
+#include "core/truth/body_flow.h"
 #include "core/util/error.h"
 #include "sim/render/camera_check.h"
 #include "sim/render/gl/painter.h"
@@ -67,10 +67,11 @@ class GlRenderer::Impl {
     check_camera(camera);
     const TruthParts truth{request.depth, request.instances || tells_movers_apart(request),
                            request.normals, request.motion};
-    const CurrentContext current(*context_);
+    CurrentContext current(*context_);
     painter_->draw(target(current.gl(), camera.width, camera.height, truth.any()), camera,
                    T_world_cam, request.T_world_rover, config_.lod_scale,
                    {request.exposure, request.time, request.other_time}, truth);
+    current.wait();
     RenderedImage image = read(current.gl(), camera, request);
     if (request.motion) {
       const cv::Mat depth = request.depth ? image.depth : read_depth(current.gl(), camera);

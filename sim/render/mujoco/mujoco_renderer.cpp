@@ -19,6 +19,7 @@
 
 #include "core/util/error.h"
 #include "sim/render/camera_check.h"
+#include "sim/render/gl/platform/gl_context.h"
 #include "sim/render/image_encoding.h"
 #include "sim/render/mujoco/mujoco_scene.h"
 
@@ -46,11 +47,15 @@ class CompatibilityContext {
     EGLConfig config = nullptr;
     EGLint count = 0;
     eglChooseConfig(display_, wanted.data(), &config, 1, &count);
+    const std::scoped_lock lock(gl_mutex());
     eglBindAPI(EGL_OPENGL_API);
     context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, nullptr);
     if (context_ == EGL_NO_CONTEXT) fail("MuJoCo's renderer: EGL gives no compatibility context");
   }
-  ~CompatibilityContext() { eglDestroyContext(display_, context_); }
+  ~CompatibilityContext() {
+    const std::scoped_lock lock(gl_mutex());
+    eglDestroyContext(display_, context_);
+  }
   CompatibilityContext(const CompatibilityContext&) = delete;
   CompatibilityContext& operator=(const CompatibilityContext&) = delete;
   void make_current() {
@@ -81,10 +86,14 @@ class CompatibilityContext {
                                         OSMESA_PROFILE,
                                         OSMESA_COMPAT_PROFILE,
                                         0};
+    const std::scoped_lock lock(gl_mutex());
     context_ = OSMesaCreateContextAttribs(attributes.data(), nullptr);
     if (context_ == nullptr) fail("MuJoCo's renderer: OSMesa gives no compatibility context");
   }
-  ~CompatibilityContext() { OSMesaDestroyContext(context_); }
+  ~CompatibilityContext() {
+    const std::scoped_lock lock(gl_mutex());
+    OSMesaDestroyContext(context_);
+  }
   CompatibilityContext(const CompatibilityContext&) = delete;
   CompatibilityContext& operator=(const CompatibilityContext&) = delete;
   void make_current() {
@@ -114,12 +123,15 @@ class CompatibilityContext {
 /// Makes the context current for a scope.
 class Current {
  public:
-  explicit Current(CompatibilityContext& context) : context_(context) { context_.make_current(); }
+  explicit Current(CompatibilityContext& context) : lock_(gl_mutex()), context_(context) {
+    context_.make_current();
+  }
   ~Current() { context_.release(); }
   Current(const Current&) = delete;
   Current& operator=(const Current&) = delete;
 
  private:
+  std::scoped_lock<std::recursive_mutex> lock_;
   CompatibilityContext& context_;
 };
 

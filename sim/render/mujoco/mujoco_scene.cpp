@@ -28,24 +28,28 @@ void append(Bytes& bytes, const T* values, std::size_t count) {
   bytes.insert(bytes.end(), first, first + count * sizeof(T));
 }
 
+/// Adds a file to those in memory, as MuJoCo 2 and as later versions do it.
+#ifdef mjMAXVFS
+void add_file(mjVFS& files, const std::string& name, const Bytes& bytes) {
+  if (mj_makeEmptyFileVFS(&files, name.c_str(), static_cast<int>(bytes.size())) != 0) {
+    fail("MuJoCo takes at most {} files, no more {}", mjMAXVFS, name);
+  }
+  std::memcpy(files.filedata[files.nfile - 1], bytes.data(), bytes.size());
+}
+#else
+void add_file(mjVFS& files, const std::string& name, const Bytes& bytes) {
+  if (mj_addBufferVFS(&files, name.c_str(), bytes.data(), static_cast<int>(bytes.size())) != 0) {
+    fail("MuJoCo does not take the file {}", name);
+  }
+}
+#endif
+
 /// Files in memory, from which MuJoCo loads its model.
 class Files {
  public:
   Files() { mj_defaultVFS(files_.get()); }
-  void add(const std::string& name, const Bytes& bytes) {
-    const int size = static_cast<int>(bytes.size());
-#ifdef mjMAXVFS  // MuJoCo 2
-    const int problem = mj_makeEmptyFileVFS(files_.get(), name.c_str(), size);
-    if (problem != 0) fail("MuJoCo takes at most {} files, no more {}", mjMAXVFS, name);
-    std::memcpy(files_->filedata[files_->nfile - 1], bytes.data(), bytes.size());
-#else
-    const int problem = mj_addBufferVFS(files_.get(), name.c_str(), bytes.data(), size);
-    if (problem != 0) fail("MuJoCo does not take the file {}", name);
-#endif
-  }
-  const mjVFS* get() const {
-    return files_.get();
-  }
+  void add(const std::string& name, const Bytes& bytes) { add_file(*files_, name, bytes); }
+  const mjVFS* get() const { return files_.get(); }
 
  private:
   struct Free {

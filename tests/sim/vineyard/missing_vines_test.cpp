@@ -27,9 +27,10 @@ WorldConfig gappy(const test::TestFolder& folder) {
 
 /// Positions with a solid trunk.
 std::set<int> trunks(const WorldConfig& world, std::uint64_t seed) {
-  const std::string mjcf = world_mjcf(world, "rover.xml", seed);
+  const WorldLayout layout = lay_out(world);
+  const std::string mjcf = world_mjcf(world, layout, "rover.xml", seed);
   std::set<int> places;
-  for (int i = 0; i < static_cast<int>(lay_out(world).vines.size()); ++i) {
+  for (int i = 0; i < static_cast<int>(layout.vines.size()); ++i) {
     if (mjcf.find(fmt::format("\"trunk {}\"", i)) != std::string::npos) places.insert(i);
   }
   return places;

@@ -153,10 +153,10 @@ TEST(TerrainTest, GoesOnBeyondItsGridAsItsSlopeAlone) {
 TEST(TerrainTest, EvenGroundIsAPlane) {
   WorldConfig world;
   world.rows = {{{0, 0}, {4, 0}}};
-  const Terrain terrain = lay_out(world).terrain;
-  EXPECT_TRUE(terrain.flat());
-  EXPECT_EQ(terrain.height({1.234, 0.7}), 0);
-  EXPECT_THAT(world_mjcf(world, "rover.xml"), testing::HasSubstr("type=\"plane\""));
+  const WorldLayout layout = lay_out(world);
+  EXPECT_TRUE(layout.terrain.flat());
+  EXPECT_EQ(layout.terrain.height({1.234, 0.7}), 0);
+  EXPECT_THAT(world_mjcf(world, layout, "rover.xml"), testing::HasSubstr("type=\"plane\""));
 }
 
 TEST(TerrainTest, SameSeedSameGround) {

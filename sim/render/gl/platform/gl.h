@@ -79,6 +79,10 @@ namespace vinebench::sim {
   X(SAMPLERPARAMETERI, SamplerParameteri)                                                     \
   X(BINDBUFFERBASE, BindBufferBase)                                                           \
   X(CLEARBUFFERFV, ClearBufferfv)                                                             \
+  X(FLUSH, Flush)                                                                             \
+  X(FENCESYNC, FenceSync)                                                                     \
+  X(CLIENTWAITSYNC, ClientWaitSync)                                                           \
+  X(DELETESYNC, DeleteSync)                                                                   \
   X(GETERROR, GetError)
 
 /// The GL entry points in use: gl.Clear(...) is glClear(...). They belong to one context, which

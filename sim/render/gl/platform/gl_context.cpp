@@ -24,6 +24,23 @@ GlFunctions load_functions(const GlContext& context) {
 
 }  // namespace
 
+std::recursive_mutex& gl_mutex() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
+void CurrentContext::wait() {
+  const GlFunctions& gl = context_.functions();
+  const GLsync drawn = gl.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  gl.Flush();
+  lock_.unlock();
+  constexpr GLuint64 kSecond = 1'000'000'000;  // ns
+  while (gl.ClientWaitSync(drawn, 0, kSecond) == GL_TIMEOUT_EXPIRED) {
+  }
+  lock_.lock();
+  gl.DeleteSync(drawn);
+}
+
 const GlFunctions& GlContext::functions() {
   if (!functions_) functions_ = std::make_unique<GlFunctions>(load_functions(*this));
   return *functions_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "sim/render/gl/platform/gl.h"
@@ -10,7 +11,14 @@
 
 namespace vinebench::sim {
 
-/// The seam to the platform: an off-screen GL 4.2 core context. Current in one thread at a time.
+/// Held by whoever calls OpenGL. Contexts of Mesa's software renderer share one screen, and before
+/// an upload or a new texture Mesa 22.3 looks through the unfinished scenes of all contexts without
+/// a lock (lp_setup_is_resource_referenced), while other threads change them. What is drawn is
+/// rasterised by threads of Mesa's own, which do not need this.
+std::recursive_mutex& gl_mutex();
+
+/// The seam to the platform: an off-screen GL 4.2 core context. Current in one thread at a time;
+/// its functions are called with gl_mutex() held.
 class GlContext {
  public:
   using Function = void (*)();
@@ -49,16 +57,21 @@ std::unique_ptr<GlContext> make_gl_context(GlBackend backend = GlBackend::kAuto)
 /// What OpenGL says of itself: "4.5 (Core Profile) Mesa 22.3.6".
 std::string gl_version(GlBackend backend = GlBackend::kAuto);
 
-/// Makes a context current for a scope.
+/// Makes a context current for a scope, in which no other thread is in OpenGL.
 class CurrentContext {
  public:
-  explicit CurrentContext(GlContext& context) : context_(context) { context_.make_current(); }
+  explicit CurrentContext(GlContext& context) : lock_(gl_mutex()), context_(context) {
+    context_.make_current();
+  }
   ~CurrentContext() { context_.release(); }
   CurrentContext(const CurrentContext&) = delete;
   CurrentContext& operator=(const CurrentContext&) = delete;
   const GlFunctions& gl() const { return context_.functions(); }
+  /// Waits until all is drawn, and lets other threads into OpenGL meanwhile.
+  void wait();
 
  private:
+  std::unique_lock<std::recursive_mutex> lock_;
   GlContext& context_;
 };
 

@@ -26,6 +26,7 @@ EGLDisplay open_display() {
 class EglContext : public GlContext {
  public:
   EglContext() {
+    const std::scoped_lock lock(gl_mutex());
     static const EGLDisplay display = open_display();
     display_ = display;
     const std::array<EGLint, 5> wanted{EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
@@ -46,7 +47,10 @@ class EglContext : public GlContext {
       fail("renderer: EGL gives no OpenGL 4.2 core context (error {:#x})", eglGetError());
     }
   }
-  ~EglContext() override { eglDestroyContext(display_, context_); }
+  ~EglContext() override {
+    const std::scoped_lock lock(gl_mutex());
+    eglDestroyContext(display_, context_);
+  }
 
   void make_current() override {
     eglBindAPI(EGL_OPENGL_API);

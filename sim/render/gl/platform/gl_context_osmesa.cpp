@@ -9,16 +9,9 @@
 
 #include <array>
 #include <cstdint>
-#include <mutex>
 
 namespace vinebench::sim {
 namespace {
-
-/// OSMesa's contexts share one screen, which is not thread-safe.
-std::mutex& osmesa_mutex() {
-  static std::mutex mutex;
-  return mutex;
-}
 
 class OsmesaContext : public GlContext {
  public:
@@ -38,25 +31,21 @@ class OsmesaContext : public GlContext {
                               OSMESA_CONTEXT_MINOR_VERSION,
                               2,
                               0};
-    const std::scoped_lock lock(osmesa_mutex());
+    const std::scoped_lock lock(gl_mutex());
     context_ = OSMesaCreateContextAttribs(attributes, nullptr);
     if (context_ == nullptr) fail("renderer: OSMesa gives no OpenGL 4.2 core context");
   }
   ~OsmesaContext() override {
-    const std::scoped_lock lock(osmesa_mutex());
+    const std::scoped_lock lock(gl_mutex());
     OSMesaDestroyContext(context_);
   }
 
   void make_current() override {
-    const std::scoped_lock lock(osmesa_mutex());
     if (!OSMesaMakeCurrent(context_, window_.data(), GL_UNSIGNED_BYTE, kSide, kSide)) {
       fail("renderer: OSMesa cannot make its context current");
     }
   }
-  void release() override {
-    const std::scoped_lock lock(osmesa_mutex());
-    OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0);
-  }
+  void release() override { OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0); }
   Function function(const char* name) const override { return OSMesaGetProcAddress(name); }
 
  private:

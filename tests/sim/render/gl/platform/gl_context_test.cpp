@@ -4,8 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
+#include <mutex>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <thread>
 
 #include "core/geometry/rig.h"
 #include "core/util/error.h"
@@ -26,6 +30,29 @@ WorldConfig small_world() {
   world.tags.back().position = {1.4, -0.3, 0.5};
   world.tags.back().facing_deg = 90;
   return world;
+}
+
+TEST(CurrentContextTest, KeepsOtherThreadsOutButWhileItWaits) {
+  const std::unique_ptr<GlContext> context = make_gl_context();
+  std::atomic<bool> was_in = false;
+  std::thread other;
+  {
+    CurrentContext current(*context);
+    bool entered = true;
+    std::thread([&] { entered = gl_mutex().try_lock(); }).join();
+    EXPECT_FALSE(entered);
+
+    other = std::thread([&] {
+      const std::scoped_lock lock(gl_mutex());
+      was_in = true;
+    });
+    const auto latest = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!was_in && std::chrono::steady_clock::now() < latest) current.wait();
+    EXPECT_TRUE(was_in);
+    current.gl().Clear(GL_COLOR_BUFFER_BIT);  // still current
+    EXPECT_EQ(current.gl().GetError(), static_cast<GLenum>(GL_NO_ERROR));
+  }
+  other.join();
 }
 
 class GlBackendTest : public testing::Test {

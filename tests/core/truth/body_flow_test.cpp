@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/truth/rover_flow.h"
+#include "core/truth/body_flow.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace {
 
 // A camera at the origin with the world's axes; the rover moves 0.5 m along x and turns a quarter
 // to the left about its own origin at (0, 0, 2).
-TEST(RoverFlowTest, OnlyTheRoversPixelsMoveWithIt) {
+TEST(BodyFlowTest, OnlyTheRoversPixelsMoveWithIt) {
   const PinholeCamera camera{.width = 3, .height = 1, .fx = 1, .fy = 1, .cx = 1, .cy = 0};
   cv::Mat labels(1, 3, CV_8UC1, cv::Scalar(static_cast<int>(Label::kLeaf)));
   labels.at<std::uint8_t>(0, 2) = static_cast<std::uint8_t>(Label::kRover);
@@ -41,7 +41,7 @@ TEST(BodyFlowTest, OnlyThePixelsOfTheMaskMove) {
   EXPECT_EQ(motion.at<cv::Vec3f>(0, 1), cv::Vec3f(1, 0, 0));
 }
 
-TEST(RoverFlowTest, OtherMotionIsKept) {
+TEST(BodyFlowTest, OtherMotionIsKept) {
   const PinholeCamera camera{.width = 1, .height = 1, .fx = 1, .fy = 1, .cx = 0, .cy = 0};
   const cv::Mat labels(1, 1, CV_8UC1, cv::Scalar(static_cast<int>(Label::kLeaf)));
   const cv::Mat depth(1, 1, CV_32FC1, cv::Scalar(2));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/truth/rover_flow.h"
+#include "core/truth/body_flow.h"
 
 #include "core/truth/labels.h"
 
