@@ -168,8 +168,8 @@ class Simulation : public SimulatedSource {
       for (const int tag : visible[camera]) sample.truth.visible_tags.push_back(tag);
     }
     std::ranges::sort(sample.truth.visible_tags);
-    const auto repeated = std::ranges::unique(sample.truth.visible_tags);
-    sample.truth.visible_tags.erase(repeated.begin(), repeated.end());
+    std::vector<int>& tags = sample.truth.visible_tags;
+    tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
   }
 
   void render_camera(std::size_t camera, Sample& sample, std::vector<int>& visible) {

@@ -34,8 +34,9 @@ std::vector<std::string> environment_of(const Program& program) {
   std::vector<std::string> entries;
   for (char** entry = environ; *entry != nullptr; ++entry) entries.emplace_back(*entry);
   for (const auto& [name, value] : program.environment) {
-    std::erase_if(entries, [&](const std::string& e) { return e.starts_with(name + "="); });
-    entries.push_back(name + "=" + value);
+    const std::string assignment = name + "=";
+    std::erase_if(entries, [&](const std::string& e) { return e.starts_with(assignment); });
+    entries.push_back(assignment + value);
   }
   return entries;
 }

@@ -26,10 +26,10 @@ Eigen::Vector3d MecanumDrive::body_motion(const WheelArray& wheels) const {
 
 double SpeedLoop::torque(double wanted, double measured, double dt) {
   // rad/s: below this the friction's sign is faded out, to avoid chattering around standstill.
-  constexpr double kStandstill = 0.05;
+  constexpr double kBarelyTurning = 0.05;
   const double error = wanted - measured;
-  const double torque =
-      config_.proportional * error + integral_ + config_.friction * std::tanh(wanted / kStandstill);
+  const double torque = config_.proportional * error + integral_ +
+                        config_.friction * std::tanh(wanted / kBarelyTurning);
   const double limited = std::clamp(torque, -config_.max_torque, config_.max_torque);
   if (limited == torque || error * torque < 0) {
     integral_ += config_.integral * error * dt;

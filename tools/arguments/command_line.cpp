@@ -147,8 +147,8 @@ const Command& named_command(const Command& program, const std::vector<std::stri
 void find_data(const std::vector<Parsed>& options, const harness::Catalogue& catalogue) {
   for (const auto& [option, parser] : options) {
     if (!option->data || parser->count() == 0) continue;
-    const auto find = [&](const std::string& text) {
-      return catalogue.find(*option->data, text).string();
+    const auto find = [&, kind = *option->data](const std::string& text) {
+      return catalogue.find(kind, text).string();
     };
     std::visit(
         [&](auto* target) {

@@ -100,14 +100,16 @@ template <class Reading>
 void put_in_order(std::vector<Reading>& readings, const std::string& sensor, Recording& recording) {
   const bool ascending = std::ranges::is_sorted(readings, {}, &Reading::stamp);
   std::ranges::stable_sort(readings, {}, &Reading::stamp);
-  const auto repeated = std::ranges::unique(readings, {}, &Reading::stamp);
+  const auto repeated =
+      std::unique(readings.begin(), readings.end(),
+                  [](const Reading& a, const Reading& b) { return a.stamp == b.stamp; });
   std::vector<SourceEvent>& events = recording.frames.front().events;
   if (!ascending) events.push_back({"stamp_out_of_order", sensor, "readings sorted"});
-  if (!repeated.empty()) {
+  if (repeated != readings.end()) {
     events.push_back(
-        {"stamp_repeated", sensor, fmt::format("{} readings dropped", repeated.size())});
+        {"stamp_repeated", sensor, fmt::format("{} readings dropped", readings.end() - repeated)});
   }
-  readings.erase(repeated.begin(), repeated.end());
+  readings.erase(repeated, readings.end());
 }
 
 void read_imu(const fs::path& folder, Recording& recording) {

@@ -69,8 +69,9 @@ Trajectory read_euroc_poses(const std::filesystem::path& file, const Pose& T_bod
     truth.push_back({row.nanoseconds(0), T_world_sensor * T_body_sensor.inverse()});
   }
   std::ranges::stable_sort(truth, {}, &StampedPose::stamp);
-  const auto repeated = std::ranges::unique(truth, {}, &StampedPose::stamp);
-  truth.erase(repeated.begin(), repeated.end());
+  const auto repeated = std::unique(
+      truth.begin(), truth.end(), [](const auto& a, const auto& b) { return a.stamp == b.stamp; });
+  truth.erase(repeated, truth.end());
   return truth;
 }
 

@@ -82,9 +82,11 @@ void put_in_order(ImageList& list) {
     latest = std::max(latest, entry.stamp);
   }
   std::ranges::stable_sort(entries, {}, &ImageList::Entry::stamp);
-  const auto repeated = std::ranges::unique(entries, {}, &ImageList::Entry::stamp);
-  list.repeated = static_cast<int>(repeated.size());
-  entries.erase(repeated.begin(), repeated.end());
+  const auto repeated =
+      std::unique(entries.begin(), entries.end(),
+                  [](const auto& a, const auto& b) { return a.stamp == b.stamp; });
+  list.repeated = static_cast<int>(entries.end() - repeated);
+  entries.erase(repeated, entries.end());
 }
 
 std::vector<Stamp> instants_of(const ImageList& list) {
