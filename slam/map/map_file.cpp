@@ -318,7 +318,7 @@ void save_map(const Map& map, const EstimatorRig& rig, const std::filesystem::pa
 }
 
 Map load_map(const std::filesystem::path& file, const EstimatorRig& rig) {
-  return parse_map(read_file(file), rig, file.string());
+  return parse_map(read_file(file, FileKind::kMap), rig, file.string());
 }
 
 }  // namespace vinebench::slam
