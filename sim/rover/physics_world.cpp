@@ -14,6 +14,7 @@
 #include "core/util/error.h"
 #include "core/util/files.h"
 #include "core/util/xml_text.h"
+#include "sim/rover/mjcf_check.h"
 #include "sim/vineyard/occluders/occluder_shape.h"
 #include "sim/vineyard/trellis.h"
 #include "sim/world/world_layout.h"
@@ -54,9 +55,13 @@ std::filesystem::path temporary_folder() {
 }
 
 /// By default MuJoCo prints warnings and writes MUJOCO_LOG.TXT; `check` reports them instead.
-void silence_warnings() {
+/// Errors, such as too little memory, would end the program.
+void take_messages() {
   static std::once_flag once;
-  std::call_once(once, [] { mju_user_warning = [](const char*) {}; });
+  std::call_once(once, [] {
+    mju_user_warning = [](const char*) {};
+    mju_user_error = [](const char* message) { fail("MuJoCo: {}", message); };
+  });
 }
 
 std::string upright(const std::string& name, const Eigen::Vector3d& foot,
@@ -217,7 +222,7 @@ std::string world_mjcf(const WorldConfig& world, const std::filesystem::path& ro
 PhysicsWorld::PhysicsWorld(const std::filesystem::path& rover, const WorldConfig& world,
                            std::uint64_t seed)
     : rover_(rover) {
-  silence_warnings();
+  take_messages();
   if (mj_version() != mjVERSION_HEADER) {
     fail("MuJoCo's library is version {}, its headers {}: expected the same", mj_version(),
          mjVERSION_HEADER);
@@ -226,6 +231,7 @@ PhysicsWorld::PhysicsWorld(const std::filesystem::path& rover, const WorldConfig
   if (!std::filesystem::is_regular_file(rover, problem)) {
     fail("{}: no such file, expected the rover's MJCF model", rover.string());
   }
+  check_mjcf_files(rover);
   const std::filesystem::path folder = temporary_folder();
   const TemporaryFile file((folder / "vinebench-XXXXXX.xml").string(), 4);
   // MuJoCo prepends the including file's folder to an included name, even an absolute one.
