@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <system_error>
 
 #include "core/util/error.h"
 
@@ -99,6 +100,11 @@ InputStream::Buffer::int_type InputStream::Buffer::underflow() {
 
 void check_input_file(const std::filesystem::path& file, FileKind kind) {
   const InputFile opened(file, kind);
+}
+
+bool is_present(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::exists(std::filesystem::symlink_status(file, ignored));
 }
 
 }  // namespace vinebench

@@ -77,4 +77,8 @@ class InputStream : public std::istream {
 /// their names.
 void check_input_file(const std::filesystem::path& file, FileKind kind);
 
+/// Whether the name is taken, be it by a pipe or a link that leads nowhere: a file that may be
+/// absent but is not is then opened, and its fault reported.
+bool is_present(const std::filesystem::path& file);
+
 }  // namespace vinebench

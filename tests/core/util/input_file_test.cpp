@@ -99,6 +99,15 @@ TEST_F(InputFileTest, AFileThatGrowsIsReadUpToTheLimit) {
               HasSubstr("expected at most 4 MiB"));
 }
 
+TEST_F(InputFileTest, ALinkThatLeadsNowhereIsPresent) {
+  fs::create_symlink("gone", folder_ / "dangling");
+  EXPECT_TRUE(is_present(folder_ / "dangling"));
+  EXPECT_TRUE(is_present(test::make_loop(folder_, "loop")));
+  EXPECT_TRUE(is_present(test::make_pipe(folder_, "pipe")));
+  EXPECT_TRUE(is_present(folder_.write("file", "")));
+  EXPECT_FALSE(is_present(folder_ / "none"));
+}
+
 TEST_F(InputFileTest, AStreamReadsLines) {
   const std::string filler(100'000, 'x');  // longer than what the stream keeps in memory
   const auto file = folder_.write("a", "one\n" + filler + "\nthree");
