@@ -36,7 +36,7 @@ StampedPose parse_line(const std::string& line) {
 }  // namespace
 
 Trajectory read_tum(const std::filesystem::path& file) {
-  std::istringstream in(read_file(file));
+  std::istringstream in(read_file(file, FileKind::kTable));
   Trajectory trajectory;
   int number = 0;
   for (std::string line; std::getline(in, line);) {

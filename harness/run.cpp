@@ -3,6 +3,7 @@
 #include "harness/run.h"
 
 #include "core/util/error.h"
+#include "harness/datasets/files/json_file.h"
 #include "harness/judge/diagnosis.h"
 #include "harness/report/report_json.h"
 #include "harness/report/run_folder.h"
@@ -52,8 +53,10 @@ RunCost cost_of(const FrameSource& source, const SlamSystem& slam, std::int64_t 
 
 void expect_folder(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-    fail("{}: folder {} does not exist", file.string(), folder.string());
+  std::error_code error;
+  if (!folder.empty() && !std::filesystem::is_directory(folder, error)) {
+    fail("{}: folder {} does not exist{}", file.string(), folder.string(),
+         error ? ": " + error.message() : "");
   }
 }
 
@@ -79,7 +82,7 @@ RunOutcome run_lockstep_and_judge(const Trial& trial, FrameSource& source, SlamS
   outcome.interrupted = options.stopped && options.stopped() && !whole;
   if (outcome.interrupted) return outcome;
 
-  sinks.hash.add(hashed_json(report).dump());
+  sinks.hash.add(json_text(hashed_json(report)));
   report.hash = sinks.hash.digits();
   report.cost = cost_of(source, slam, report.frames, wall.count());
   if (!options.folder.empty()) write_metrics(options.folder, report);

@@ -4,14 +4,19 @@
 #
 # All scenarios in full over the seeds 1 to 5: builds, makes the runs that this build has not made yet
 # (they are kept in out/nightly), and writes the table into docs/results.md between its two markers.
-# Further arguments go to `vinebench run`, e.g. --jobs 4 or --force. Exit code 1 if an expectation
-# fails; the table is written in any case.
+# Then runs the program on damaged inputs (docs/robustness.md), others every day; those that end it
+# are kept in out/nightly/mutations. Further arguments go to `vinebench run`, e.g. --jobs 4 or --force.
+# Exit code 1 if an expectation fails or a damaged input ends the program; the table is written in
+# any case.
 #   SEEDS=1..5  OUT=out/nightly  RESULTS=docs/results.md  SCENARIOS="scenarios/*.yaml"
+#   MUTATIONS=2000  MUTATION_SEED=20260101
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 seeds=${SEEDS:-1..5}
 out=${OUT:-out/nightly}
 results=${RESULTS:-docs/results.md}
+mutations=${MUTATIONS:-2000}
+mutation_seed=${MUTATION_SEED:-$(date +%Y%m%d)}
 read -ra scenarios <<<"${SCENARIOS:-$(echo scenarios/*.yaml)}"
 begin='<!-- results -->'
 end='<!-- /results -->'
@@ -44,4 +49,11 @@ awk -v begin="$begin" -v end="$end" -v table="$out/table.md" '
 ' "$results" >"$results.partial"
 mv "$results.partial" "$results"
 echo "nightly.sh: the table is in $results"
+
+if [[ $mutations -gt 0 ]]; then
+  offences=0
+  ${MUTATE:-python3 tests/tools/mutate.py} "$VINEBENCH" . --cases "$mutations" \
+    --seed "$mutation_seed" --keep "$out/mutations" | tee "$out/mutations.md" || offences=1
+  [[ $offences -eq 0 || $code -ne 0 ]] || code=1
+fi
 exit "$code"

@@ -2,16 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <system_error>
 #include <vector>
 
-#include "core/util/error.h"
 #include "tools/arguments/command_line.h"
 #include "tools/arguments/completion.h"
 #include "tools/commands/commands.h"
+#include "tools/outcome.h"
 #include "tools/versions.h"
 
 namespace vinebench::tools {
@@ -48,13 +47,6 @@ int main(const std::vector<std::string>& arguments) {
 }  // namespace vinebench::tools
 
 int main(int argc, char** argv) {
-  try {
-    return vinebench::tools::main({argv + 1, argv + argc});
-  } catch (const vinebench::Error& error) {
-    fmt::print(stderr, "vinebench: {}\n", error.what());
-    return vinebench::tools::kBadInput;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "vinebench: internal error: {}\n", error.what());
-    return vinebench::tools::kInternalError;
-  }
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  return vinebench::tools::outcome_of(arguments, [&] { return vinebench::tools::main(arguments); });
 }

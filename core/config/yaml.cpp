@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "core/util/error.h"
 #include "core/util/files.h"
@@ -64,16 +65,6 @@ class TreeCheck {
   int parts_ = 0;
 };
 
-YAML::Node parse(const std::filesystem::path& file) {
-  try {
-    YAML::Node tree = YAML::Load(read_file(file));
-    TreeCheck(file.string()).check(tree);
-    return tree;
-  } catch (const YAML::ParserException& error) {
-    fail("{}:{}: is not valid YAML: {}", file.string(), error.mark.line + 1, error.msg);
-  }
-}
-
 std::vector<std::string> split(const std::string& key) {
   std::vector<std::string> parts;
   std::size_t begin = 0;
@@ -117,9 +108,22 @@ void assign(YAML::Node node, const std::vector<std::string>& parts, std::size_t 
 
 }  // namespace
 
+YAML::Node load_yaml_tree(const std::filesystem::path& file) {
+  const std::string text = read_file(file, FileKind::kYaml);
+  try {
+    YAML::Node tree = YAML::Load(text);
+    TreeCheck(file.string()).check(tree);
+    return tree;
+  } catch (const YAML::Exception& error) {
+    fail("{}:{}: is not valid YAML: {}", file.string(), error.mark.line + 1, error.msg);
+  } catch (const std::bad_alloc&) {
+    fail("{}: not enough memory for its tree", file.string());
+  }
+}
+
 YamlDocument YamlDocument::load(const std::filesystem::path& file) {
   YamlDocument document;
-  document.root_ = parse(file);
+  document.root_ = load_yaml_tree(file);
   document.files_[""] = file;
   if (!document.root_.IsMap()) {
     fail("{}:1: expected a map of keys, found {}", file.string(), describe(document.root_));
@@ -189,7 +193,7 @@ void YamlDocument::include(const std::string& key) {
   if (!std::filesystem::is_regular_file(file, ignored)) {
     fail("{}: {}: expected a file, found none at '{}'", place_of(key, node), key, file.string());
   }
-  root_[key] = parse(file);
+  root_[key] = load_yaml_tree(file);
   files_[key] = file;
 }
 
@@ -198,7 +202,7 @@ void YamlDocument::set(const std::string& key, const std::string& value) {
   try {
     parsed = YAML::Load(value);
     TreeCheck("--set " + key).check(parsed);
-  } catch (const YAML::ParserException& error) {
+  } catch (const YAML::Exception& error) {
     fail("--set {}: '{}' is not valid YAML: {}", key, value, error.msg);
   }
   if (root_.IsNull()) root_ = YAML::Node(YAML::NodeType::Map);  // a document without a file

@@ -22,12 +22,16 @@ namespace vinebench {
 
 class YamlReader;
 
+/// The tree of a YAML file, for files of which only some keys are known. Throws Error if the file
+/// cannot be read, exceeds 4 MiB, is not valid YAML, has an alias inside of what it refers to, or
+/// more than 64 levels (with the line).
+YAML::Node load_yaml_tree(const std::filesystem::path& file);
+
 /// A YAML file and the origin of each of its parts: its own lines, included files, and overrides
 /// from the command line.
 class YamlDocument {
  public:
-  /// Throws Error if the file cannot be read, is not valid YAML, has an alias inside of what it
-  /// refers to, or more than 64 levels (with the line).
+  /// Throws Error as load_yaml_tree() does, and if the file is not a map.
   static YamlDocument load(const std::filesystem::path& file);
 
   /// Replaces the top-level scalar `key`, a file name relative to this file, by that file's

@@ -14,7 +14,9 @@ std::string YamlWriter::quote(const std::string& value) {
   std::string quoted = "\"";
   for (const char c : value) {
     if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c == '\n' ? "\\n" : std::string(1, c);
+    const auto code = static_cast<unsigned char>(c);
+    const bool control = code < ' ' || code == 0x7f;
+    quoted += c == '\n' ? "\\n" : control ? fmt::format("\\x{:02x}", code) : std::string(1, c);
   }
   return quoted + "\"";
 }

@@ -2,25 +2,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/util/files.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
+#include <new>
 #include <system_error>
 
 #include "core/util/error.h"
 
 namespace vinebench {
 
-std::string read_file(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored))
-    fail("{}: is a folder, not a file", file.string());
-  std::ifstream in(file, std::ios::binary);
-  if (!in) fail("{}: cannot be read: {}", file.string(), std::strerror(errno));
-  std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (in.bad()) fail("{}: cannot be read: {}", file.string(), std::strerror(errno));
-  return content;
+std::string read_file(const std::filesystem::path& file, FileKind kind) {
+  constexpr std::size_t kMore = std::size_t{1} << 16;
+  InputFile in(file, kind);
+  std::string content;
+  try {
+    // One byte more than there should be: its absence is the end of the file.
+    for (std::size_t room = in.size() + 1;; room = content.size() + kMore) {
+      const std::size_t before = content.size();
+      content.resize(std::max(room, before + 1));
+      const std::size_t filled = before + in.read(content.data() + before, content.size() - before);
+      const bool whole = filled < content.size();
+      content.resize(filled);
+      if (whole) return content;
+    }
+  } catch (const std::bad_alloc&) {
+    fail("{}: not enough memory for its {} bytes", file.string(), in.size());
+  }
 }
 
 void write_file_atomically(const std::filesystem::path& file, std::string_view content) {

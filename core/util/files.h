@@ -6,10 +6,13 @@
 #include <string>
 #include <string_view>
 
+#include "core/util/input_file.h"
+
 namespace vinebench {
 
-/// The content of a file. Throws Error if it cannot be read.
-std::string read_file(const std::filesystem::path& file);
+/// The content of a regular file. Throws Error if it cannot be read, is something else or exceeds
+/// the size limit of its kind.
+std::string read_file(const std::filesystem::path& file, FileKind kind = FileKind::kOther);
 
 /// Writes to a temporary file and renames it when complete, so that an interrupted run leaves no
 /// incomplete file. Throws Error with the system's reason (permission, disk full).

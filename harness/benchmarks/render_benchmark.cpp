@@ -11,6 +11,7 @@
 #include "harness/benchmarks/measurement.h"
 #include "harness/benchmarks/mujoco_benchmark.h"
 #include "harness/datasets/files/image_file.h"
+#include "harness/datasets/files/json_file.h"
 #include "harness/sets/child_process.h"
 #include "sim/render/gl/gl_renderer.h"
 #include "sim/world/world_layout.h"
@@ -93,7 +94,7 @@ Json measure_with_threads(const RenderBenchmark& benchmark, int threads) {
 }
 
 Json in_child(const RenderBenchmark& benchmark, const std::function<Json()>& job) {
-  return Json::parse(run_in_child(benchmark.name, [&] { return job().dump(); }));
+  return Json::parse(run_in_child(benchmark.name, [&] { return json_text(job()); }));
 }
 
 }  // namespace

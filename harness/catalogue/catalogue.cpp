@@ -3,10 +3,10 @@
 #include "harness/catalogue/catalogue.h"
 
 #include <algorithm>
-#include <fstream>
 #include <system_error>
 
 #include "core/util/error.h"
+#include "core/util/input_file.h"
 #include "core/util/suggestion.h"
 
 namespace vinebench::harness {
@@ -130,13 +130,16 @@ std::vector<DataEntry> Catalogue::list(DataKind kind) const {
 std::vector<fs::path> data_folders(const fs::path& program) {
   const fs::path folder = program.parent_path();
   std::vector<fs::path> folders{".", folder / "../share/vinebench"};
-  std::ifstream note(folder / "data_folder.txt");
-  if (std::string line; std::getline(note, line)) folders.emplace_back(line);
+  if (is_file(folder / "data_folder.txt")) {
+    InputStream note(folder / "data_folder.txt", FileKind::kTable);
+    if (std::string line; std::getline(note, line)) folders.emplace_back(line);
+  }
   return folders;
 }
 
-std::string describe_file(const fs::path& file) {
-  std::ifstream in(file);
+namespace {
+
+std::string description_in(std::istream& in) {
   std::string comment;
   bool comment_ended = false;
   for (std::string line; std::getline(in, line);) {
@@ -150,6 +153,17 @@ std::string describe_file(const fs::path& file) {
     comment_ended = comment_ended || (!text && !comment.empty());
   }
   return first_sentence(comment);
+}
+
+}  // namespace
+
+std::string describe_file(const fs::path& file) {
+  try {
+    InputStream in(file, FileKind::kYaml);
+    return description_in(in);
+  } catch (const Error&) {  // a file that cannot be read hides no other entry of the list
+    return "";
+  }
 }
 
 }  // namespace vinebench::harness

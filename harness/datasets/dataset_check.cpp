@@ -3,13 +3,13 @@
 #include "harness/datasets/dataset_check.h"
 
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <system_error>
 
+#include "core/config/yaml.h"
 #include "core/util/error.h"
 #include "core/util/files.h"
 #include "harness/datasets/files/file_manifest.h"
@@ -26,17 +26,31 @@ namespace fs = std::filesystem;
 constexpr const char* kPartial = ".partial";
 constexpr std::size_t kFramesCompared = 6;  // whose label images are held against each other
 
-bool has_wind(const fs::path& scenario) {
-  const YAML::Node speed = YAML::LoadFile(scenario.string())["world"]["wind"]["speed"];
-  return speed.as<double>(0) != 0;
+/// What moves in the world of a sequence.
+struct Movement {
+  bool wind = false;
+  bool occluders = false;
+};
+
+/// Undefined where the node has no keys.
+YAML::Node value_at(const YAML::Node& node, const char* key) {
+  return node.IsDefined() && node.IsMap() ? node[key] : YAML::Node(YAML::NodeType::Undefined);
 }
 
-bool has_moving_occluders(const fs::path& scenario) {
-  const YAML::Node world = YAML::LoadFile(scenario.string())["world"];
-  for (const auto& occluder : world["occluders"]) {
-    if (occluder["path"]) return true;
+Movement movement_of(const fs::path& scenario) {
+  const YAML::Node world = value_at(load_yaml_tree(scenario), "world");
+  if (!world.IsDefined() || !world.IsMap()) {
+    fail("{}: world: expected a map of keys", scenario.string());
   }
-  return false;
+  Movement movement;
+  const YAML::Node speed = value_at(value_at(world, "wind"), "speed");
+  movement.wind = speed.IsDefined() && speed.as<double>(0) != 0;
+  const YAML::Node occluders = value_at(world, "occluders");
+  if (!occluders.IsDefined() || !occluders.IsSequence()) return movement;
+  for (const auto& occluder : occluders) {
+    movement.occluders = movement.occluders || value_at(occluder, "path").IsDefined();
+  }
+  return movement;
 }
 
 /// One sequence, or the folder of several.
@@ -61,8 +75,9 @@ class Check {
     sequence_.complete = card_.complete;
     check_frames();
     sequence_.rig = read_calibration(folder_ / "calibration.yaml");
-    sequence_.windy = has_wind(folder_ / "scenario.resolved.yaml");
-    sequence_.busy = has_moving_occluders(folder_ / "scenario.resolved.yaml");
+    const Movement movement = movement_of(folder_ / "scenario.resolved.yaml");
+    sequence_.windy = movement.wind;
+    sequence_.busy = movement.occluders;
     check_formats();
   }
 
@@ -75,7 +90,7 @@ class Check {
 
   void check_files() {
     const fs::path list = folder_ / FileManifest::kName;
-    if (card_.complete && xxh128(read_file(list)) != card_.files_xxh128) {
+    if (card_.complete && xxh128(read_file(list, FileKind::kTable)) != card_.files_xxh128) {
       fault(FileManifest::kName, "does not match its hash in dataset.yaml");
     }
     std::set<std::string> listed{DatasetCard::kName, FileManifest::kName};

@@ -30,19 +30,22 @@ std::map<RunName, StoredRun> find_runs(const fs::path& folder) {
   std::map<RunName, StoredRun> runs;
   std::map<RunName, fs::path> places;
   const auto options = fs::directory_options::skip_permission_denied;
-  for (const auto& entry : fs::recursive_directory_iterator(folder, options, error)) {
-    if (entry.path().filename() != "metrics.json") continue;
-    std::optional<StoredRun> run = read_stored_run(entry.path());
-    if (!run) fail("{}: is not a metrics.json of a run", entry.path().string());
+  fs::recursive_directory_iterator entry(folder, options, error);
+  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    const fs::path file = entry->path();
+    if (file.filename() != "metrics.json") continue;
+    std::optional<StoredRun> run = read_stored_run(file);
+    if (!run) fail("{}: is not a metrics.json of a run", file.string());
     const RunName name{run->scenario, run->seed};
     if (runs.contains(name)) {
-      const auto [first, second] = std::minmax(places[name], entry.path());
+      const auto [first, second] = std::minmax(places[name], file);
       fail("{}: {} is duplicate, in {} and {}", folder.string(), text_of(name), first.string(),
            second.string());
     }
-    places[name] = entry.path();
+    places[name] = file;
     runs.emplace(name, std::move(*run));
   }
+  if (error) fail("{}: cannot be read: {}", folder.string(), error.message());
   if (runs.empty()) {
     fail("{}: contains no run; expected a metrics.json in it or in its folders", folder.string());
   }

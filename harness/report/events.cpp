@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "harness/datasets/files/json_file.h"
+
 namespace vinebench::harness {
 namespace {
 
@@ -61,7 +63,7 @@ class EventLog {
   void add(const char* event, const Json& more = Json::object()) {
     Json line{{"t", exact_seconds(tick_->stamp)}, {"frame", tick_->index}, {"event", event}};
     line.update(more);
-    text_ += line.dump() + "\n";
+    text_ += json_text(line) + "\n";
   }
 
   void add_source_events() {

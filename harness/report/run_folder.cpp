@@ -8,6 +8,7 @@
 #include "core/config/yaml_writer.h"
 #include "core/util/error.h"
 #include "core/util/files.h"
+#include "harness/datasets/files/json_file.h"
 #include "harness/judge/diagnosis.h"
 #include "harness/report/events.h"
 #include "harness/report/plot.h"
@@ -64,7 +65,7 @@ void write_run_files(const std::filesystem::path& folder, const Trial& trial,
 }
 
 void write_metrics(const std::filesystem::path& folder, const RunReport& report) {
-  write_file_atomically(folder / "metrics.json", to_json(report).dump(2) + "\n");
+  write_file_atomically(folder / "metrics.json", json_text(to_json(report), 2) + "\n");
 }
 
 }  // namespace vinebench::harness

@@ -3,6 +3,7 @@
 #include "harness/report/stored_run.h"
 
 #include "core/util/files.h"
+#include "core/util/json_depth.h"
 
 namespace vinebench::harness {
 
@@ -32,7 +33,9 @@ std::optional<StoredRun> stored_run(Json metrics) {
 std::optional<StoredRun> read_stored_run(const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored)) return std::nullopt;
-  return stored_run(Json::parse(read_file(file), nullptr, false));
+  const std::string text = read_file(file, FileKind::kJson);
+  check_json_depth(text, file.string());
+  return stored_run(Json::parse(text, nullptr, false));
 }
 
 }  // namespace vinebench::harness

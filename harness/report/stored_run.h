@@ -26,7 +26,8 @@ struct StoredRun {
 /// Empty if this is not the metrics of a run.
 std::optional<StoredRun> stored_run(Json metrics);
 
-/// Empty if the file does not exist or is not the metrics.json of a run.
+/// Empty if the file does not exist or is not the metrics.json of a run. Throws Error if it cannot
+/// be read.
 std::optional<StoredRun> read_stored_run(const std::filesystem::path& file);
 
 }  // namespace vinebench::harness

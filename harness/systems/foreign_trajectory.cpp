@@ -51,7 +51,7 @@ Trajectory read_foreign_trajectory(const std::filesystem::path& file,
                                    const std::vector<Stamp>& frames, const Pose& T_sensor_body) {
   const std::vector<TableRow> rows = read_table(file);
   if (rows.empty() || frames.empty()) return {};
-  const bool commas = read_file(file).find(',') != std::string::npos;
+  const bool commas = read_file(file, FileKind::kTable).find(',') != std::string::npos;
   const bool in_seconds = latest(rows) <= to_seconds(frames.back()) + 1;
   Trajectory written;
   for (const TableRow& row : rows) {

@@ -11,11 +11,10 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <sstream>
 #include <thread>
 
 #include "core/util/error.h"
-#include "core/util/files.h"
+#include "core/util/input_file.h"
 
 namespace vinebench::harness {
 namespace {
@@ -81,10 +80,14 @@ class SpawnSettings {
 };
 
 std::string last_line_of(const std::filesystem::path& log) {
-  std::istringstream in(read_file(log));
   std::string last;
-  for (std::string line; std::getline(in, line);) {
-    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
+  try {
+    InputStream in(log, FileKind::kPart);
+    for (std::string line; std::getline(in, line);) {
+      if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
+    }
+  } catch (const Error&) {  // what the program failed of says more
+    return fmt::format("; its messages are in {}", log.string());
   }
   return last.empty() ? "; it printed nothing"
                       : fmt::format("; its last line in {}: {}", log.string(), last);

@@ -11,7 +11,7 @@
 
 #include "core/util/error.h"
 #include "core/util/files.h"
-#include "sim/assets/image_size.h"
+#include "core/util/image_size.h"
 
 namespace vinebench::sim {
 namespace {
@@ -114,19 +114,8 @@ cv::Mat decode(std::string_view bytes) {
 
 }  // namespace
 
-std::string read_mesh_file(const std::filesystem::path& file) {
-  constexpr std::uintmax_t kMost = std::uintmax_t{1} << 30;
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  // Reading a pipe or a device may never end.
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
-      !std::filesystem::is_directory(status)) {
-    fail("{}: expected a file, found a pipe or a device", file.string());
-  }
-  if (const auto size = std::filesystem::file_size(file, error); !error && size > kMost) {
-    fail("{}: expected at most 1 GiB, found {} bytes", file.string(), size);
-  }
-  std::string bytes = read_file(file);
+std::string read_mesh_file(const std::filesystem::path& file, FileKind kind) {
+  std::string bytes = read_file(file, kind);
   if (bytes.empty()) fail("{}: expected a mesh or its parts, found an empty file", file.string());
   return bytes;
 }

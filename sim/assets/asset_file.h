@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "core/util/input_file.h"
 #include "sim/assets/asset.h"
 
 namespace vinebench::sim {
@@ -24,8 +25,8 @@ Asset read_gltf(const std::filesystem::path& file);
 Asset import_mesh(const std::filesystem::path& file);  ///< with assimp
 
 /// The content of a mesh, image or buffer file. Throws Error if it is not a file, cannot be read,
-/// is empty or larger than 1 GiB.
-std::string read_mesh_file(const std::filesystem::path& file);
+/// is empty or larger than its kind may be.
+std::string read_mesh_file(const std::filesystem::path& file, FileKind kind = FileKind::kMesh);
 
 /// Decodes an image file to the pixels of a Texture. Throws Error that names `where`, also for an
 /// image of more than 16384 pixels on a side or 2^24 in all.

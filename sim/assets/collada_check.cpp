@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "core/util/error.h"
@@ -18,6 +19,15 @@ constexpr double kMostNodes = 100'000;
 
 /// The nodes instanced by each node, in the order of the text.
 using Graph = std::map<std::string, std::vector<std::string>, std::less<>>;
+
+/// A view of a list of numbers.
+struct Accessor {
+  std::string array;
+  double count = 0;
+  double stride = 1;
+  double offset = 0;
+  double params = 0;  ///< numbers of an item
+};
 
 struct Extent {
   double nodes = 1;
@@ -33,6 +43,10 @@ class ColladaCheck {
       at = skip_tag(at);
     }
     for (const auto& [name, children] : graph_) unfold(name, 1);
+    for (const Accessor& accessor : accessors_) check(accessor);
+    for (const std::string& source : inputs_) {
+      if (texts_.contains(source)) fail("{}: '{}': expected numbers, found names", file_, source);
+    }
   }
 
  private:
@@ -40,11 +54,12 @@ class ColladaCheck {
   std::size_t skip_tag(std::size_t at) {
     if (text_.substr(at).starts_with("<!--")) return end_of("-->", at);
     if (text_.substr(at).starts_with("<![CDATA[")) return end_of("]]>", at);
-    const std::size_t end = end_of(">", at);
+    const std::size_t end = end_of_tag(at);
     const std::string_view tag = text_.substr(at, end - at);
     if (tag.starts_with("<?") || tag.starts_with("<!")) return end;
     if (tag.starts_with("</")) {
       if (!open_.empty()) open_.pop_back();
+      if (tag.starts_with("</accessor")) in_accessor_ = false;
       return end;
     }
     read(tag);
@@ -68,20 +83,97 @@ class ColladaCheck {
       const std::string_view url = attribute(tag, "url");
       graph_[parent].emplace_back(url.substr(std::min<std::size_t>(1, url.size())));
     }
-    const std::string_view count = attribute(tag, "count");
-    double stated = 0;
-    std::from_chars(count.data(), count.data() + count.size(), stated);
-    if (stated > static_cast<double>(text_.size())) {
-      fail("{}: a list of {} items in a file of {} bytes", file_, count, text_.size());
+    for (const char* key : {"count", "offset", "set", "stride"}) whole_number(tag, key, 0);
+    read_list(name, tag);
+  }
+
+  /// Assimp reads lists of numbers through accessors without checking their bounds.
+  void read_list(std::string_view name, std::string_view tag) {
+    const bool names = name == "Name_array" || name == "IDREF_array";
+    if (name == "source") source_ = attribute(tag, "id");
+    if (names) texts_.insert(source_);
+    if (names || name == "float_array") {
+      arrays_[std::string(attribute(tag, "id"))] = whole_number(tag, "count", 0);
+    } else if (name == "accessor") {
+      accessors_.push_back({reference(tag, "source"), whole_number(tag, "count", 0),
+                            whole_number(tag, "stride", 1), whole_number(tag, "offset", 0)});
+      in_accessor_ = !tag.ends_with("/>");
+    } else if (name == "param" && in_accessor_) {
+      ++accessors_.back().params;
+    } else if (name == "input" && needs_numbers(attribute(tag, "semantic"))) {
+      inputs_.push_back(reference(tag, "source"));
     }
   }
 
+  static bool needs_numbers(std::string_view semantic) {
+    for (const char* kind : {"POSITION", "NORMAL", "TEXCOORD", "COLOR", "TEXTANGENT", "TEXBINORMAL",
+                             "TANGENT", "BINORMAL", "VERTEX"}) {
+      if (semantic == kind) return true;
+    }
+    return false;
+  }
+
+  void check(const Accessor& accessor) const {
+    const auto array = arrays_.find(accessor.array);
+    if (array == arrays_.end()) {
+      fail("{}: an accessor of the list '{}', which is not in the file", file_, accessor.array);
+    }
+    const double params = std::max(1.0, accessor.params);
+    const double last = accessor.offset + (accessor.count - 1) * accessor.stride + params;
+    if (accessor.count > 0 && last > array->second) {
+      fail("{}: an accessor of {} numbers in the list '{}' of {}", file_, last, accessor.array,
+           array->second);
+    }
+  }
+
+  /// Digits alone: what other readers make of a sign or a letter differs. Fails for more than the
+  /// file has bytes.
+  double whole_number(std::string_view tag, std::string_view name, double fallback) const {
+    const std::string_view text = attribute(tag, name);
+    if (text.empty() || !is_list(tag)) return fallback;
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (text.find_first_not_of("0123456789") != text.npos || error != std::errc{} ||
+        end != text.data() + text.size()) {
+      fail("{}: {}: expected a whole number, found '{}'", file_, name, text.substr(0, 40));
+    }
+    if (number > static_cast<double>(text_.size())) {
+      fail("{}: a list of {} items in a file of {} bytes", file_, text, text_.size());
+    }
+    return number;
+  }
+
+  /// Whether assimp reads whole numbers of these elements.
+  static bool is_list(std::string_view tag) {
+    for (const std::string_view name :
+         {"_array", "accessor", "input", "triangles", "polylist", "polygons", "lines", "linestrips",
+          "trifans", "tristrips", "vertex_weights"}) {
+      if (tag.substr(0, tag.find_first_of(" \t\r\n/>")).ends_with(name)) return true;
+    }
+    return false;
+  }
+
+  std::string reference(std::string_view tag, std::string_view name) const {
+    const std::string_view url = attribute(tag, name);
+    return std::string(url.substr(std::min<std::size_t>(1, url.size())));
+  }
+
+  /// The first attribute of that name, as assimp takes it.
   static std::string_view attribute(std::string_view tag, std::string_view name) {
-    for (std::size_t at = tag.find(name); at != tag.npos; at = tag.find(name, at + 1)) {
-      const std::size_t quote = tag.find_first_not_of(" \t\r\n=", at + name.size());
-      const bool whole = std::string_view(" \t\r\n").find(tag[at - 1]) != tag.npos;
-      if (!whole || quote == tag.npos || (tag[quote] != '"' && tag[quote] != '\'')) continue;
-      return tag.substr(quote + 1, tag.find(tag[quote], quote + 1) - quote - 1);
+    constexpr std::string_view kBlanks = " \t\r\n";
+    std::size_t at = tag.find_first_of(kBlanks);
+    while (at < tag.size()) {
+      const std::size_t begin = tag.find_first_not_of(kBlanks, at);
+      const std::size_t equals = tag.find('=', std::min(begin, tag.size()));
+      if (equals >= tag.size()) break;
+      const std::size_t quote = tag.find_first_of("\"'", equals);
+      if (quote == tag.npos) break;
+      const std::size_t end = std::min(tag.find(tag[quote], quote + 1), tag.size());
+      const std::string_view key = tag.substr(begin, equals - begin);
+      if (key.substr(0, key.find_first_of(kBlanks)) == name) {
+        return tag.substr(quote + 1, end - quote - 1);
+      }
+      at = end + 1;
     }
     return {};
   }
@@ -108,6 +200,16 @@ class ColladaCheck {
     return extents_[node] = extent;
   }
 
+  /// The end of a tag, whose attributes may have a '>' in their values.
+  std::size_t end_of_tag(std::size_t at) const {
+    while ((at = text_.find_first_of("\"'>", at)) != text_.npos && text_[at] != '>') {
+      at = text_.find(text_[at], at + 1);
+      if (at == text_.npos) break;
+      ++at;
+    }
+    return at == text_.npos ? text_.size() : at + 1;
+  }
+
   std::size_t end_of(std::string_view mark, std::size_t at) const {
     const std::size_t found = text_.find(mark, at);
     return found == text_.npos ? text_.size() : found + mark.size();
@@ -121,6 +223,12 @@ class ColladaCheck {
   std::map<std::string, std::string, std::less<>> ids_;
   Graph graph_;
   std::map<std::string, Extent> extents_;
+  std::string source_;                    ///< the latest
+  std::map<std::string, double> arrays_;  ///< their stated items, by id
+  std::vector<Accessor> accessors_;
+  bool in_accessor_ = false;         ///< the last of them
+  std::set<std::string> texts_;      ///< sources of names
+  std::vector<std::string> inputs_;  ///< sources that must be of numbers
 };
 
 }  // namespace

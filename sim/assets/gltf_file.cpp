@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "core/util/error.h"
+#include "core/util/json_depth.h"
 #include "sim/assets/asset_file.h"
 
 namespace vinebench::sim {
@@ -71,21 +72,6 @@ std::string_view glb_json(std::string_view bytes, const std::string& file) {
   return bytes.substr(kHeader + kChunkHeader, number_at(bytes, kHeader));
 }
 
-/// tinygltf parses nested values recursively: a deeply nested file would exhaust the stack.
-void check_depth(std::string_view json, const std::string& file) {
-  constexpr int kDeepest = 200;
-  int depth = 0;
-  bool text = false;
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const char c = json[i];
-    if (c == '"') text = !text;
-    if (text && c == '\\') ++i;
-    if (text) continue;
-    depth += (c == '{' || c == '[') - (c == '}' || c == ']');
-    if (depth > kDeepest) fail("{}: its JSON is nested more than {} deep", file, kDeepest);
-  }
-}
-
 bool load(const std::string& bytes, const std::filesystem::path& file, tinygltf::Model& model,
           std::string& problem) {
   tinygltf::TinyGLTF reader;
@@ -120,7 +106,8 @@ std::string brief(std::string text) {
 
 tinygltf::Model parse_gltf(const std::filesystem::path& file) {
   const std::string bytes = read_mesh_file(file);
-  check_depth(bytes.starts_with("glTF") ? glb_json(bytes, file.string()) : bytes, file.string());
+  check_json_depth(bytes.starts_with("glTF") ? glb_json(bytes, file.string()) : bytes,
+                   file.string());
   tinygltf::Model model;
   std::string problem;
   const bool whole = load(bytes, file, model, problem);

@@ -14,6 +14,8 @@
 #include "core/util/error.h"
 #include "sim/assets/asset_file.h"
 #include "sim/assets/collada_check.h"
+#include "sim/assets/mesh_files.h"
+#include "sim/assets/obj_check.h"
 
 namespace vinebench::sim {
 namespace {
@@ -34,13 +36,15 @@ class MeshImporter {
 
   Asset read() {
     const std::string text = read_mesh_file(file_);
-    if (is_collada_) check_collada(text, file_.string());
+    check(text);
+    importer_.SetIOHandler(new MeshFiles(file_.string(), text));  // owned by the importer
     importer_.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                                  aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     importer_.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kSmoothest);
     const aiScene* scene =
         loaded(importer_.ReadFile(file_.string(), aiProcess_ValidateDataStructure));
     check_vertices(*scene);
+    check_faces(*scene);
     if (vertices_below(*scene, *scene->mRootNode) > kMostVertices) {
       fail("{}: expected at most {} vertices", file_.string(), kMostVertices);
     }
@@ -58,6 +62,18 @@ class MeshImporter {
   }
 
  private:
+  /// Before assimp reads it: what would crash it, or take far more memory than the file.
+  void check(const std::string& text) const {
+    constexpr std::size_t kLargest = std::size_t{256} << 20;
+    if (text.size() > kLargest) {
+      fail("{}: expected at most 256 MiB for this format, found {} bytes", file_.string(),
+           text.size());
+    }
+    const char kind = static_cast<char>(std::tolower(file_.extension().string().at(1)));
+    if (kind == 'd') check_collada(text, file_.string());
+    if (kind == 'o') check_obj(text, file_.string());
+  }
+
   const aiScene* loaded(const aiScene* scene) const {
     if (scene == nullptr || (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0) {
       fail("{}: expected a mesh: {}", file_.string(), importer_.GetErrorString());
@@ -77,8 +93,21 @@ class MeshImporter {
     }
   }
 
-  /// These formats do not define single-sided surfaces, and leaves of other tools are often single
-  /// sheets. For all meshes of the nodes; nodes may instance one mesh many times.
+  /// Assimp's time to divide a polygon grows with the square of its corners, or faster.
+  void check_faces(const aiScene& scene) const {
+    constexpr unsigned kMostCorners = 1000;
+    for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+      const aiMesh& mesh = *scene.mMeshes[i];
+      for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+        const unsigned corners = mesh.mFaces[f].mNumIndices;
+        if (corners <= kMostCorners) continue;
+        fail("{}: expected polygons of at most {} corners, found {}", file_.string(), kMostCorners,
+             corners);
+      }
+    }
+  }
+
+  /// For all meshes of the nodes; nodes may instance one mesh many times.
   static double vertices_below(const aiScene& scene, const aiNode& node) {
     double count = 0;
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
@@ -90,6 +119,8 @@ class MeshImporter {
     return count;
   }
 
+  /// These formats do not define single-sided surfaces, and leaves of other tools are often single
+  /// sheets.
   void add(const aiMaterial& from, Asset& asset) const {
     aiString name("material"), image;
     from.Get(AI_MATKEY_NAME, name);
@@ -115,8 +146,8 @@ class MeshImporter {
     const std::filesystem::path path = file_.parent_path() / name;
     const std::string where = fmt::format("{}: image {}", file_.string(), path.string());
     std::error_code ignored;
-    if (!std::filesystem::is_regular_file(path, ignored)) fail("{}: no such file", where);
-    return {name, decode_image(read_mesh_file(path), where), true};
+    if (!std::filesystem::exists(path, ignored)) fail("{}: no such file", where);
+    return {name, decode_image(read_mesh_file(path, FileKind::kImage), where), true};
   }
 
   Primitive part(const aiMesh& mesh) const {

@@ -14,6 +14,7 @@
 #include "core/util/error.h"
 #include "core/util/files.h"
 #include "core/util/xml_text.h"
+#include "sim/rover/mjcf_check.h"
 #include "sim/vineyard/occluders/occluder_shape.h"
 #include "sim/vineyard/trellis.h"
 #include "sim/world/world_layout.h"
@@ -54,9 +55,13 @@ std::filesystem::path temporary_folder() {
 }
 
 /// By default MuJoCo prints warnings and writes MUJOCO_LOG.TXT; `check` reports them instead.
-void silence_warnings() {
+/// Errors, such as too little memory, would end the program.
+void take_messages() {
   static std::once_flag once;
-  std::call_once(once, [] { mju_user_warning = [](const char*) {}; });
+  std::call_once(once, [] {
+    mju_user_warning = [](const char*) {};
+    mju_user_error = [](const char* message) { fail("MuJoCo: {}", message); };
+  });
 }
 
 std::string upright(const std::string& name, const Eigen::Vector3d& foot,
@@ -216,7 +221,7 @@ std::string world_mjcf(const WorldConfig& world, const WorldLayout& layout,
 PhysicsWorld::PhysicsWorld(const std::filesystem::path& rover, const WorldConfig& world,
                            std::uint64_t seed)
     : rover_(rover) {
-  silence_warnings();
+  take_messages();
   if (mj_version() != mjVERSION_HEADER) {
     fail("MuJoCo's library is version {}, its headers {}: expected the same", mj_version(),
          mjVERSION_HEADER);
@@ -225,6 +230,7 @@ PhysicsWorld::PhysicsWorld(const std::filesystem::path& rover, const WorldConfig
   if (!std::filesystem::is_regular_file(rover, problem)) {
     fail("{}: no such file, expected the rover's MJCF model", rover.string());
   }
+  check_mjcf_files(rover);
   const WorldLayout layout = lay_out(world);
   const std::filesystem::path folder = temporary_folder();
   const TemporaryFile file((folder / "vinebench-XXXXXX.xml").string(), 4);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/util/error.h"
+#include "sim/rover/mjcf_check.h"
 #include "sim/scene/block_mesh.h"
 
 namespace vinebench::sim {
@@ -171,6 +172,7 @@ class GeomBuilder {
 class RoverModel {
  public:
   explicit RoverModel(const std::filesystem::path& mjcf) {
+    check_mjcf_files(mjcf);
     std::array<char, 1000> reason{};
     model_.reset(mj_loadXML(mjcf.string().c_str(), nullptr, reason.data(), reason.size()));
     if (!model_) fail("{}: is not a valid MJCF model: {}", mjcf.string(), reason.data());

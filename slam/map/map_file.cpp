@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/util/files.h"
+#include "core/util/library_errors.h"
 #include "slam/map/binary_archive.h"
 #include "slam/map/rig_fingerprint.h"
 
@@ -318,7 +319,9 @@ void save_map(const Map& map, const EstimatorRig& rig, const std::filesystem::pa
 }
 
 Map load_map(const std::filesystem::path& file, const EstimatorRig& rig) {
-  return parse_map(read_file(file), rig, file.string());
+  return with_errors_of(file.string(), [&] {
+    return parse_map(read_file(file, FileKind::kMap), rig, file.string());
+  });
 }
 
 }  // namespace vinebench::slam

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/report/stored_run.h"
 #include "tests/support/recorded_folders.h"
 #include "tests/support/wall.h"
 
@@ -95,6 +96,23 @@ TEST_F(ReplayTest, FaultsAreCountedAndLogged) {
   EXPECT_THAT(events,
               HasSubstr("\"frame\":5,\"event\":\"picture_unreadable\",\"sensor\":\"right\""));
   EXPECT_THAT(format_replay(outcome.report), HasSubstr("picture_unreadable (1 times)"));
+}
+
+// JSON cannot hold other bytes; the finished run matters more than its name.
+TEST_F(ReplayTest, NamesThatAreNotUtf8LoseNoRun) {
+  Recording recording = open_recording(wall_.root());
+  recording.name = "wall\xff";
+  recording.frames[5].images[1] = wall_.root() / "image_1/\xff.png";
+  const slam::SlamConfig slam = replay_settings(recording, "", {});
+  RunOptions options;
+  options.folder = folder_ / "out\xff";
+  prepare_replay_folder(options.folder, slam);
+  const RunOutcome outcome = run_replay(std::move(recording), slam, 2, options);
+  EXPECT_EQ(outcome.report.hash.size(), 32u);
+  const auto stored = read_stored_run(options.folder / "metrics.json");
+  ASSERT_TRUE(stored);
+  EXPECT_EQ(stored->scenario, "wall\xef\xbf\xbd");
+  EXPECT_THAT(read_file(options.folder / "events.jsonl"), HasSubstr("\xef\xbf\xbd.png"));
 }
 
 TEST_F(ReplayTest, SettingsComeFromFileAndOverrides) {

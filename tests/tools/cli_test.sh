@@ -201,6 +201,42 @@ grep -q '<testcase ' verdicts.xml || report "set of runs: verdicts.xml has no ca
 grep -q 'quick-loop' set/table.md || report "set of runs: table.md lacks the scenario"
 popd >/dev/null || exit 1
 
+# What is no file is neither waited for nor read without end.
+mkfifo "$work/pipe"
+ln -s /dev/zero "$work/zeros"
+ln -s loop "$work/loop"
+for special in pipe zeros; do
+  expect 2 "eval of $special" "$special: expected a regular file" -- \
+    eval "$work/$special" "$work/truth.tum"
+  expect 2 "map from $special" "$special: expected a regular file" -- \
+    replay "$work/recorded" --out "$work/replayed" --load-map "$work/$special"
+  expect 2 "settings from $special" "$special: expected a regular file" -- \
+    replay "$work/recorded" --out "$work/replayed" --slam "$work/$special"
+  expect 2 "scenario from $special" "neither a file nor the name of a scenario" -- run "$work/$special"
+  cp -r "$work/recorded" "$work/with-$special"
+  rm "$work/with-$special/euroc/rig.yaml"
+  cp -a "$work/$special" "$work/with-$special/euroc/rig.yaml"
+  expect 2 "rig from $special" "rig.yaml: expected a regular file" -- \
+    replay "$work/with-$special" --out "$work/replayed"
+done
+expect 2 "map in a loop of links" "loop" -- \
+  replay "$work/recorded" --out "$work/replayed" --save-map "$work/loop/row.map"
+echo "world: [1" >"$work/recorded/scenario.resolved.yaml"
+expect 2 "check of a damaged scenario" "scenario.resolved.yaml:2: is not valid YAML" -- \
+  check "$work/recorded"
+
+# Names that are not UTF-8: the finished runs are kept, and reported with U+FFFD.
+odd=$(printf 'odd\xff')
+cp -r "$work/recorded/euroc" "$work/$odd"
+expect 0 "replay with an odd name" "frames" -- replay "$work/$odd" --out "$work/$odd/out"
+grep -qF $'"scenario": "odd\xef\xbf\xbd"' "$work/$odd/out/metrics.json" ||
+  report "replay with an odd name: not in metrics.json"
+"$vinebench" run "$quick_loop" "${court[@]}" --seeds 1..1 --out "$work/$odd/set" >"$work/stdout" \
+  2>"$work/stderr"
+[[ $? -eq 1 ]] || report "set of runs with an odd name: expected exit code 1"
+grep -qF $'odd\xef\xbf\xbd/set/quick-loop/seed-1' "$work/$odd/set/summary.json" ||
+  report "set of runs with an odd name: not in summary.json"
+
 # Shell completion, as a shell would call it.
 complete_in_bash() {
   PATH=$(dirname "$vinebench"):$PATH bash -c "

@@ -22,11 +22,18 @@ printf '%s\n' "$@" >"$OUT/arguments"
 [[ $CODE -le 2 ]] && printf '| new |\n| &\\1 |\n' >"$OUT/table.md"
 exit "$CODE"
 END
-chmod +x "$work/fake"
+# Records the arguments of the damaged inputs and exits with $OFFENCES.
+cat >"$work/mutate" <<'END'
+#!/usr/bin/env bash
+printf '%s\n' "$@" >"$OUT/mutate-arguments"
+echo "| inputs |"
+exit "${OFFENCES:-0}"
+END
+chmod +x "$work/fake" "$work/mutate"
 
 # nightly CODE ARGUMENTS...: its exit code is in $got.
 nightly() {
-  env CODE="$1" VINEBENCH="$work/fake" OUT="$work/out" RESULTS="$work/results.md" \
+  env CODE="$1" VINEBENCH="$work/fake" MUTATE="$work/mutate" MUTATION_SEED=7 OUT="$work/out" RESULTS="$work/results.md" \
     "$root/tools/nightly.sh" "${@:2}" >"$work/messages" 2>&1
   got=$?
 }
@@ -51,6 +58,17 @@ check "the same table again" cmp "$work/results.md" "$work/expected.md"
 for argument in scenarios/quick-loop.yaml 1..5 "$work/out/junit.xml"; do
   check "the argument $argument" grep -qFx -- "$argument" "$work/out/arguments"
 done
+
+for argument in --cases 2000 --seed 7 "$work/out/mutations"; do
+  check "the argument $argument of the damaged inputs" \
+    grep -qFx -- "$argument" "$work/out/mutate-arguments"
+done
+check "the counts of the damaged inputs" grep -qFx "| inputs |" "$work/out/mutations.md"
+OFFENCES=1 nightly 0
+check "a damaged input that ends the program fails the night" test $got -eq 1
+rm "$work/out/mutate-arguments"
+MUTATIONS=0 nightly 0
+check "no damaged inputs where none are asked for" test ! -e "$work/out/mutate-arguments"
 
 sed -i '/^<!-- .results -->/d' "$work/results.md"
 nightly 0

@@ -8,6 +8,7 @@
 
 #include "core/util/files.h"
 #include "harness/benchmarks/record_benchmark.h"
+#include "harness/datasets/files/json_file.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 
@@ -43,7 +44,8 @@ int bench_record(const BenchRecordArguments& arguments, const Surroundings& surr
   std::error_code ignored;
   std::filesystem::remove_all(benchmark.folder, ignored);
   fmt::print("{}", harness::record_table(result));
-  if (!arguments.json.empty()) write_file_atomically(arguments.json, result.dump(2) + "\n");
+  if (!arguments.json.empty())
+    write_file_atomically(arguments.json, harness::json_text(result, 2) + "\n");
   return 0;
 }
 

@@ -10,6 +10,7 @@
 #include "harness/benchmarks/render_benchmark.h"
 #include "harness/benchmarks/render_case.h"
 #include "harness/benchmarks/render_report.h"
+#include "harness/datasets/files/json_file.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 
@@ -57,7 +58,8 @@ int bench_render(const BenchArguments& arguments, const Surroundings& surroundin
     fmt::print("A frame costs {:+.1f} % of CPU time from {} to {} rows.\n", growth,
                worlds[1].at("rows").get<int>(), worlds[2].at("rows").get<int>());
   }
-  if (!arguments.json.empty()) write_file_atomically(arguments.json, results.dump(2) + "\n");
+  if (!arguments.json.empty())
+    write_file_atomically(arguments.json, harness::json_text(results, 2) + "\n");
   return 0;
 }
 

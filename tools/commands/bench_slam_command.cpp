@@ -7,6 +7,7 @@
 
 #include "core/util/files.h"
 #include "harness/benchmarks/slam_benchmark.h"
+#include "harness/datasets/files/json_file.h"
 #include "harness/datasets/reading/dataset_reader.h"
 #include "harness/replay.h"
 #include "tools/arguments/options.h"
@@ -51,7 +52,8 @@ int bench_slam(const BenchSlamArguments& arguments, const Surroundings& surround
   }
   const auto result = harness::measure_slam(benchmark);
   fmt::print("{}", harness::slam_table(result));
-  if (!arguments.json.empty()) write_file_atomically(arguments.json, result.dump(2) + "\n");
+  if (!arguments.json.empty())
+    write_file_atomically(arguments.json, harness::json_text(result, 2) + "\n");
   return 0;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/util/files.h"
+#include "harness/datasets/files/json_file.h"
 #include "harness/report/compare.h"
 #include "tools/commands/commands.h"
 
@@ -20,7 +21,8 @@ struct CompareArguments {
 int compare(const CompareArguments& arguments) {
   const harness::PairedRuns runs = harness::pair_runs(arguments.before, arguments.after);
   if (!arguments.json.empty()) {
-    write_file_atomically(arguments.json, harness::comparison_json(runs).dump(2) + "\n");
+    write_file_atomically(arguments.json,
+                          harness::json_text(harness::comparison_json(runs), 2) + "\n");
   }
   fmt::print("A is {}, B is {}\n{}", arguments.before, arguments.after,
              harness::format_comparison(runs));

@@ -10,6 +10,7 @@
 
 #include "core/util/error.h"
 #include "core/util/files.h"
+#include "harness/datasets/files/json_file.h"
 #include "harness/jobs/run_scenario.h"
 #include "harness/sets/junit.h"
 #include "harness/sets/set_report.h"
@@ -33,7 +34,8 @@ void prepare(const ManyRuns& many) {
 int report(const ManyRuns& many, const std::vector<harness::SeedsSummary>& scenarios) {
   const std::string table = harness::format_table(scenarios);
   write_file_atomically(many.out / "table.md", table);
-  write_file_atomically(many.out / "summary.json", harness::summary_json(scenarios).dump(2) + "\n");
+  write_file_atomically(many.out / "summary.json",
+                        harness::json_text(harness::summary_json(scenarios), 2) + "\n");
   if (!many.junit.empty()) write_file_atomically(many.junit, harness::format_junit(scenarios));
   fmt::print("\n{}\n{}results: {}\n", table, harness::format_failures(scenarios),
              fs::absolute(many.out).string());

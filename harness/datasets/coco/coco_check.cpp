@@ -11,7 +11,8 @@
 #include <system_error>
 
 #include "core/util/error.h"
-#include "core/util/files.h"
+#include "harness/datasets/files/image_file.h"
+#include "harness/datasets/files/json_file.h"
 #include "harness/datasets/labels/mask_rle.h"
 
 namespace vinebench::harness {
@@ -21,14 +22,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr int kPanopticLookedAt = 12;
-
-Json parse(const fs::path& file) {
-  try {
-    return Json::parse(read_file(file));
-  } catch (const Json::exception& error) {
-    fail("{}: is not valid JSON: {}", file.string(), error.what());
-  }
-}
+constexpr int kLargestSide = 16384;  // px; calibration.yaml's
 
 class Checker {
  public:
@@ -51,7 +45,13 @@ class Checker {
   std::map<std::int64_t, cv::Size> read_images(const Json& root) {
     std::map<std::int64_t, cv::Size> sizes;
     for (const Json& image : root.at("images")) {
-      const cv::Size size(image.at("width"), image.at("height"));
+      const cv::Size size(image.at("width").get<int>(), image.at("height").get<int>());
+      if (size.width < 1 || size.height < 1 || size.width > kLargestSide ||
+          size.height > kLargestSide) {
+        fault(fmt::format("image {}: expected 1 to {} pixels a side",
+                          image.at("id").get<std::int64_t>(), kLargestSide));
+        continue;
+      }
       if (!sizes.emplace(image.at("id"), size).second) {
         fault(fmt::format("image {} is listed twice", image.at("id").get<std::int64_t>()));
       }
@@ -70,7 +70,7 @@ class Checker {
 
   void check_instances() {
     file_ = "instances.json";
-    const Json root = parse(folder_ / file_);
+    const Json root = read_json(folder_ / file_);
     const auto sizes = read_images(root);
     const std::set<int> categories = read_categories(root);
     std::set<std::int64_t> ids;
@@ -109,16 +109,14 @@ class Checker {
 
   void check_panoptic() {
     file_ = "panoptic.json";
-    const Json root = parse(folder_ / file_);
+    const Json root = read_json(folder_ / file_);
     const auto sizes = read_images(root);
     const std::set<int> categories = read_categories(root);
     int looked_at = 0;
     for (const Json& annotation : root.at("annotations")) {
       if (++looked_at > kPanopticLookedAt) return;
       const auto name = annotation.at("file_name").get<std::string>();
-      std::map<int, std::int64_t> areas =
-          areas_of(cv::imread((folder_ / "panoptic" / name).string()));
-      if (areas.empty()) fault(name + ": is not a complete image");
+      std::map<int, std::int64_t> areas = areas_of(read_panoptic(name));
       for (const Json& segment : annotation.at("segments_info")) {
         const auto found = areas.find(segment.at("id").get<int>());
         if (found == areas.end() || found->second != segment.at("area").get<std::int64_t>() ||
@@ -129,6 +127,17 @@ class Checker {
         if (found != areas.end()) areas.erase(found);
       }
       if (!areas.empty()) fault(fmt::format("{}: {} segments are not listed", name, areas.size()));
+    }
+  }
+
+  cv::Mat read_panoptic(const std::string& name) {
+    try {
+      const cv::Mat image = read_image(folder_ / "panoptic" / name, cv::IMREAD_COLOR);
+      if (image.empty()) fault(name + ": is not a complete image");
+      return image;
+    } catch (const Error& error) {
+      fault(error.what());
+      return {};
     }
   }
 

@@ -12,6 +12,8 @@
 #include <system_error>
 
 #include "core/util/error.h"
+#include "core/util/input_file.h"
+#include "harness/datasets/files/json_file.h"
 #include "vinebench/version.h"
 
 namespace vinebench::harness {
@@ -26,22 +28,16 @@ constexpr const char* kFileName = "\"file_name\":\"";
 using Take = std::function<void(const std::string&)>;
 using Items = std::function<void(const Take&)>;
 
-std::ifstream open(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) fail("{}: cannot be read: {}", file.string(), std::strerror(errno));
-  return in;
-}
-
 Items lines_of(const fs::path& file) {
   return [file](const Take& take) {
-    std::ifstream in = open(file);
+    InputStream in(file, FileKind::kPart);
     for (std::string line; std::getline(in, line) && !in.eof();) take(line);
   };
 }
 
 /// The items of one list of a file written by write_coco().
 void take_list(const fs::path& file, const std::string& list, const Take& take) {
-  std::ifstream in = open(file);
+  InputStream in(file, FileKind::kPart);
   bool inside = false;
   for (std::string line; std::getline(in, line);) {
     if (!inside) {
@@ -94,8 +90,8 @@ void write_coco(const fs::path& file, const Json& categories, const Items& image
   const Json licence{{"id", 1},
                      {"name", "CC0 1.0"},
                      {"url", "https://creativecommons.org/publicdomain/zero/1.0/"}};
-  out << "{\"info\": " << info.dump() << ",\n\"licenses\": [" << licence.dump()
-      << "],\n\"categories\": " << categories.dump() << ",\n";
+  out << "{\"info\": " << json_text(info) << ",\n\"licenses\": [" << json_text(licence)
+      << "],\n\"categories\": " << json_text(categories) << ",\n";
   write_list(out, "images", images);
   out << ",\n";
   write_list(out, "annotations", annotations);

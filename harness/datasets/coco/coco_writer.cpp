@@ -10,6 +10,7 @@
 
 #include "core/util/files.h"
 #include "harness/datasets/coco/coco_file.h"
+#include "harness/datasets/files/json_file.h"
 #include "harness/datasets/labels/instance_ids.h"
 
 namespace vinebench::harness {
@@ -109,13 +110,15 @@ CocoWriter::Lines CocoWriter::describe(const DatasetFrame& frame, std::size_t ca
   const std::int64_t image = coco_image_id(options_, frame.number, camera);
   const cv::Size size = labels.segments.size();
   Lines lines;
-  lines.image =
-      Json{{"id", image},           {"file_name", "images/" + name_of_image(frame, camera, ending)},
-           {"width", size.width},   {"height", size.height},
-           {"license", 1},          {"camera", cameras_[camera]},
-           {"frame", frame.number}, {"stamp_ns", frame.frame.stamp}}
-          .dump() +
-      "\n";
+  lines.image = json_text(Json{{"id", image},
+                               {"file_name", "images/" + name_of_image(frame, camera, ending)},
+                               {"width", size.width},
+                               {"height", size.height},
+                               {"license", 1},
+                               {"camera", cameras_[camera]},
+                               {"frame", frame.number},
+                               {"stamp_ns", frame.frame.stamp}}) +
+                "\n";
   std::int64_t count = 0;
   Json segments = Json::array();
   for (const ThingLabel& thing : labels.things) {
@@ -125,15 +128,14 @@ CocoWriter::Lines CocoWriter::describe(const DatasetFrame& frame, std::size_t ca
     if (!options_.categories.empty() && !options_.categories.contains(thing.category)) continue;
     Json json{{"id", image * kThingsPerImage + count++}, {"image_id", image}};
     json.update(annotation(thing, size, scene_));
-    lines.annotations += json.dump() + "\n";
+    lines.annotations += json_text(json) + "\n";
   }
   for (const StuffLabel& stuff : labels.stuff) {
     segments.push_back(segment(stuff.segment, stuff.category, stuff.mask, size.height));
   }
-  lines.panoptic = Json{{"image_id", image},
-                        {"file_name", name_of_image(frame, camera, "png")},
-                        {"segments_info", segments}}
-                       .dump() +
+  lines.panoptic = json_text(Json{{"image_id", image},
+                                  {"file_name", name_of_image(frame, camera, "png")},
+                                  {"segments_info", segments}}) +
                    "\n";
   return lines;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/util/error.h"
+#include "core/util/input_file.h"
 #include "harness/datasets/euroc/sensor_file.h"
 #include "harness/datasets/euroc/tag_list.h"
 #include "harness/datasets/files/text_table.h"
@@ -53,8 +54,7 @@ ImageList read_images(const fs::path& folder, bool may_be_empty) {
 /// Our recordings list the frames, because any camera may lack one; otherwise cam0 defines them.
 std::vector<Stamp> read_instants(const fs::path& folder, const ImageList& first_camera) {
   const fs::path file = folder / kFrameList;
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) return instants_of(first_camera);
+  if (!is_present(file)) return instants_of(first_camera);
   std::vector<Stamp> instants;
   for (const TableRow& row : read_table(file)) {
     instants.push_back(row.nanoseconds(0));
@@ -85,10 +85,9 @@ Rig rig_of_sensors(const std::vector<fs::path>& folders) {
 
 Rig read_rig(const fs::path& folder, const std::vector<fs::path>& cameras,
              const RecordingOptions& options) {
-  std::error_code ignored;
   if (!options.rig.empty()) return load_rig_for(options.rig, cameras.size());
   const fs::path ours = folder / "rig.yaml";
-  if (fs::is_regular_file(ours, ignored)) return load_rig_for(ours, cameras.size());
+  if (is_present(ours)) return load_rig_for(ours, cameras.size());
   if (cameras.size() < 2) {
     fail("{}: expected a cam1 beside cam0: a stereo pair", sensor_folder(folder).string());
   }
@@ -113,10 +112,9 @@ void put_in_order(std::vector<Reading>& readings, const std::string& sensor, Rec
 }
 
 void read_imu(const fs::path& folder, Recording& recording) {
-  std::error_code ignored;
-  if (!fs::exists(folder / "data.csv", ignored)) return;
+  if (!is_present(folder / "data.csv")) return;
   Pose T_body_imu;
-  if (fs::exists(folder / "sensor.yaml", ignored)) {
+  if (is_present(folder / "sensor.yaml")) {
     T_body_imu = SensorFile(folder / "sensor.yaml").T_BS();
   }
   for (const TableRow& row : read_table(folder / "data.csv")) {
@@ -136,8 +134,7 @@ void read_imu(const fs::path& folder, Recording& recording) {
 
 /// Our extension: angles and speeds of the four wheels.
 void read_wheels(const fs::path& folder, Recording& recording) {
-  std::error_code ignored;
-  if (!fs::exists(folder / "data.csv", ignored)) return;
+  if (!is_present(folder / "data.csv")) return;
   for (const TableRow& row : read_table(folder / "data.csv")) {
     WheelSample sample;
     const std::size_t wheels = sample.angle.size();
@@ -156,9 +153,8 @@ void read_wheels(const fs::path& folder, Recording& recording) {
 Trajectory read_truth(const fs::path& sensors) {
   for (const char* name : {"state_groundtruth_estimate0", "vicon0"}) {
     const fs::path folder = sensors / name;
-    std::error_code ignored;
-    if (!fs::exists(folder / "data.csv", ignored)) continue;
-    const bool described = fs::exists(folder / "sensor.yaml", ignored);
+    if (!is_present(folder / "data.csv")) continue;
+    const bool described = is_present(folder / "sensor.yaml");
     const Pose T_body_sensor = described ? SensorFile(folder / "sensor.yaml").T_BS() : Pose{};
     return read_euroc_poses(folder / "data.csv", T_body_sensor);
   }
@@ -184,8 +180,7 @@ Recording read_euroc(const fs::path& named, const RecordingOptions& options) {
   recording.rig = read_rig(folder, cameras, options);
   recording.T_body_left = recording.rig.cameras.front().T_body_cam;
   cameras.resize(recording.rig.cameras.size());
-  std::error_code ignored;
-  const bool frames_are_listed = fs::exists(folder / kFrameList, ignored);
+  const bool frames_are_listed = is_present(folder / kFrameList);
   std::vector<ImageList> lists;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     lists.push_back(read_images(cameras[i], frames_are_listed));
@@ -200,8 +195,8 @@ Recording read_euroc(const fs::path& named, const RecordingOptions& options) {
   read_imu(sensors / "imu0", recording);
   read_wheels(sensors / "wheels0", recording);
   if (options.groundtruth.empty()) recording.truth = read_truth(sensors);
-  if (fs::exists(folder / "tags.yaml", ignored)) recording.tags = read_tags(folder / "tags.yaml");
-  if (fs::exists(folder / "slam.yaml", ignored)) recording.settings = folder / "slam.yaml";
+  if (is_present(folder / "tags.yaml")) recording.tags = read_tags(folder / "tags.yaml");
+  if (is_present(folder / "slam.yaml")) recording.settings = folder / "slam.yaml";
   return recording;
 }
 

@@ -19,14 +19,17 @@ std::string without_directive(std::string text) {
   return text;
 }
 
+constexpr int kLargestSide = 16384;          // px; calibration.yaml's
+constexpr double kHighestRate = 1e6;         // Hz
 constexpr double kRotationTolerance = 1e-3;  // of an entry of R R^T
 
 }  // namespace
 
 SensorFile::SensorFile(std::filesystem::path file) : file_(std::move(file)) {
+  const std::string text = without_directive(read_file(file_, FileKind::kYaml));
   try {
-    root_ = YAML::Load(without_directive(read_file(file_)));
-  } catch (const YAML::ParserException& error) {
+    root_ = YAML::Load(text);
+  } catch (const YAML::Exception& error) {
     fail("{}:{}: is not valid YAML: {}", file_.string(), error.mark.line + 1, error.msg);
   }
   if (!root_.IsMap()) fail("{}:1: expected a map of keys", file_.string());
@@ -88,8 +91,10 @@ PinholeCamera SensorFile::camera() const {
   const std::vector<double> k = numbers(root_["intrinsics"], "intrinsics", 4);
   PinholeCamera camera{
       static_cast<int>(size[0]), static_cast<int>(size[1]), k[0], k[1], k[2], k[3], {}};
-  if (camera.width < 16 || camera.height < 16 || camera.fx <= 0 || camera.fy <= 0) {
-    fault(root_["intrinsics"], "expected at least 16 x 16 pixels and focal lengths above 0");
+  const auto [least, most] = std::minmax(size[0], size[1]);
+  if (!(least >= 16 && most <= kLargestSide) || camera.fx <= 0 || camera.fy <= 0) {
+    fault(root_["intrinsics"],
+          fmt::format("expected 16 to {} pixels a side and focal lengths above 0", kLargestSide));
   }
   const YAML::Node distortion = root_["distortion_coefficients"];
   if (!distortion.IsDefined() || (distortion.IsSequence() && distortion.size() == 0)) return camera;
@@ -106,7 +111,8 @@ PinholeCamera SensorFile::camera() const {
 std::optional<double> SensorFile::rate_hz() const {
   double rate = 0;
   const YAML::Node node = root_["rate_hz"];
-  if (!node.IsDefined() || !YAML::convert<double>::decode(node, rate) || rate <= 0) return {};
+  if (!node.IsDefined() || !YAML::convert<double>::decode(node, rate)) return {};
+  if (!(rate > 0 && rate <= kHighestRate)) return {};
   return rate;
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/util/error.h"
+#include "harness/datasets/files/json_file.h"
 #include "harness/datasets/format/rectified.h"
 
 namespace vinebench::harness {
@@ -149,7 +150,7 @@ std::string basalt(const Setup& setup) {
   value["accel_bias_std"] = three(setup.notes.imu.accelerometer.bias_random_walk);
   value["gyro_bias_std"] = three(setup.notes.imu.gyroscope.bias_random_walk);
   value["cam_time_offset_ns"] = 0;
-  return Json{{"value0", value}}.dump(2) + "\n";
+  return json_text(Json{{"value0", value}}, 2) + "\n";
 }
 
 /// A matrix as a list of its rows.

@@ -6,9 +6,6 @@
 #include <xxhash.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <memory>
 #include <set>
 #include <system_error>
@@ -45,17 +42,15 @@ std::string xxh128(std::string_view bytes) {
 }
 
 std::string xxh128_of_file(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) fail("{}: cannot be read: {}", file.string(), std::strerror(errno));
+  InputFile in(file, FileKind::kPart);
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
                                                                        XXH3_freeState);
   XXH3_128bits_reset(state.get());
   std::vector<char> part(kPart);
-  while (in) {
-    in.read(part.data(), static_cast<std::streamsize>(part.size()));
-    XXH3_128bits_update(state.get(), part.data(), static_cast<std::size_t>(in.gcount()));
+  for (std::size_t count = part.size(); count == part.size();) {
+    count = in.read(part.data(), part.size());
+    XXH3_128bits_update(state.get(), part.data(), count);
   }
-  if (in.bad()) fail("{}: cannot be read: {}", file.string(), std::strerror(errno));
   return digits_of(XXH3_128bits_digest(state.get()));
 }
 
@@ -64,7 +59,9 @@ std::vector<std::string> files_below(const fs::path& folder) {
   std::error_code error;
   for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end;
        it.increment(error)) {
-    if (it->is_regular_file()) names.push_back(it->path().lexically_relative(folder).string());
+    std::error_code ignored;  // a loop of links is no file
+    if (it->is_regular_file(ignored))
+      names.push_back(it->path().lexically_relative(folder).string());
   }
   if (error) fail("{}: cannot be read: {}", folder.string(), error.message());
   std::ranges::sort(names);
@@ -95,7 +92,7 @@ void FileManifest::add_rest(const std::vector<std::string>& without) {
 }
 
 std::vector<ListedFile> read_manifest(const fs::path& file) {
-  const std::string text = read_file(file);
+  const std::string text = read_file(file, FileKind::kTable);
   std::vector<ListedFile> files;
   std::size_t begin = 0;
   for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {

@@ -10,6 +10,7 @@
 
 #include "core/util/error.h"
 #include "core/util/files.h"
+#include "core/util/image_size.h"
 
 namespace vinebench::harness {
 namespace {
@@ -40,6 +41,18 @@ void write_image(const std::filesystem::path& file, const cv::Mat& image) {
   cv::imencode(ending, for_encoder(image), bytes,
                lossy ? std::vector<int>{cv::IMWRITE_JPEG_QUALITY, 88} : std::vector<int>{});
   write_file_atomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+cv::Mat read_image(const std::filesystem::path& file, int flags) {
+  const std::string bytes = read_file(file, FileKind::kImage);
+  check_image_size(bytes, file.string());
+  const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
+  try {
+    return cv::imdecode(raw, flags);
+  } catch (const cv::Exception& error) {
+    if (error.code == cv::Error::StsNoMem) fail("{}: not enough memory", file.string());
+    return {};  // an invalid header
+  }
 }
 
 }  // namespace vinebench::harness

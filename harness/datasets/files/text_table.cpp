@@ -67,14 +67,15 @@ Stamp TableRow::nanoseconds(std::size_t column) const {
 }
 
 std::vector<TableRow> read_rows(const std::filesystem::path& file) {
-  std::istringstream in(read_file(file));
+  std::istringstream in(read_file(file, FileKind::kTable));
   std::vector<TableRow> rows;
   int number = 0;
   for (std::string line; std::getline(in, line);) {
     ++number;
     line = trimmed(line);
     if (line.empty() || line[0] == '#') continue;
-    rows.push_back({file, number, split_fields(line)});
+    TableRow row{file, number, split_fields(line)};
+    if (!row.fields.empty()) rows.push_back(std::move(row));  // other kinds of blanks alone
   }
   return rows;
 }

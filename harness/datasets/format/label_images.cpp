@@ -6,6 +6,8 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "core/util/error.h"
+#include "harness/datasets/files/image_file.h"
 #include "harness/datasets/format/format_writer.h"
 
 namespace vinebench::harness {
@@ -25,7 +27,12 @@ const cv::Mat& LabelImages::read(const std::string& format, int type) {
   const std::string file = file_of(format);
   if (!first || !sequence_.has(file)) return image;
   ++images_;
-  image = cv::imread((sequence_.folder / file).string(), cv::IMREAD_UNCHANGED);
+  try {
+    image = read_image(sequence_.folder / file, cv::IMREAD_UNCHANGED);
+  } catch (const Error& error) {
+    fault(format, error.what());
+    return image;
+  }
   const PinholeCamera& model = camera().model;
   if (image.size() != cv::Size(model.width, model.height) || image.type() != type) {
     image = cv::Mat();

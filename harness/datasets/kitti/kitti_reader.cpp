@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/util/error.h"
+#include "core/util/input_file.h"
 #include "harness/datasets/files/text_table.h"
 #include "harness/datasets/reading/groundtruth.h"
 #include "harness/datasets/reading/recorded_images.h"
@@ -153,8 +154,7 @@ std::vector<RecordedFrame> read_frames(const fs::path& folder, const Layout& lay
 void read_times(const fs::path& folder, Recording& recording) {
   recording.rig.rate_hz = kDefaultRate;
   const fs::path file = folder / "times.txt";
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) return;
+  if (!is_present(file)) return;
   const std::vector<TableRow> rows = read_table(file);
   std::vector<RecordedFrame>& frames = recording.frames;
   if (rows.size() != frames.size()) {
@@ -176,17 +176,15 @@ fs::path find_poses(const fs::path& folder) {
   const fs::path whole = fs::weakly_canonical(folder);
   const fs::path original =
       whole.parent_path().parent_path() / "poses" / (whole.filename().string() + ".txt");
-  std::error_code ignored;
   for (const fs::path& file : {folder / "poses.txt", original}) {
-    if (fs::is_regular_file(file, ignored)) return file;
+    if (is_present(file)) return file;
   }
   return {};
 }
 
 /// Extensions of our recordings; optional.
 fs::path ours(const fs::path& file) {
-  std::error_code ignored;
-  return fs::is_regular_file(file, ignored) ? file : fs::path();
+  return is_present(file) ? file : fs::path();
 }
 
 /// The size is taken from the images; calib.txt does not have it.

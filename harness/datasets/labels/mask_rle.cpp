@@ -96,7 +96,9 @@ Runs decompress(const std::string& text, std::int64_t pixels) {
   for (std::size_t at = 0; at < text.size();) {
     std::int64_t count = take_number(text, at);
     if (counts.size() > 2) count += counts[counts.size() - 2];
-    if (count < 0) fail("run lengths: a count below 0");
+    if (count < 0 || count > pixels) {
+      fail("run lengths: expected counts from 0 to {}, found {}", pixels, count);
+    }
     counts.push_back(count);
   }
   Runs runs;

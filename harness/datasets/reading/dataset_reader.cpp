@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "core/util/error.h"
 #include "harness/datasets/reading/recorded_images.h"
 
 namespace vinebench::harness {
@@ -22,7 +23,11 @@ std::optional<SourceEvent> read_image(const fs::path& file, const RigCamera& cam
   if (!fs::exists(file, ignored)) {
     return SourceEvent{"picture_missing", camera.name, file.string()};
   }
-  image = read_grey(file);
+  try {
+    image = read_grey(file);
+  } catch (const Error& error) {
+    return SourceEvent{"picture_unreadable", camera.name, error.what()};
+  }
   if (image.empty()) return SourceEvent{"picture_unreadable", camera.name, file.string()};
   if (image.cols == camera.model.width && image.rows == camera.model.height) return std::nullopt;
   const std::string size = fmt::format("{}: {} x {}", file.string(), image.cols, image.rows);

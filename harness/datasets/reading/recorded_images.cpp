@@ -5,15 +5,13 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/util/error.h"
+#include "harness/datasets/files/image_file.h"
+
 namespace vinebench::harness {
 
 cv::Mat read_grey(const std::filesystem::path& file) {
-  cv::Mat image;
-  try {
-    image = cv::imread(file.string(), cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {  // an invalid size in a damaged header
-    return {};
-  }
+  const cv::Mat image = read_image(file, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
   if (image.empty() || image.channels() == 1) return image;
   cv::Mat grey;
   cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
@@ -23,8 +21,12 @@ cv::Mat read_grey(const std::filesystem::path& file) {
 cv::Size first_image_size(const Recording& recording, std::size_t camera) {
   for (const RecordedFrame& frame : recording.frames) {
     const std::filesystem::path& file = frame.images[camera];
-    const cv::Mat image = file.empty() ? cv::Mat() : read_grey(file);
-    if (!image.empty()) return image.size();
+    if (file.empty()) continue;
+    try {
+      const cv::Mat image = read_grey(file);
+      if (!image.empty()) return image.size();
+    } catch (const Error&) {  // a fault of that frame, which is recorded when it is replayed
+    }
   }
   return {};
 }

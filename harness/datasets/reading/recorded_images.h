@@ -8,8 +8,8 @@
 
 namespace vinebench::harness {
 
-/// An image file as 8-bit grey, with the SLAM core's conversion; empty if the file is not a
-/// complete image.
+/// An image file as 8-bit grey, with the SLAM core's conversion; empty if it is damaged. Throws
+/// Error for what read_image() refuses.
 cv::Mat read_grey(const std::filesystem::path& file);
 
 /// Size of the first readable image of that camera; empty if there is none.

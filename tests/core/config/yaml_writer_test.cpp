@@ -29,5 +29,15 @@ TEST(YamlWriterTest, WrittenTextReadsBackTheSame) {
   EXPECT_EQ(back.name, outer.name);
 }
 
+// Codes from 0 to 31 and 127 may not stand in a YAML file, nor does a reader keep a carriage
+// return.
+TEST(YamlWriterTest, ControlCharactersAreEscaped) {
+  const test::TestFolder folder;
+  Outer outer;
+  for (int code = 0; code < 128; ++code) outer.name += static_cast<char>(code);
+  const auto file = folder.write("back.yaml", format_yaml(outer));
+  EXPECT_EQ(YamlDocument::load(file).read<Outer>().name, outer.name);
+}
+
 }  // namespace
 }  // namespace vinebench

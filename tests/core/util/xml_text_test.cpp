@@ -17,7 +17,8 @@ TEST(XmlTextTest, LeavesOutWhatXmlHasNot) {
   EXPECT_EQ(xml_escaped("Rebst\xc3\xb6"
                         "cke"),
             "Rebst\xc3\xb6"
-            "cke");  // UTF-8 stays
+            "cke");                                  // UTF-8 stays
+  EXPECT_EQ(xml_escaped("a\xff"), "a\xef\xbf\xbd");  // bytes of no UTF-8 do not
 }
 
 }  // namespace

@@ -103,6 +103,23 @@ TEST_F(RecordTest, DamageIsFound) {
               HasSubstr("is no data set of ours"));
 }
 
+TEST_F(RecordTest, ADamagedScenarioIsAnErrorWithItsFile) {
+  record({"tum"});
+  const auto problem = [&](const std::string& text) {
+    const auto file = folder_.write("data/scenario.resolved.yaml", text);
+    const std::string error = error_of([&] { check_dataset(request_.out); });
+    EXPECT_THAT(error, HasSubstr(file.string())) << text;
+    return error;
+  };
+  EXPECT_THAT(problem("world: [1\n"), HasSubstr("is not valid YAML"));
+  EXPECT_THAT(problem("world: 5\n"), HasSubstr("world: expected a map"));
+  EXPECT_THAT(problem("7\n"), HasSubstr("world: expected a map"));
+  folder_.write("data/scenario.resolved.yaml", "world: {wind: 5, occluders: [1, {path: []}]}\n");
+  EXPECT_THAT(faults(), testing::ElementsAre(HasSubstr("scenario.resolved.yaml: is damaged")));
+  std::filesystem::create_symlink("loop", request_.out / "loop");
+  EXPECT_THAT(faults(), testing::SizeIs(1));
+}
+
 TEST_F(RecordTest, SeedsAreSequencesWithDrawsOfTheirOwn) {
   request_.seeds = {4, 5};
   request_.options.cameras = {"left"};

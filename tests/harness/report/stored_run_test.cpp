@@ -50,5 +50,16 @@ TEST(StoredRunTest, WhatIsNotARunsMetricsIsNone) {
   EXPECT_FALSE(read_stored_run(folder.path()));
 }
 
+// Its numbers are found by a recursion.
+TEST(StoredRunTest, AFileNestedTooDeeplyIsAnError) {
+  const test::TestFolder folder;
+  const int levels = 100'000;
+  const auto file =
+      folder.write("metrics.json", R"({"scenario": "row", "seed": 1, "x": )" +
+                                       std::string(levels, '[') + std::string(levels, ']') + "}");
+  EXPECT_NE(test::error_of([&] { read_stored_run(file); }).find("nested more than"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace vinebench::harness

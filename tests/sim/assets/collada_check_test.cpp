@@ -57,5 +57,44 @@ TEST(ColladaCheckTest, AListMustFitIntoTheText) {
               HasSubstr("a list of 4000000000 items"));
 }
 
+/// A source of six numbers, read by an accessor with these attributes and two numbers an item.
+std::string source(const std::string& accessor, const std::string& list = R"(id="a" count="6")") {
+  return "<source id=\"s\"><float_array " + list + ">0 0 0 0 0 0</float_array><accessor " +
+         accessor + R"(><param name="S"/><param name="T"/></accessor></source>)";
+}
+
+TEST(ColladaCheckTest, AnAccessorMayNotReadBeyondItsList) {
+  EXPECT_EQ(problem(source(R"(source="#a" count="3" stride="2")")), "");
+  EXPECT_EQ(problem(source(R"(source="#a" count="0" stride="9")")), "");
+  // The last of two items begins at 1 + 3 and has two numbers: 6 in all.
+  EXPECT_EQ(problem(source(R"(source="#a" count="2" stride="3" offset="1")")), "");
+  EXPECT_THAT(problem(source(R"(source="#a" count="2" stride="3" offset="2")")),
+              HasSubstr("an accessor of 7 numbers in the list 'a' of 6"));
+  EXPECT_THAT(problem(source(R"(source="#a" count="4" stride="2")")),
+              HasSubstr("an accessor of 8"));
+  EXPECT_THAT(problem(source(R"(source="#a" count="1")", R"(id="a")")), HasSubstr("'a' of 0"));
+  EXPECT_THAT(problem(source(R"(source="#b" count="1")")), HasSubstr("'b', which is not"));
+}
+
+TEST(ColladaCheckTest, AttributesAreReadAsAssimpReadsThem) {
+  EXPECT_THAT(problem(source(R"(name=">" source="#a" count="4" stride="2")")),
+              HasSubstr("an accessor of 8"));
+  EXPECT_THAT(problem(source(R"(name=" count='1'" source="#a" count="4" stride="2")")),
+              HasSubstr("an accessor of 8"));
+  for (const char* count : {"+4", "-1", "0x40", " 4", "4a"}) {
+    EXPECT_THAT(problem(source(fmt::format(R"(source="#a" count="{}")", count))),
+                HasSubstr("expected a whole number"));
+  }
+}
+
+// Of a name assimp would read the numbers that it does not have.
+TEST(ColladaCheckTest, PositionsAreNumbers) {
+  const std::string names =
+      R"(<source id="s"><Name_array id="a" count="2">x y</Name_array></source>)";
+  EXPECT_EQ(problem(names + R"(<input semantic="JOINT" source="#s"/>)"), "");
+  EXPECT_THAT(problem(names + R"(<input semantic="POSITION" source="#s"/>)"),
+              HasSubstr("'s': expected numbers, found names"));
+}
+
 }  // namespace
 }  // namespace vinebench::sim

@@ -9,7 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "sim/assets/asset_file.h"
-#include "tests/support/test_folder.h"
+#include "tests/support/special_files.h"
 
 namespace vinebench::sim {
 namespace {
@@ -97,6 +97,55 @@ TEST(MeshImporterTest, BrokenObjIsNamedWithWhatIsWrong) {
   folder.write("vine.mtl", "newmtl skin\nmap_Kd gone.png\n");
   EXPECT_THAT(problem(std::string("mtllib vine.mtl\n") + kObj + "usemtl skin\nf 1/1 2/2 3/3\n"),
               HasSubstr("gone.png"));
+}
+
+// Each of them was a crash inside assimp.
+TEST(MeshImporterTest, ABrokenMaterialLibraryIsNamedWithItsLine) {
+  const test::TestFolder folder;
+  const auto file = folder.write(
+      "vine.obj", std::string("mtllib vine.mtl\n") + kObj + "usemtl skin\nf 1/1 2/2 3/3\n");
+  const auto problem = [&](std::string_view library) {
+    folder.write("vine.mtl", library);
+    const std::string error = error_of([&] { load_asset(file); });
+    EXPECT_THAT(error, AllOf(HasSubstr(file.string()), HasSubstr("vine.mtl"))) << library;
+    return error;
+  };
+  for (const std::string property : {"map_Kd", "map_d", "map_Bump", "bump", "disp", "refl"}) {
+    EXPECT_THAT(problem(property + " skin.png\nnewmtl skin\n"), HasSubstr("vine.mtl:1"));
+  }
+  EXPECT_THAT(problem(std::string_view("\xff\xfen\0e\0w\0", 8)), HasSubstr("UTF-8"));
+  std::filesystem::remove(folder / "vine.mtl");
+  test::make_pipe(folder, "vine.mtl");
+  EXPECT_THAT(error_of([&] { load_asset(file); }), HasSubstr("a pipe or a device"));
+}
+
+TEST(MeshImporterTest, AWideObjIsNamed) {
+  const test::TestFolder folder;
+  std::string wide = "\xff\xfe";
+  for (const char* c = kObj; *c != 0; ++c) wide += {*c, '\0'};
+  const auto file = folder.write("vine.obj", wide);
+  EXPECT_THAT(error_of([&] { load_asset(file); }),
+              AllOf(HasSubstr(file.string()), HasSubstr("UTF-8")));
+}
+
+// A regular polygon, which assimp would divide for minutes.
+TEST(MeshImporterTest, APolygonOfThousandsOfCornersIsNamed) {
+  const test::TestFolder folder;
+  for (const int corners : {1000, 1001}) {
+    std::string text, face = "f";
+    for (int i = 0; i < corners; ++i) {
+      const double angle = 2 * M_PI * i / corners;
+      text += fmt::format("v {} {} 0\n", std::cos(angle), std::sin(angle));
+      face += fmt::format(" {}", i + 1);
+    }
+    const auto file = folder.write("disc.obj", text + face + "\n");
+    const std::string error = error_of([&] { load_asset(file); });
+    if (corners == 1000) {
+      EXPECT_EQ(error, "");
+    } else {
+      EXPECT_THAT(error, HasSubstr("at most 1000 corners"));
+    }
+  }
 }
 
 /// A binary STL of those triangles, three corners each.

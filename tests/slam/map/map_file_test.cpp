@@ -10,6 +10,7 @@
 #include "core/util/error.h"
 #include "core/util/files.h"
 #include "tests/support/aisle_map.h"
+#include "tests/support/special_files.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::slam {
@@ -250,6 +251,15 @@ TEST_F(MapFileTest, FilesAreWrittenAndRead) {
   EXPECT_EQ(load_map(file, made_.rig).keyframes().size(), 2u);
   std::filesystem::remove(file);
   EXPECT_THROW(load_map(file, made_.rig), Error);
+}
+
+TEST_F(MapFileTest, APipeOrADeviceIsNoMap) {
+  const test::TestFolder folder;
+  for (const auto& file :
+       {test::make_pipe(folder, "pipe.map"), test::link_to_device(folder, "zero.map")}) {
+    EXPECT_THAT(test::error_of([&] { load_map(file, made_.rig); }),
+                AllOf(HasSubstr(file.string()), HasSubstr("a pipe or a device")));
+  }
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "core/config/yaml_writer.h"
+#include "tests/support/broken_png.h"
 #include "tests/support/recorded_folders.h"
+#include "tests/support/special_files.h"
 
 namespace vinebench::harness {
 namespace {
@@ -209,6 +211,47 @@ TEST_F(EurocReaderTest, ARigOfOnesOwnTakesTheCalibrationsPlace) {
   EXPECT_THAT(
       error_of([&] { open_recording(root_, {.rig = root_ / "own.yaml", .groundtruth = {}}); }),
       HasSubstr("has 3 cameras, the recording has 2"));
+}
+
+TEST_F(EurocReaderTest, WhatIsNoFileIsAnError) {
+  for (const char* name : {"rig.yaml", "slam.yaml", "tags.yaml", "frames.csv"}) {
+    test::make_pipe(folder_, std::string("euroc/") + name);
+    EXPECT_THAT(error_of([&] {
+                  const Recording recording = open_recording(root_);
+                  if (!recording.settings.empty()) read_file(recording.settings);
+                }),
+                HasSubstr(std::string(name) + ": expected a regular file"));
+    std::filesystem::remove(root_ / name);
+  }
+  const std::string sensor = "mav0/cam1/sensor.yaml";
+  std::filesystem::remove(root_ / sensor);
+  test::link_to_device(folder_, "euroc/" + sensor);
+  EXPECT_THAT(error_of([&] { open_recording(root_); }), HasSubstr("a pipe or a device"));
+}
+
+TEST_F(EurocReaderTest, ImagesThatAreNoFilesAreFaultsOfTheirFrames) {
+  const auto image = [&](int frame) {
+    return fmt::format("euroc/mav0/cam0/data/{}.png", test::regular_stamps(5)[frame]);
+  };
+  for (const int frame : {0, 2, 3}) std::filesystem::remove(folder_ / image(frame));
+  test::make_pipe(folder_, image(0));
+  test::link_to_device(folder_, image(2));
+  folder_.write(image(3), test::png_of_size(40000, 40000));
+  const std::vector<Sample> samples = test::play_all(root_);
+  EXPECT_EQ(test::count_events(samples)["picture_unreadable"], 3);
+  const auto& events = samples[3].events;
+  ASSERT_FALSE(events.empty());
+  EXPECT_THAT(events[0].detail, HasSubstr("40000 x 40000"));
+}
+
+TEST_F(EurocReaderTest, SizesBeyondAllCamerasAreErrors) {
+  for (const char* size : {"[1e300, 24]", "[32, 16385]", "[-32, 24]", "[.nan, 24]"}) {
+    std::string text = test::sensor_yaml(0);
+    const std::size_t at = text.find("[32, 24]");
+    ASSERT_NE(at, std::string::npos);
+    test::write_text(root_ / "mav0/cam0/sensor.yaml", text.replace(at, 8, size));
+    EXPECT_NE(error_of([&] { open_recording(root_); }), "") << size;
+  }
 }
 
 TEST(PoseAtTest, LiesBetweenItsNeighbours) {

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/support/test_folder.h"
+#include "tests/support/special_files.h"
 
 namespace vinebench::harness {
 namespace {
@@ -21,6 +21,21 @@ TEST(FileManifestTest, AFileHasTheHashOfItsBytes) {
   EXPECT_EQ(xxh128(""), "99aa06d3014798d86001c324468d497f");
   EXPECT_THAT(test::error_of([&] { xxh128_of_file(folder / "none"); }),
               testing::HasSubstr("cannot be read: No such file"));
+}
+
+TEST(FileManifestTest, LinksThatLeadNowhereAreNoFiles) {
+  const test::TestFolder folder;
+  folder.write("file", "");
+  test::make_loop(folder, "loop");
+  test::make_pipe(folder, "pipe");
+  EXPECT_THAT(files_below(folder.path()), testing::ElementsAre("file"));
+}
+
+TEST(FileManifestTest, APipeHasNoHash) {
+  const test::TestFolder folder;
+  const auto pipe = test::make_pipe(folder, "pipe");
+  EXPECT_THAT(test::error_of([&] { xxh128_of_file(pipe); }),
+              testing::HasSubstr("a pipe or a device"));
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include "core/util/files.h"
+#include "tests/support/broken_png.h"
 #include "tests/support/label_folder.h"
 
 namespace vinebench::harness {
@@ -34,6 +36,15 @@ TEST(LabelImagesTest, AnotherSizeOrTypeIsOneFault) {
   });
   EXPECT_THAT(faults, ElementsAre("depth/left/000000.png: is not a complete image of 4 x 3 "
                                   "pixels of its type"));
+}
+
+TEST(LabelImagesTest, AHeaderOfGigapixelsIsAFault) {
+  LabelFolder folder;
+  folder.put("depth", LabelFolder::filled(CV_16UC1, 7));
+  write_file_atomically(folder.sequence().folder / "depth/left/000000.png",
+                        test::png_of_size(40000, 40000));
+  const auto faults = folder.faults_of([](LabelImages& images) { images.read("depth", CV_16UC1); });
+  EXPECT_THAT(faults, ElementsAre(testing::HasSubstr("found 40000 x 40000")));
 }
 
 TEST(LabelImagesTest, CountsWrongPixels) {

@@ -5,6 +5,7 @@
 
 #include "slam/slam.h"
 #include "tests/support/recorded_folders.h"
+#include "tests/support/special_files.h"
 
 namespace vinebench::harness {
 namespace {
@@ -124,6 +125,28 @@ TEST_F(KittiReaderTest, FaultyCalibrationsAreErrors) {
               HasSubstr("calib.txt:1: expected a number, found 'eleven'"));
   std::filesystem::remove(root_ / "calib.txt");
   EXPECT_THAT(error_of([&] { open_recording(root_); }), HasSubstr("calib.txt: cannot be read"));
+}
+
+// A pipe would be waited for, a device never end.
+TEST_F(KittiReaderTest, WhatIsNoFileIsAnError) {
+  for (const char* name : {"calib.txt", "times.txt", "poses.txt", "rig.yaml"}) {
+    for (const auto& make : {test::make_pipe, test::link_to_device, test::make_loop}) {
+      const bool was_there = std::filesystem::exists(root_ / name);
+      if (was_there) std::filesystem::rename(root_ / name, folder_ / "kept");
+      make(folder_, std::string("kitti/") + name);
+      EXPECT_THAT(error_of([&] { open_recording(root_); }), HasSubstr(name));
+      std::filesystem::remove(root_ / name);
+      if (was_there) std::filesystem::rename(folder_ / "kept", root_ / name);
+    }
+  }
+  EXPECT_NO_THROW(open_recording(root_));
+}
+
+// A form feed is a blank, but does not end in a field.
+TEST_F(KittiReaderTest, ALineOfOtherBlanksIsEmpty) {
+  const std::string text = read_file(root_ / "poses.txt");
+  test::write_text(root_ / "poses.txt", "\f\n" + text + "\v\n");
+  EXPECT_EQ(test::count_events(test::play_all(root_)), Counts());
 }
 
 TEST_F(KittiReaderTest, FaultyPosesAreErrors) {

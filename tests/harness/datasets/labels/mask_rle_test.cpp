@@ -76,6 +76,8 @@ TEST(RunLengthTest, DamagedCountsAreErrors) {
   EXPECT_THAT(test::error_of([] { decompress("336", 13); }), HasSubstr("counts of 12 pixels"));
   EXPECT_THAT(test::error_of([] { decompress("33T", 12); }), HasSubstr("not compressed counts"));
   EXPECT_THAT(test::error_of([] { decompress("3\x01", 12); }), HasSubstr("not compressed counts"));
+  // 100 without where the image has 12 pixels.
+  EXPECT_THAT(test::error_of([] { decompress("T3", 12); }), HasSubstr("counts from 0 to 12"));
 }
 
 }  // namespace

@@ -1,10 +1,15 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/assets/image_size.h"
+#include "core/util/image_size.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 
-namespace vinebench::sim {
+#include "core/util/error.h"
+
+namespace vinebench {
 namespace {
 
 using std::string_view_literals::operator""sv;
@@ -70,13 +75,64 @@ std::optional<cv::Size2d> tiff_size(std::string_view bytes) {
   return size;
 }
 
+/// Lossy, lossless or extended.
+std::optional<cv::Size2d> webp_size(std::string_view bytes) {
+  const Numbers numbers(bytes, true);
+  const std::string_view kind = bytes.substr(std::min<std::size_t>(12, bytes.size()), 4);
+  if (kind == "VP8 ") return cv::Size2d(numbers.at(26, 2) & 0x3fff, numbers.at(28, 2) & 0x3fff);
+  if (kind == "VP8X") return cv::Size2d(numbers.at(24, 3) + 1.0, numbers.at(27, 3) + 1.0);
+  if (kind != "VP8L") return std::nullopt;
+  const std::uint32_t sides = numbers.at(21, 4);
+  return cv::Size2d((sides & 0x3fff) + 1.0, (sides >> 14 & 0x3fff) + 1.0);
+}
+
+/// A negative height means that the first row is on top.
+std::optional<cv::Size2d> bmp_size(std::string_view bytes) {
+  const Numbers numbers(bytes, true);
+  if (numbers.at(14, 4) == 12) return cv::Size2d(numbers.at(18, 2), numbers.at(20, 2));
+  const double height = static_cast<std::int32_t>(numbers.at(22, 4));
+  return cv::Size2d(static_cast<std::int32_t>(numbers.at(18, 4)), std::abs(height));
+}
+
+/// Decimal numbers after the two letters, with comments from # to the end of a line.
+std::optional<cv::Size2d> netpbm_size(std::string_view bytes) {
+  constexpr std::string_view kDigits = "0123456789";
+  std::array<double, 2> size{};
+  std::size_t at = 2;
+  for (double& side : size) {
+    for (; at < bytes.size() && kDigits.find(bytes[at]) == kDigits.npos; ++at) {
+      if (bytes[at] == '#') at = std::min(bytes.find('\n', at), bytes.size() - 1);
+    }
+    if (at >= bytes.size()) return std::nullopt;
+    for (; at < bytes.size() && kDigits.find(bytes[at]) != kDigits.npos; ++at) {
+      side = 10 * side + (bytes[at] - '0');
+    }
+  }
+  return cv::Size2d(size[0], size[1]);
+}
+
 }  // namespace
+
+void check_image_size(std::string_view bytes, const std::string& where) {
+  const std::optional<cv::Size2d> size = image_size(bytes);
+  if (!size) fail("{}: expected an image (PNG, JPEG, TIFF, WebP, BMP or PNM)", where);
+  if (size->width >= 1 && size->height >= 1 && size->area() <= kMostPixels) return;
+  fail("{}: expected an image of at most {} pixels, found {} x {}", where, kMostPixels, size->width,
+       size->height);
+}
 
 std::optional<cv::Size2d> image_size(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG\r\n\x1a\n"sv)) return png_size(bytes);
   if (bytes.starts_with("\xff\xd8"sv)) return jpeg_size(bytes);
   if (bytes.starts_with("II*\0"sv) || bytes.starts_with("MM\0*"sv)) return tiff_size(bytes);
+  if (bytes.starts_with("RIFF"sv) && bytes.substr(0, 12).ends_with("WEBP"sv)) {
+    return webp_size(bytes);
+  }
+  if (bytes.starts_with("BM"sv)) return bmp_size(bytes);
+  if (bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6') {
+    return netpbm_size(bytes);
+  }
   return std::nullopt;
 }
 
-}  // namespace vinebench::sim
+}  // namespace vinebench
