@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/util/error.h"
+#include "core/util/warning.h"
 #include "tools/arguments/command_line.h"
 #include "tools/arguments/completion.h"
 #include "tools/commands/commands.h"
@@ -48,6 +49,8 @@ int main(const std::vector<std::string>& arguments) {
 }  // namespace vinebench::tools
 
 int main(int argc, char** argv) {
+  vinebench::set_warning_sink(
+      [](const std::string& text) { fmt::print(stderr, "vinebench: warning: {}\n", text); });
   try {
     return vinebench::tools::main({argv + 1, argv + argc});
   } catch (const vinebench::Error& error) {
