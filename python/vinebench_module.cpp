@@ -8,6 +8,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <cstdio>
 #include <map>
 #include <memory>
 #include <optional>
@@ -18,6 +19,7 @@
 
 #include "core/time.h"
 #include "core/util/error.h"
+#include "core/util/warning.h"
 #include "harness/datasets/labels/label_table.h"
 #include "harness/datasets/labels/mask_rle.h"
 #include "harness/jobs/frame_stream.h"
@@ -299,6 +301,9 @@ PYBIND11_MODULE(vinebench, module) {
   module.attr("__version__") = vinebench::kVersion;
   module.attr("label_names") = vinebench::label_names();
   py::register_exception<vinebench::Error>(module, "Error", PyExc_RuntimeError);
+  vinebench::set_warning_sink([](const std::string& text) {
+    std::fprintf(stderr, "vinebench: warning: %s\n", text.c_str());
+  });
   vinebench::define_camera(module);
   vinebench::define_frame(module);
   vinebench::define_scenario(module);

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <vector>
 
+#include "core/util/warning.h"
 #include "tools/arguments/command_line.h"
 #include "tools/arguments/completion.h"
 #include "tools/commands/commands.h"
@@ -47,6 +48,8 @@ int main(const std::vector<std::string>& arguments) {
 }  // namespace vinebench::tools
 
 int main(int argc, char** argv) {
+  vinebench::set_warning_sink(
+      [](const std::string& text) { fmt::print(stderr, "vinebench: warning: {}\n", text); });
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   return vinebench::tools::outcome_of(arguments, [&] { return vinebench::tools::main(arguments); });
 }

@@ -19,8 +19,9 @@ namespace vinebench {
 // This list is used to read it strictly (YamlDocument::read in yaml.h), write it with all defaults
 // resolved (format_yaml in yaml_writer.h), validate it (validate in validate.h) and document its
 // keys. Fields may be bool, int, std::int64_t, std::uint64_t, double, std::string,
-// std::filesystem::path, Eigen vectors, std::array, std::vector, std::optional, other such structs,
-// and enums with a `yaml_names(Enum)` that returns their names in order. A path must name an
+// std::filesystem::path, Eigen vectors, std::array, std::vector, std::map from std::string (a map
+// whose keys the user chooses), std::optional, other such structs, and enums with a
+// `yaml_names(Enum)` that returns their names in order. A path must name an
 // existing file, relative to the YAML file.
 
 /// The valid range of a numeric field, and its text for error messages.

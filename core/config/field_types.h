@@ -4,7 +4,9 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <map>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -15,6 +17,10 @@ template <class T>
 struct IsVector : std::false_type {};
 template <class T>
 struct IsVector<std::vector<T>> : std::true_type {};
+template <class T>
+struct IsMap : std::false_type {};
+template <class T>
+struct IsMap<std::map<std::string, T>> : std::true_type {};
 template <class T>
 struct IsOptional : std::false_type {};
 template <class T>

@@ -49,6 +49,8 @@ class Validator {
       for (std::size_t i = 0; i < static_cast<std::size_t>(value.size()); ++i) {
         check(fmt::format("{}.{}", key, i), value[i], range);
       }
+    } else if constexpr (field_types::IsMap<T>::value) {
+      for (auto& [name, item] : value) check(key + "." + name, item, range);
     } else if constexpr (!std::is_enum_v<T> && !std::is_same_v<T, std::string> &&
                          !std::is_same_v<T, std::filesystem::path>) {
       const std::string outer = std::exchange(prefix_, key);

@@ -275,6 +275,14 @@ bool YamlReader::expect_sequence(const YAML::Node& node, const std::string& key,
   return false;
 }
 
+bool YamlReader::expect_map(const YAML::Node& node, const std::string& key) {
+  if (node.IsNull()) return false;
+  bool named = node.IsMap();
+  for (const auto& item : node) named = named && item.first.IsScalar();
+  if (!named) violation(key, node, "expected a map of names");
+  return named;
+}
+
 void YamlReader::read(const YAML::Node& node, const std::string& key, bool& value, const Range&) {
   if (!node.IsScalar() || !YAML::convert<bool>::decode(node, value)) {
     violation(key, node, "expected true or false");

@@ -99,6 +99,7 @@ class YamlReader {
   }
   void violation(const std::string& key, const YAML::Node& node, const std::string& text);
   bool expect_sequence(const YAML::Node& node, const std::string& key, std::size_t size);
+  bool expect_map(const YAML::Node& node, const std::string& key);
 
   void read(const YAML::Node& node, const std::string& key, bool& value, const Range&);
   void read(const YAML::Node& node, const std::string& key, double& value, const Range& range);
@@ -153,6 +154,18 @@ class YamlReader {
       if (!expect_sequence(node, key, size)) return;
       for (std::size_t i = 0; i < size; ++i) {
         read(node[i], fmt::format("{}.{}", key, i), value[i], range);
+      }
+    } else if constexpr (field_types::IsMap<T>::value) {
+      value.clear();
+      if (!expect_map(node, key)) return;
+      for (const auto& item : node) {
+        const std::string name = item.first.Scalar();
+        const std::string dotted = key + "." + name;
+        if (value.contains(name)) {
+          violations_.push_back(
+              fmt::format("{}: {}: duplicate key", document_.place_of(dotted, item.first), dotted));
+        }
+        read(item.second, dotted, value[name], range);
       }
     } else {
       if (!node.IsMap() && !node.IsNull()) {

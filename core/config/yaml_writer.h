@@ -53,6 +53,8 @@ class YamlWriter {
     if constexpr (is_scalar<T>()) {
       text_.back() = ' ';
       text_ += scalar(value) + "\n";
+    } else if constexpr (field_types::IsMap<T>::value) {
+      write_map(value);
     } else if constexpr (field_types::IsArray<T>::value || field_types::IsEigen<T>::value ||
                          field_types::IsVector<T>::value) {
       write_sequence(value);
@@ -66,6 +68,17 @@ class YamlWriter {
         text_ += "{}\n";
       }
     }
+  }
+
+  template <class T>
+  void write_map(T& value) {
+    if (value.empty()) {
+      text_.back() = ' ';
+      text_ += "{}\n";
+    }
+    ++depth_;
+    for (auto& [name, item] : value) (*this)(quote(name), item);
+    --depth_;
   }
 
   template <class T>

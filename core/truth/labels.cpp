@@ -18,6 +18,10 @@ const char* name_of(Label label) {
   return kLabelNames.at(static_cast<std::size_t>(label));
 }
 
+std::vector<std::string> yaml_names(Label) {
+  return {kLabelNames.begin(), kLabelNames.end()};
+}
+
 std::optional<Label> label_named(std::string_view name) {
   for (std::size_t i = 0; i < kLabels; ++i) {
     if (kLabelNames[i] == name) return static_cast<Label>(i);

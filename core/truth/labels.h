@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vinebench {
 
@@ -34,6 +35,9 @@ inline constexpr std::size_t kLabels = 17;
 /// "sky", "ground" and so on: what files store, for a label's number changes when one is inserted.
 /// Throws std::out_of_range for a number that is no label.
 const char* name_of(Label label);
+
+/// All names, in the order of Label.
+std::vector<std::string> yaml_names(Label);
 
 /// The label of that name, if there is one.
 std::optional<Label> label_named(std::string_view name);

@@ -23,7 +23,8 @@ bool same(const Texture& a, const Texture& b) {
 bool same(const Material& a, const Material& b) {
   return a.name == b.name && a.label == b.label && a.colour == b.colour && a.texture == b.texture &&
          a.cutout == b.cutout && a.double_sided == b.double_sided &&
-         a.translucency == b.translucency && a.terrain == b.terrain;
+         a.translucency == b.translucency && a.terrain == b.terrain &&
+         a.vertex_colours == b.vertex_colours;
 }
 
 template <class T>

@@ -146,22 +146,37 @@ void compute_normals(Primitive& primitive) {
   for (Vertex& vertex : primitive.vertices) vertex.normal.stableNormalize();
 }
 
+std::array<std::uint8_t, 3> vertex_colour(const Eigen::Vector3f& linear) {
+  std::array<std::uint8_t, 3> bytes{};
+  for (int i = 0; i < 3; ++i) {
+    // Not std::clamp: a NaN becomes 0.
+    const float share = std::min(1.0f, std::max(0.0f, linear[i]));
+    bytes[static_cast<std::size_t>(i)] =
+        static_cast<std::uint8_t>(std::lround(255 * std::pow(share, 1 / 2.2f)));
+  }
+  return bytes;
+}
+
 Asset load_asset(const std::filesystem::path& file) {
+  return load_mesh(file, Strictness::kStrict).asset;
+}
+
+ImportedMesh load_mesh(const std::filesystem::path& file, Strictness strictness) {
   std::string extension = file.extension().string();
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return std::tolower(c); });
-  Asset asset;
+  ImportedMesh mesh;
   if (extension == ".glb" || extension == ".gltf") {
-    asset = read_gltf(file);
+    mesh = read_gltf(file, strictness);
   } else if (extension == ".obj" || extension == ".stl" || extension == ".dae") {
-    asset = import_mesh(file);
+    mesh = import_mesh(file, strictness);
   } else {
     fail("{}: expected a mesh of .glb, .gltf, .obj, .stl or .dae", file.string());
   }
-  check(asset, file.string());
-  normalise(asset);
-  asset.update_bounds();
-  return asset;
+  check(mesh.asset, file.string());
+  normalise(mesh.asset);
+  mesh.asset.update_bounds();
+  return mesh;
 }
 
 }  // namespace vinebench::sim

@@ -7,6 +7,7 @@
 
 #include "core/util/input_file.h"
 #include "sim/assets/asset.h"
+#include "sim/assets/imported_mesh.h"
 
 namespace vinebench::sim {
 
@@ -15,14 +16,20 @@ namespace vinebench::sim {
 /// reason.
 Asset load_asset(const std::filesystem::path& file);
 
+/// The same with the names of its parts. Unless it is strict, an image that is missing or broken
+/// and whatever else a mesh can be drawn without is noted in place of an Error.
+ImportedMesh load_mesh(const std::filesystem::path& file, Strictness strictness);
+
 /// The asset as the bytes of a .glb file with its images inside. Viewers show its finest level;
-/// load_asset restores all levels and materials exactly.
+/// load_asset restores all levels and materials exactly, but for colours of vertices.
 std::string to_glb(const Asset& asset);
 
-// Parts of load_asset.
+// Parts of load_mesh.
 
-Asset read_gltf(const std::filesystem::path& file);
-Asset import_mesh(const std::filesystem::path& file);  ///< with assimp
+ImportedMesh read_gltf(const std::filesystem::path& file, Strictness strictness);
+/// With assimp. Equal vertices are joined. Where there are no normals, and for .stl, they are
+/// computed; edges of more than 60 degrees stay sharp.
+ImportedMesh import_mesh(const std::filesystem::path& file, Strictness strictness);
 
 /// The content of a mesh, image or buffer file. Throws Error if it is not a file, cannot be read,
 /// is empty or larger than its kind may be.
@@ -31,6 +38,9 @@ std::string read_mesh_file(const std::filesystem::path& file, FileKind kind = Fi
 /// Decodes an image file to the pixels of a Texture. Throws Error that names `where`, also for an
 /// image of more than 16384 pixels on a side or 2^24 in all.
 cv::Mat decode_image(std::string_view bytes, const std::string& where);
+
+/// Vertex::colour of linear RGB, 0 to 1.
+std::array<std::uint8_t, 3> vertex_colour(const Eigen::Vector3f& linear);
 
 /// Normals from the triangles around each vertex, weighted by their areas.
 void compute_normals(Primitive& primitive);

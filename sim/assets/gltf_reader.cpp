@@ -31,19 +31,50 @@ constexpr std::array<const char*, 13> kNumberedLabels{"sky",  "ground", "grass",
 
 class GltfReader {
  public:
-  explicit GltfReader(const std::filesystem::path& file)
-      : file_(file.string()), model_(parse_gltf(file)) {}
+  GltfReader(const std::filesystem::path& file, Strictness strictness)
+      : file_(file.string()),
+        lenient_(strictness == Strictness::kLenient),
+        model_(parse_gltf(file)) {
+    mesh_.up_axis = UpAxis::kY;
+  }
 
-  Asset read() {
-    for (const tinygltf::Texture& texture : model_.textures) add(texture);
+  ImportedMesh read() {
+    textures_.assign(model_.textures.size(), kUnread);
+    for (std::size_t i = 0; i < textures_.size() && !lenient_; ++i) {
+      asset_.add(texture_of(model_.textures[i]));
+      textures_[i] = static_cast<int>(i);
+    }
     for (const tinygltf::Material& material : model_.materials) add(material);
     asset_.model.name = std::filesystem::path(file_).stem().string();
+    note_contents();
     add_levels();
-    return std::move(asset_);
+    return std::move(mesh_);
   }
 
  private:
-  void add(const tinygltf::Texture& from) {
+  static constexpr int kUnread = -2;
+
+  /// The asset's texture of that number in the file; read when it is first asked for, so that
+  /// images that are not drawn take no memory. -1, and a note, if it cannot be read.
+  int texture(int index, const std::string& material) {
+    at(model_.textures, index, "texture");
+    int& known = textures_[static_cast<std::size_t>(index)];
+    if (known != kUnread) return known;
+    try {
+      return known = asset_.add(texture_of(model_.textures[static_cast<std::size_t>(index)]));
+    } catch (const Error& error) {
+      const std::string text = error.what();
+      mesh_.notes.add(fmt::format("material '{}' is drawn in its colour alone: {}", material,
+                                  text.substr(text.starts_with(file_) ? file_.size() + 2 : 0)));
+    }
+    return known = -1;
+  }
+
+  Texture texture_of(const tinygltf::Texture& from) const {
+    if (from.source < 0 && !from.extensions.empty()) {
+      fail("{}: expected an image (PNG, JPEG, TIFF), found only one by {}", file_,
+           from.extensions.begin()->first);
+    }
     const tinygltf::Image& image = at(model_.images, from.source, "image");
     Texture texture;
     texture.name = image.name.empty() ? image.uri : image.name;
@@ -60,30 +91,61 @@ class GltfReader {
       const tinygltf::Sampler& sampler = at(model_.samplers, from.sampler, "sampler");
       texture.repeat = sampler.wrapS != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
     }
-    asset_.add(std::move(texture));
+    return texture;
   }
 
   void add(const tinygltf::Material& from) {
     const tinygltf::PbrMetallicRoughness& look = from.pbrMetallicRoughness;
-    Material material = make_material(from.name, Label::kLeaf, look.baseColorTexture.index);
-    if (material.texture >= 0) at(model_.textures, material.texture, "texture");
+    Material material = make_material(from.name, Label::kLeaf, -1);
+    if (look.baseColorTexture.index >= 0) {
+      material.texture = texture(look.baseColorTexture.index, from.name);
+    }
     for (int i = 0; i < 3 && look.baseColorFactor.size() >= 3; ++i) {
       material.colour[i] = static_cast<float>(look.baseColorFactor[static_cast<std::size_t>(i)]);
     }
     material.cutout = from.alphaMode != "OPAQUE";
     material.double_sided = from.doubleSided;
-    if (from.extras.Has(kLabel)) material.label = label(from.extras.Get(kLabel));
+    if (from.extras.Has(kLabel)) {
+      material.label = label(from.extras.Get(kLabel));
+      mesh_.labelled.insert(static_cast<int>(asset_.materials.size()));
+    }
     if (from.extras.Has(kTranslucency)) {
       material.translucency =
           static_cast<float>(number(from.extras.Get(kTranslucency), kTranslucency, 0, 1));
     }
     asset_.add(std::move(material));
+    note_looks(from);
+  }
+
+  /// What is not drawn of a material.
+  void note_looks(const tinygltf::Material& from) {
+    const auto note = [&](bool found, const char* what) {
+      if (found) mesh_.notes.add(fmt::format("material '{}': {}", from.name, what));
+    };
+    const tinygltf::PbrMetallicRoughness& look = from.pbrMetallicRoughness;
+    note(from.normalTexture.index >= 0, "its image of normals is left out");
+    note(from.emissiveTexture.index >= 0, "its image of emission is left out");
+    note(from.occlusionTexture.index >= 0, "its image of occlusion is left out");
+    note(look.metallicRoughnessTexture.index >= 0, "its image of roughness is left out");
+    note(look.baseColorTexture.extensions.contains("KHR_texture_transform"),
+         "the transform of its image is left out");
+    note(from.alphaMode == "BLEND", "it is cut out at half its opacity, not blended");
+  }
+
+  /// What is not drawn of the file.
+  void note_contents() {
+    const auto note = [&](bool found, const char* what) {
+      if (found) mesh_.notes.add(what);
+    };
+    note(!model_.animations.empty(), "animations are left out");
+    note(!model_.skins.empty(), "bones are left out");
+    note(!model_.cameras.empty() || !model_.lights.empty(), "cameras and lights are left out");
   }
 
   void add_levels() {
     std::vector<int> roots = scene_roots();
     LevelOfDetail finest;
-    for (const int root : roots) add_node(root, z_up(), 0, finest);
+    for (const int root : roots) add_node(root, z_up(), 0, -1, finest);
     asset_.model.levels.push_back(std::move(finest));
     if (roots.size() != 1) return;
     const tinygltf::Node& node = at(model_.nodes, roots[0], "node");
@@ -98,7 +160,8 @@ class GltfReader {
     for (int i = 0; i < static_cast<int>(ids.ArrayLen()); ++i) {
       LevelOfDetail level{distance(until.Get(i + 1)), {}};
       const double last = static_cast<double>(model_.nodes.size()) - 1;
-      add_node(static_cast<int>(number(ids.Get(i), kLevelsExtension, 0, last)), z_up(), 0, level);
+      add_node(static_cast<int>(number(ids.Get(i), kLevelsExtension, 0, last)), z_up(), 0, -1,
+               level);
       asset_.model.levels.push_back(std::move(level));
     }
   }
@@ -147,18 +210,38 @@ class GltfReader {
     return roots;
   }
 
-  void add_node(int index, const Eigen::Matrix4f& T_model_parent, int depth, LevelOfDetail& level) {
+  /// `around` is the part that it is in.
+  void add_node(int index, const Eigen::Matrix4f& T_model_parent, int depth, int around,
+                LevelOfDetail& level) {
     constexpr int kDeepest = 64, kMost = 100000;
     if (depth > kDeepest) fail("{}: nodes lie more than {} deep in each other", file_, kDeepest);
     if (++visited_ > kMost) fail("{}: more than {} nodes", file_, kMost);
     const tinygltf::Node& node = at(model_.nodes, index, "node");
     const Eigen::Matrix4f T_model_node = T_model_parent * matrix_of(node);
+    const int own = mesh_.add_part(node.name, around);
     if (node.mesh >= 0) {
-      for (const tinygltf::Primitive& primitive : at(model_.meshes, node.mesh, "mesh").primitives) {
+      const tinygltf::Mesh& mesh = at(model_.meshes, node.mesh, "mesh");
+      const int inner = mesh_.add_part(mesh.name, own);
+      for (const tinygltf::Primitive& primitive : mesh.primitives) {
+        if (lenient_ && !can_be_drawn(primitive, node, T_model_node)) continue;
         level.primitives.push_back(part(primitive, T_model_node));
+        mesh_.part_of.push_back(inner);
       }
     }
-    for (const int child : node.children) add_node(child, T_model_node, depth + 1, level);
+    for (const int child : node.children) add_node(child, T_model_node, depth + 1, own, level);
+  }
+
+  bool can_be_drawn(const tinygltf::Primitive& primitive, const tinygltf::Node& node,
+                    const Eigen::Matrix4f& T_model_node) {
+    if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != -1) {
+      mesh_.notes.add(primitive.mode <= TINYGLTF_MODE_LINE_STRIP
+                          ? "lines and points are left out"
+                          : "strips and fans of triangles are left out");
+      return false;
+    }
+    if (std::abs(T_model_node.topLeftCorner<3, 3>().determinant()) > 0) return true;
+    mesh_.notes.add(fmt::format("node '{}' flattens its mesh, which is left out", node.name));
+    return false;
   }
 
   /// tinygltf keeps the readable part of an invalid list.
@@ -197,8 +280,13 @@ class GltfReader {
     primitive.material = from.material >= 0 ? from.material : default_material();
     at(asset_.materials, primitive.material, "material");
     const bool has_normals = read_vertices(from, primitive);
+    read_colours(from, primitive);
     read_indices(from, primitive);
-    if (!has_normals) compute_normals(primitive);
+    if (!has_normals) {
+      mesh_.notes.add("normals are computed from the triangles, for it has none");
+      compute_normals(primitive);
+    }
+    if (!from.targets.empty()) mesh_.notes.add("shape keys are left out");
     transform(primitive, T_model_node);
     return primitive;
   }
@@ -226,7 +314,8 @@ class GltfReader {
     read("POSITION", TINYGLTF_TYPE_VEC3, [](Vertex& v, const GltfNumbers& n, std::size_t i) {
       v.position = {n.real(i, 0), n.real(i, 1), n.real(i, 2)};
     });
-    read("TEXCOORD_0", TINYGLTF_TYPE_VEC2, [](Vertex& v, const GltfNumbers& n, std::size_t i) {
+    const std::string uv_set = uv_set_of(from);
+    read(uv_set.c_str(), TINYGLTF_TYPE_VEC2, [](Vertex& v, const GltfNumbers& n, std::size_t i) {
       v.uv = {n.real(i, 0), n.real(i, 1)};
     });
     read(kOcclusion, TINYGLTF_TYPE_SCALAR,
@@ -238,6 +327,44 @@ class GltfReader {
     return read("NORMAL", TINYGLTF_TYPE_VEC3, [](Vertex& v, const GltfNumbers& n, std::size_t i) {
       v.normal = {n.real(i, 0), n.real(i, 1), n.real(i, 2)};
     });
+  }
+
+  /// The attribute by which the material's image is placed.
+  std::string uv_set_of(const tinygltf::Primitive& from) {
+    int set = 0;
+    if (from.material >= 0) {
+      set = at(model_.materials, from.material, "material")
+                .pbrMetallicRoughness.baseColorTexture.texCoord;
+    }
+    std::string name = fmt::format("TEXCOORD_{}", set);
+    for (const auto& [attribute, accessor] : from.attributes) {
+      if (!attribute.starts_with("TEXCOORD_") || attribute == name) continue;
+      mesh_.notes.add("more than one UV set: only that of the image is used");
+    }
+    return name;
+  }
+
+  /// Linear RGB, which multiplies that of the material.
+  void read_colours(const tinygltf::Primitive& from, Primitive& primitive) {
+    if (from.attributes.contains("COLOR_1")) {
+      mesh_.notes.add("more than one set of vertex colours: the first is used");
+    }
+    const auto found = from.attributes.find("COLOR_0");
+    if (found == from.attributes.end()) return;
+    const int type = at(model_.accessors, found->second, "accessor").type;
+    const bool with_alpha = type == TINYGLTF_TYPE_VEC4;
+    const GltfNumbers numbers(model_, found->second,
+                              with_alpha ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3, file_);
+    numbers.expect_real(file_);
+    if (numbers.size() != primitive.vertices.size()) {
+      fail("{}: COLOR_0 of {} vertices, expected {}", file_, numbers.size(),
+           primitive.vertices.size());
+    }
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      primitive.vertices[i].colour =
+          vertex_colour({numbers.real(i, 0), numbers.real(i, 1), numbers.real(i, 2)});
+    }
+    asset_.materials[static_cast<std::size_t>(primitive.material)].vertex_colours = true;
   }
 
   /// Nodes may instance one mesh many times: a small file could fill the memory.
@@ -272,10 +399,7 @@ class GltfReader {
       vertex.position = (turn * vertex.position + m.topRightCorner<3, 1>()).eval();
       vertex.normal = (across * vertex.normal).eval();
     }
-    if (volume > 0) return;
-    for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-      std::swap(primitive.indices[i + 1], primitive.indices[i + 2]);
-    }
+    if (volume < 0) turn_over(primitive.indices);
   }
 
   int default_material() {
@@ -294,8 +418,11 @@ class GltfReader {
   }
 
   std::string file_;
+  bool lenient_ = false;
   tinygltf::Model model_;
-  Asset asset_;
+  ImportedMesh mesh_;
+  Asset& asset_ = mesh_.asset;
+  std::vector<int> textures_;  ///< the asset's, by their number in the file
   int default_material_ = -1;
   int visited_ = 0;
   std::size_t taken_ = 0;  ///< bytes of memory used by the meshes so far
@@ -303,8 +430,8 @@ class GltfReader {
 
 }  // namespace
 
-Asset read_gltf(const std::filesystem::path& file) {
-  return GltfReader(file).read();
+ImportedMesh read_gltf(const std::filesystem::path& file, Strictness strictness) {
+  return GltfReader(file, strictness).read();
 }
 
 }  // namespace vinebench::sim

@@ -23,6 +23,7 @@ std::string plant_name(const PlantBrief& brief, std::uint64_t seed, int index) {
   VinesConfig vines = brief.vines;
   vines.cultivar.clear();  // its content counts, not its name
   vines.meshes.clear();
+  vines.mesh_import.reset();
   const std::string key = fmt::format("{} {}\n{}{}", VINEBENCH_PLANT_HASH, seed, format_yaml(vines),
                                       format_yaml(brief.cultivar));
   return fmt::format("vine-{:016x}-{}.glb", fnv1a(key), index);

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <opencv2/core/mat.hpp>
@@ -30,8 +31,9 @@ struct Material {
   int texture = -1;                                  ///< index into Scene::textures, -1 for none
   bool cutout = false;  ///< pixels with alpha below one half are transparent
   bool double_sided = false;
-  float translucency = 0;  ///< share of the sunlight transmitted by a leaf, 0 to 1
-  bool terrain = false;    ///< the ground: its shadows come from a top-down light map
+  float translucency = 0;       ///< share of the sunlight transmitted by a leaf, 0 to 1
+  bool terrain = false;         ///< the ground: its shadows come from a top-down light map
+  bool vertex_colours = false;  ///< Vertex::colour multiplies the colour too
 };
 
 struct Vertex {
@@ -40,7 +42,10 @@ struct Vertex {
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
   float occlusion = 1;    ///< baked share of the ambient light, 0 to 1
   std::uint8_t part = 0;  ///< within its object: 0 the whole, from 1 on a bunch of a plant
+  /// RGB to the power 1 / 2.2, as the shaders add up light.
+  std::array<std::uint8_t, 3> colour{255, 255, 255};
 };
+static_assert(sizeof(Vertex) == 40, "vertices are compared and uploaded as they lie in memory");
 
 /// Triangles (counter-clockwise from the front) of one material.
 struct Primitive {
@@ -63,6 +68,7 @@ struct Model {
   std::string name;
   std::vector<LevelOfDetail> levels;
   Eigen::AlignedBox3f bounds;  ///< of the finest level
+  Thing thing = Thing::kNone;  ///< kNone: that of its first material's label
 };
 
 struct Instance {

@@ -7,39 +7,14 @@
 namespace vinebench::sim {
 namespace {
 
-Thing thing_of(const Material& material) {
-  if (material.terrain) return Thing::kGround;
-  switch (material.label) {
-    case Label::kTrunk:
-    case Label::kCane:
-    case Label::kLeaf:
-    case Label::kBunch:
-      return Thing::kVine;
-    case Label::kPost:
-      return Thing::kPost;
-    case Label::kTag:
-      return Thing::kTag;
-    case Label::kBox:
-    case Label::kCrate:
-      return Thing::kBox;
-    case Label::kPerson:
-      return Thing::kPerson;
-    case Label::kRover:
-      return Thing::kRover;
-    case Label::kTarpaulin:
-    case Label::kLooseLeaf:
-    case Label::kOccluder:
-      return Thing::kOccluder;
-    default:
-      return Thing::kCover;
-  }
-}
-
-/// All parts of a model are of one kind, so its first material determines it.
-Thing thing_of(const Scene& scene, const Model& model) {
+/// Where a model does not say, all of its parts are of one kind, so its first material determines
+/// it.
+Thing thing_of_model(const Scene& scene, const Model& model) {
+  if (model.thing != Thing::kNone) return model.thing;
   for (const LevelOfDetail& level : model.levels) {
     for (const Primitive& primitive : level.primitives) {
-      return thing_of(scene.materials.at(static_cast<std::size_t>(primitive.material)));
+      const Material& material = scene.materials.at(static_cast<std::size_t>(primitive.material));
+      return material.terrain ? Thing::kGround : thing_of(material.label);
     }
   }
   return Thing::kNone;
@@ -74,6 +49,33 @@ std::map<int, Points> points_by_part(const Model& model) {
 
 }  // namespace
 
+Thing thing_of(Label label) {
+  switch (label) {
+    case Label::kTrunk:
+    case Label::kCane:
+    case Label::kLeaf:
+    case Label::kBunch:
+      return Thing::kVine;
+    case Label::kPost:
+      return Thing::kPost;
+    case Label::kTag:
+      return Thing::kTag;
+    case Label::kBox:
+    case Label::kCrate:
+      return Thing::kBox;
+    case Label::kPerson:
+      return Thing::kPerson;
+    case Label::kRover:
+      return Thing::kRover;
+    case Label::kTarpaulin:
+    case Label::kLooseLeaf:
+    case Label::kOccluder:
+      return Thing::kOccluder;
+    default:
+      return Thing::kCover;
+  }
+}
+
 InstanceName instance_name(const Scene& scene, std::int32_t number) {
   if (number == 0) return {};
   const std::int64_t index = (static_cast<std::int64_t>(number) >> 8) - 1;
@@ -88,7 +90,8 @@ InstanceName instance_name(const Scene& scene, std::int32_t number) {
   }
   const Instance& instance = scene.instances[static_cast<std::size_t>(index)];
   const Model& model = scene.models.at(static_cast<std::size_t>(instance.model));
-  return {thing_of(scene, model), static_cast<int>(index), instance.id, number & 255, model.name};
+  return {thing_of_model(scene, model), static_cast<int>(index), instance.id, number & 255,
+          model.name};
 }
 
 SceneIndex index_of(const Scene& scene) {

@@ -9,6 +9,9 @@
 
 namespace vinebench::sim {
 
+/// The kind of a thing whose parts have that label.
+Thing thing_of(Label label);
+
 /// The meaning of a number of RenderedImage::instances. Throws Error for a number that the scene
 /// does not have.
 InstanceName instance_name(const Scene& scene, std::int32_t number);

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "core/util/random.h"
-#include "sim/assets/asset_file.h"
+#include "sim/assets/foreign/foreign_mesh.h"
 #include "sim/plants/grapevine.h"
 #include "sim/plants/plant_cache.h"
 #include "sim/vineyard/ground.h"
@@ -26,8 +26,11 @@ struct PlantModels {
 PlantModels add_plants(Scene& scene, const WorldConfig& world, std::uint64_t seed,
                        const std::filesystem::path& cache) {
   PlantModels models;
-  for (const std::filesystem::path& mesh : world.vines.meshes) {
-    models.grown.push_back(add_asset(scene, load_asset(mesh)));
+  const MeshImport import = world.vines.mesh_import.value_or(MeshImport{});
+  for (Asset& plant :
+       load_foreign_meshes(world.vines.meshes, import, std::nullopt, "vines.mesh_import")) {
+    plant.model.thing = Thing::kVine;  // whatever the labels of its parts
+    models.grown.push_back(add_asset(scene, std::move(plant)));
   }
   models.young = models.grown;
   if (!models.grown.empty()) return models;

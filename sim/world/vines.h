@@ -3,10 +3,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/config/config_field.h"
+#include "sim/assets/foreign/mesh_import.h"
 
 namespace vinebench::sim {
 
@@ -38,6 +40,7 @@ struct VinesConfig {
   int templates = 6;           ///< number of different plants
   /// Meshes to use instead of generated plants (.glb .gltf .stl .obj .dae), z up (glTF: y up), m.
   std::vector<std::filesystem::path> meshes;
+  std::optional<MeshImport> mesh_import{};  ///< of all `meshes`
   template <class Archive>
   void serialize(Archive& archive) {
     archive("cultivar", cultivar);
@@ -55,6 +58,8 @@ struct VinesConfig {
     archive("young", young, Range::between(0, 1));
     archive("templates", templates, Range::between(1, 64));
     archive("meshes", meshes);
+    archive("mesh_import", mesh_import);
+    archive.require(!mesh_import || !meshes.empty(), "mesh_import", "expected only with `meshes`");
     archive.require(canopy_top > lowest_bunch, "canopy_top", "expected more than lowest_bunch");
     archive.require(missing + young <= 1, "young", "expected at most 1 together with missing");
     const std::string problem = bbch_problem(bbch);

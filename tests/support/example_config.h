@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,7 @@ struct Outer {
   std::optional<double> maybe;
   Inner inner;
   std::vector<Inner> list;
+  std::map<std::string, Colour> colours;
   template <class Archive>
   void serialize(Archive& archive) {
     archive("count", count, Range::between(0, 10));
@@ -46,6 +48,7 @@ struct Outer {
     archive("maybe", maybe);
     archive("inner", inner);
     archive("list", list);
+    archive("colours", colours);
     archive.require(count != 7, "count", "expected anything but 7");
   }
 };

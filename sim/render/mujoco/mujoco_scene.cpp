@@ -11,6 +11,7 @@
 #include <string>
 
 #include "core/util/error.h"
+#include "core/util/warning.h"
 
 namespace vinebench::sim {
 namespace {
@@ -126,6 +127,10 @@ void write_materials(Text text, Files& files, const Scene& scene) {
   }
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& material = scene.materials[i];
+    if (material.vertex_colours) {
+      warn(fmt::format("material '{}': the MuJoCo renderer does not draw the colours of vertices",
+                       material.name));
+    }
     const std::string texture =
         material.texture < 0 ? "" : fmt::format("texture=\"t{}\"", material.texture);
     fmt::format_to(text,

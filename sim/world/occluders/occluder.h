@@ -11,6 +11,7 @@
 
 #include "core/config/config_field.h"
 #include "core/truth/occlusion.h"
+#include "sim/assets/foreign/mesh_import.h"
 #include "sim/world/occluders/occluder_path.h"
 
 namespace vinebench::sim {
@@ -35,6 +36,7 @@ struct Occluder {
   bool printed = false;                         ///< a box with a maker's mark, text and symbols
   std::int64_t print_seed = 0;                  ///< which print
   std::optional<std::filesystem::path> mesh{};  ///< .glb, .gltf, .dae, .obj or .stl; fills `size`
+  std::optional<MeshImport> mesh_import{};      ///< of the mesh, before it is scaled to `size`
   /// In place of `position`; `yaw_deg` is then added to the heading of its motion.
   std::optional<OccluderPath> path{};
   List list = List::kOccluders;
@@ -56,11 +58,16 @@ struct Occluder {
     archive("printed", printed);
     archive("print_seed", print_seed, Range::non_negative());
     archive("mesh", mesh);
+    archive("mesh_import", mesh_import);
     archive("path", path);
     archive.require(!path || position.isZero(), "position",
                     "expected none beside a path, which begins at its first waypoint");
     archive.require(mesh.has_value() == (shape == Shape::kMesh), "mesh",
                     "expected a file where the shape is mesh, and for no other shape");
+    archive.require(!mesh_import || shape == Shape::kMesh, "mesh_import",
+                    "expected only where the shape is mesh");
+    archive.require(!mesh_import || mesh_import->scale == 1, "mesh_import",
+                    "expected no `scale`: the mesh is scaled to `size`");
     archive.require(size.has_value() || shape != Shape::kMesh, "size",
                     "expected the size that the mesh is scaled to, in m");
     archive.require(!size || shape != Shape::kPerson, "size",

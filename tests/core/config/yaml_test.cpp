@@ -42,6 +42,7 @@ inner: {radius: 2}
 list:
   - radius: 3
   - {}
+colours: {Leaf.001: green, 7: red}
 )"))
                           .read<Outer>();
   EXPECT_EQ(outer.count, 4);
@@ -54,6 +55,22 @@ list:
   ASSERT_EQ(outer.list.size(), 2u);
   EXPECT_EQ(outer.list[0].radius, 3);
   EXPECT_EQ(outer.list[1].radius, 1);
+  const std::map<std::string, test::Colour> colours{{"7", test::Colour::kRed},
+                                                    {"Leaf.001", test::Colour::kGreen}};
+  EXPECT_EQ(outer.colours, colours);
+}
+
+TEST_F(YamlTest, MapsOfNamesAreCheckedItemByItem) {
+  EXPECT_THAT(
+      error_of("colours:\n  a: red\n  b: gren\n"),
+      testing::AllOf(testing::HasSubstr("bad.yaml:3: colours.b: expected one of: red, green"),
+                     testing::HasSubstr("did you mean 'green'?")));
+  EXPECT_THAT(error_of("colours: {a: red, a: green}\n"),
+              testing::HasSubstr("colours.a: duplicate key"));
+  EXPECT_THAT(error_of("colours: [red]\n"),
+              testing::HasSubstr("colours: expected a map of names, found a list of 1"));
+  EXPECT_THAT(error_of("colours: {[1]: red}\n"), testing::HasSubstr("expected a map of names"));
+  EXPECT_EQ(error_of("colours:\n"), "");
 }
 
 TEST_F(YamlTest, NamesFileLineKeyFoundAndExpected) {

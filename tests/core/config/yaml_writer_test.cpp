@@ -22,11 +22,13 @@ TEST(YamlWriterTest, WrittenTextReadsBackTheSame) {
   outer.names = {"b", "c"};
   outer.position = {0.1, 1e-9, 3};
   outer.list = {Inner{2}, Inner{0.3}};
+  outer.colours = {{"Leaf.001", test::Colour::kGreen}, {"a: \"b\"", test::Colour::kRed}};
   const std::string text = format_yaml(outer);
   const Outer back = YamlDocument::load(folder.write("back.yaml", text)).read<Outer>();
   EXPECT_EQ(format_yaml(back), text);
   EXPECT_EQ(back.position, outer.position);
   EXPECT_EQ(back.name, outer.name);
+  EXPECT_EQ(back.colours, outer.colours);
 }
 
 // Codes from 0 to 31 and 127 may not stand in a YAML file, nor does a reader keep a carriage

@@ -16,6 +16,7 @@ TEST(LabelsTest, EveryLabelIsFoundByItsName) {
     const auto label = static_cast<Label>(i);
     EXPECT_EQ(label_named(name_of(label)), label);
     names.insert(name_of(label));
+    EXPECT_EQ(yaml_names(Label{}).at(i), name_of(label));
   }
   EXPECT_EQ(names.size(), kLabels);
   EXPECT_THROW(name_of(static_cast<Label>(kLabels)), std::out_of_range);

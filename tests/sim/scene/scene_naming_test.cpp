@@ -36,6 +36,14 @@ TEST(SceneNamingTest, NumbersNameInstancesAndParts) {
   EXPECT_EQ(second.model, "plant");
 }
 
+TEST(SceneNamingTest, AModelThatSaysWhatItIsIsNotJudgedByItsMaterial) {
+  Scene scene = small_scene();
+  scene.models[0].thing = Thing::kOccluder;
+  EXPECT_EQ(instance_name(scene, 256).thing, Thing::kOccluder);
+  EXPECT_EQ(thing_of(Label::kBunch), Thing::kVine);
+  EXPECT_EQ(thing_of(Label::kTarpaulin), Thing::kOccluder);
+}
+
 TEST(SceneNamingTest, TheRoverComesAfterTheInstances) {
   const InstanceName rover = instance_name(small_scene(), 3 * 256);
   EXPECT_EQ(rover.thing, Thing::kRover);

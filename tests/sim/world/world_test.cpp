@@ -21,6 +21,7 @@ namespace vinebench::sim {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 TEST(TagProblemTest, KnowsEveryFamilyAndItsLastTag) {
   for (const std::string& family : TagFamily::names()) {
@@ -75,6 +76,43 @@ TEST(WorldFileTest, ProblemsAreNamed) {
               HasSubstr("more than lowest_bunch"));
   EXPECT_THAT(error_of_world(row + "vines: {meshes: [nowhere.glb]}\n"),
               AllOf(HasSubstr("vines.meshes.0"), HasSubstr("nowhere.glb")));
+}
+
+TEST(WorldFileTest, MeshesAreImportedAsTheFileSays) {
+  const test::TestFolder folder;
+  folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
+  const std::string row = "rows: [{start: [0, 0], end: [4, 0]}]\n";
+  const auto load = [&](const std::string& vines) {
+    return load_world(folder.write("world.yaml", row + "vines: " + vines + "\n"));
+  };
+  // Worlds without the key are written as before there was one.
+  EXPECT_THAT(format_yaml(load("{meshes: [a.obj]}")), Not(HasSubstr("mesh_import")));
+  const WorldConfig world = load(
+      "{meshes: [a.obj], mesh_import: {scale: 0.01, up_axis: y, yaw_deg: 90, "
+      "labels: {Bark.001: trunk}, default_label: leaf}}");
+  ASSERT_TRUE(world.vines.mesh_import);
+  EXPECT_EQ(world.vines.mesh_import->scale, 0.01);
+  EXPECT_EQ(world.vines.mesh_import->up_axis, UpAxis::kY);
+  EXPECT_EQ(world.vines.mesh_import->yaw_deg, 90);
+  EXPECT_EQ(world.vines.mesh_import->labels.at("Bark.001"), Label::kTrunk);
+  EXPECT_EQ(world.vines.mesh_import->default_label, Label::kLeaf);
+  const std::string text = format_yaml(world);
+  EXPECT_EQ(format_yaml(load_world(folder.write("again.yaml", text))), text);
+
+  const auto problem = [&](const std::string& import) {
+    return test::error_of([&] { load("{meshes: [a.obj], mesh_import: " + import + "}"); });
+  };
+  EXPECT_THAT(problem("{labels: {Bark: trnk}}"),
+              AllOf(HasSubstr("world.yaml:2: vines.mesh_import.labels.Bark: expected one of: "),
+                    HasSubstr("did you mean 'trunk'?")));
+  EXPECT_THAT(problem("{lables: {}}"), HasSubstr("did you mean 'labels'?"));
+  EXPECT_THAT(problem("{up_axis: w}"), HasSubstr("expected one of: file, x, y, z"));
+  EXPECT_THAT(problem("{scale: 0}"), HasSubstr("vines.mesh_import.scale"));
+  EXPECT_THAT(problem("{yaw_deg: 361}"), HasSubstr("vines.mesh_import.yaw_deg"));
+  EXPECT_THAT(problem("{default_label: sky}"), HasSubstr("a label other than sky"));
+  EXPECT_THAT(problem("{labels: {a: sky}}"), HasSubstr("a label other than sky"));
+  EXPECT_THAT(test::error_of([&] { load("{mesh_import: {scale: 2}}"); }),
+              HasSubstr("vines.mesh_import: expected only with `meshes`"));
 }
 
 TEST(WorldFileTest, TheShippedWorldsAreWhatTheySay) {

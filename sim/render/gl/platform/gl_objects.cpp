@@ -151,6 +151,12 @@ void byte_attribute(const GlFunctions& gl, GLuint index, std::size_t stride, std
                          reinterpret_cast<const void*>(offset));
 }
 
+void colour_attribute(const GlFunctions& gl, GLuint index, std::size_t stride, std::size_t offset) {
+  gl.EnableVertexAttribArray(index);
+  gl.VertexAttribPointer(index, 3, GL_UNSIGNED_BYTE, GL_TRUE, static_cast<GLsizei>(stride),
+                         reinterpret_cast<const void*>(offset));
+}
+
 void integer_attribute(const GlFunctions& gl, GLuint index, std::size_t stride, std::size_t offset,
                        int divisor) {
   gl.EnableVertexAttribArray(index);

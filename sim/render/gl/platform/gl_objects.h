@@ -79,6 +79,9 @@ void vertex_attribute(const GlFunctions& gl, GLuint index, int components, std::
 /// Enables attribute `index` of one byte, read as a float of 0 to 255.
 void byte_attribute(const GlFunctions& gl, GLuint index, std::size_t stride, std::size_t offset);
 
+/// Enables attribute `index` of three bytes, read as floats of 0 to 1.
+void colour_attribute(const GlFunctions& gl, GLuint index, std::size_t stride, std::size_t offset);
+
 /// Enables attribute `index` of one unsigned 32-bit integer.
 void integer_attribute(const GlFunctions& gl, GLuint index, std::size_t stride, std::size_t offset,
                        int divisor);

@@ -272,6 +272,7 @@ GpuScene::GpuScene(const GlFunctions& functions, const Scene& scene)
   vertex_attribute(gl, 2, 2, sizeof(Vertex), offsetof(Vertex, uv));
   vertex_attribute(gl, 3, 1, sizeof(Vertex), offsetof(Vertex, occlusion));
   byte_attribute(gl, 8, sizeof(Vertex), offsetof(Vertex, part));
+  colour_attribute(gl, 9, sizeof(Vertex), offsetof(Vertex, colour));
   indices_ = make_buffer(gl, GL_ELEMENT_ARRAY_BUFFER, geometry.indices);
   rows_ = make_buffer(gl, GL_ARRAY_BUFFER, nullptr, 0);
   for (GLuint row = 0; row < 3; ++row) {

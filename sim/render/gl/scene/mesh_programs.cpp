@@ -29,6 +29,7 @@ MeshShader shader_for(const Material& material) {
   MeshShader shader;
   shader.textured = material.texture >= 0;
   shader.cutout = shader.textured && material.cutout;
+  shader.coloured = material.vertex_colours;
   switch (material.label) {
     case Label::kTag:
     case Label::kBox:

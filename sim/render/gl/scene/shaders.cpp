@@ -70,6 +70,9 @@ uniform vec4 leaf;     // translucency, double-sided, shadow offset along the no
 uniform float sway;
 out vec2 v_uv;
 
+#ifdef COLOURED
+layout(location = 9) in vec3 vertex_colour;  // encoded
+#endif
 #ifdef TRUTH
 layout(location = 7) in uint instance;
 layout(location = 8) in float part;
@@ -143,6 +146,10 @@ void main() {
 #ifdef PIXEL_SHADOWS
   v_shade = encode(shade);
   v_sun = encode(shade + lit) - v_shade;
+#ifdef COLOURED
+  v_shade *= vertex_colour;
+  v_sun *= vertex_colour;
+#endif
   v_shadow = p_shadow;
 #ifdef MOVING
   v_moving = (moving_shadow_from_cam * vec4(p_bias, 1.0)).xyz;
@@ -154,6 +161,9 @@ void main() {
   lit *= textureLod(moving_shadow_map, p_moving, 0.0);
 #endif
   v_light = encode(shade + lit * textureLod(coarse_shadow_map, p_shadow, 0.0));
+#ifdef COLOURED
+  v_light *= vertex_colour;
+#endif
 #endif
 #endif
 }
@@ -367,6 +377,7 @@ std::string defines(const MeshShader& shader) {
   define(shader.truth, "TRUTH");
   define(shader.baking, "BAKING");
   define(shader.moving, "MOVING");
+  define(shader.coloured, "COLOURED");
   return text;
 }
 

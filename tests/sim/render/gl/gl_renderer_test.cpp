@@ -74,6 +74,35 @@ TEST_F(ChessboardTest, FarFromTheWorldsOriginNothingMoves) {
   EXPECT_LT(changed, 1e-4 * 255 * near_image.rgb.total());
 }
 
+// Light enters the image as its power 1 / 2.2, and so do the colours of vertices: in even light a
+// white panel shows their bytes, and half way between two corners the mean of theirs. Leaves are
+// lit in their vertices, boxes in their pixels.
+TEST(RendererTest, ColoursOfVerticesMultiplyTheMaterials) {
+  for (const Label label : {Label::kLeaf, Label::kBox}) {
+    Scene scene;
+    const int material = add_material(scene, label, Eigen::Vector3f::Ones());
+    scene.materials[static_cast<std::size_t>(material)].vertex_colours = true;
+    Primitive square = panel(material, 1, 1);
+    for (Vertex& vertex : square.vertices) {
+      vertex.colour = vertex.position.x() < 0 ? std::array<std::uint8_t, 3>{200, 40, 0}
+                                              : std::array<std::uint8_t, 3>{100, 40, 255};
+    }
+    add_instance(scene, add_model(scene, square), {0, 0, 0});
+    light_evenly(scene);
+    const auto middle = [&] {
+      GlRenderer renderer(scene, {});
+      return renderer.render(small_camera(), look_at({0, -1, 0}, {0, 0, 0}), {})
+          .rgb.at<cv::Vec3b>(240, 376);
+    };
+    EXPECT_LT(cv::norm(cv::Vec3d(middle()) - cv::Vec3d(150, 40, 127.5)), 2);
+    scene.materials[static_cast<std::size_t>(material)].colour = {0.5f, 1, 1};
+    // 0.5 to the power 1 / 2.2 is 0.730.
+    EXPECT_LT(cv::norm(cv::Vec3d(middle()) - cv::Vec3d(109.5, 40, 127.5)), 2);
+    scene.materials[static_cast<std::size_t>(material)].vertex_colours = false;
+    EXPECT_LT(cv::norm(cv::Vec3d(middle()) - cv::Vec3d(186, 255, 255)), 2);
+  }
+}
+
 /// The tag's print, one white module around the black square.
 cv::Mat tag_image(const TagFamily& family, int id, int module) {
   cv::Mat large;

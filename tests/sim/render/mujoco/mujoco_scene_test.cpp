@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/render/mujoco/mujoco_scene.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "tests/support/test_scene.h"
+#include "tests/support/warnings.h"
 
 namespace vinebench::sim {
 namespace {
@@ -51,6 +53,15 @@ TEST_F(MujocoSceneTest, EveryThingIsAGeomThatKnowsItsInstance) {
   }
   // Two triangles each, and two tiny ones that give a flat mesh a volume.
   EXPECT_EQ(mujoco.triangles(), 2 * 4);
+}
+
+TEST_F(MujocoSceneTest, ColoursOfVerticesAreWarnedOf) {
+  const test::Warnings warnings;
+  { const MujocoScene plain(scene_, 5); }
+  EXPECT_TRUE(warnings.all.empty());
+  scene_.materials[0].vertex_colours = true;
+  { const MujocoScene coloured(scene_, 5); }
+  EXPECT_THAT(warnings.all, testing::ElementsAre(testing::HasSubstr("colours of vertices")));
 }
 
 /// MuJoCo puts a mesh's origin at its middle: how far that is from the model's is the same for both

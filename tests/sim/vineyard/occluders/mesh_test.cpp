@@ -66,6 +66,34 @@ TEST_F(MeshOccluderTest, HasTheLabelOfItsClass) {
   for (const Material& material : model.asset.materials) EXPECT_EQ(material.label, Label::kPerson);
 }
 
+TEST_F(MeshOccluderTest, IsTurnedBeforeItIsScaledToItsSize) {
+  Occluder turned = occluder(kWedge, {2, 1, 3});
+  turned.mesh_import = MeshImport{};
+  turned.mesh_import->yaw_deg = 90;  // the slope, which faced +x and up, now faces +y and up
+  const OccluderModel model = mesh_model(turned, 1);
+  EXPECT_LT((model.asset.model.bounds.sizes() - Eigen::Vector3f(2, 1, 3)).norm(), 1e-5f);
+  int on_slope = 0;
+  for (const Vertex& vertex : model.asset.model.levels.at(0).primitives.at(0).vertices) {
+    on_slope += vertex.normal.y() > 0.1f && vertex.normal.z() > 0.1f;
+    EXPECT_FALSE(vertex.normal.x() > 0.1f && vertex.normal.z() > 0.1f);
+  }
+  EXPECT_GE(on_slope, 4);
+}
+
+TEST_F(MeshOccluderTest, PartsHaveTheirLabelsAndTheWholeIsOfItsClass) {
+  Occluder barrow = occluder(std::string("usemtl Steel\n") + kWedge, {1, 1, 1});
+  barrow.kind = OccluderClass::kCarton;
+  barrow.mesh_import = MeshImport{};
+  barrow.mesh_import->labels = {{"Steel", Label::kPost}};
+  const OccluderModel model = mesh_model(barrow, 1);
+  for (const Material& material : model.asset.materials) EXPECT_EQ(material.label, Label::kPost);
+  EXPECT_EQ(model.asset.model.thing, Thing::kBox);
+  barrow.mesh_import->labels = {{"Stel", Label::kPost}};
+  EXPECT_THAT(test::error_of([&] { mesh_model(barrow, 1); }),
+              AllOf(HasSubstr("occluder 'carton': mesh_import.labels.Stel"),
+                    HasSubstr("did you mean 'Steel'?")));
+}
+
 TEST_F(MeshOccluderTest, AFlatMeshIsAnErrorThatNamesItsFile) {
   const Occluder flat = occluder("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {1, 1, 1});
   EXPECT_THAT(test::error_of([&] { mesh_model(flat, 1); }),

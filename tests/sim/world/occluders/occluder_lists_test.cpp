@@ -52,6 +52,18 @@ TEST_F(OccluderListsTest, AFileIsWrittenInTheFormThatItWasReadIn) {
   EXPECT_EQ(format_yaml(read(text)), text);
 }
 
+TEST_F(OccluderListsTest, OnlyAMeshIsImportedAndIsScaledToItsSize) {
+  folder_.write("a.obj", "v 0 0 0\n");
+  const std::string mesh = "occluders: [{shape: mesh, mesh: a.obj, size: [1, 1, 1], mesh_import: ";
+  const File file = read(mesh + "{up_axis: y, labels: {a: crate}}}]\n");
+  EXPECT_EQ(file.occluders.at(0).mesh_import->up_axis, UpAxis::kY);
+  EXPECT_THAT(format_yaml(file), HasSubstr("labels:\n        \"a\": crate\n"));
+  EXPECT_THAT(test::error_of([&] { read(mesh + "{scale: 2}}]\n"); }),
+              HasSubstr("occluders.0.mesh_import: expected no `scale`"));
+  EXPECT_THAT(test::error_of([&] { read("occluders: [{mesh_import: {}}]\n"); }),
+              HasSubstr("expected only where the shape is mesh"));
+}
+
 TEST_F(OccluderListsTest, AnyShapeMayBeOfAnyClass) {
   const File file = read(
       "occluders:\n"

@@ -16,9 +16,9 @@ using Shadows = MeshShader::Shadows;
 std::vector<MeshShader> all_shaders() {
   std::vector<MeshShader> shaders;
   for (const Shadows shadows : {Shadows::kVertices, Shadows::kPixels, Shadows::kLightMap}) {
-    for (int bits = 0; bits < 128; ++bits) {
+    for (int bits = 0; bits < 256; ++bits) {
       const auto bit = [&](int i) { return (bits >> i & 1) != 0; };
-      shaders.push_back({bit(0), bit(1), shadows, bit(2), bit(3), bit(4), bit(5), bit(6)});
+      shaders.push_back({bit(0), bit(1), shadows, bit(2), bit(3), bit(4), bit(5), bit(6), bit(7)});
     }
   }
   return shaders;
@@ -27,7 +27,7 @@ std::vector<MeshShader> all_shaders() {
 TEST(MeshShaderTest, DifferentOnesHaveDifferentKeys) {
   std::set<int> keys;
   for (const MeshShader& shader : all_shaders()) keys.insert(shader.key());
-  EXPECT_EQ(keys.size(), 3u * 128);
+  EXPECT_EQ(keys.size(), 3u * 256);
 }
 
 class ShadersTest : public test::GlTest {
@@ -49,6 +49,7 @@ TEST_F(ShadersTest, VertexAndFragmentShadersOfAMeshFit) {
         shader.shadows = shadows;
         shader.moving = moving;
         shader.textured = shader.cutout = shader.haze = shader.wind = shader.truth = more;
+        shader.coloured = more;
         expect_links(shader);
       }
     }
@@ -69,7 +70,8 @@ TEST_F(ShadersTest, SoDoTheOthers) {
 
 TEST(ShaderSourceTest, AMeshsShaderIsAsLeanAsItsMaterial) {
   const std::string lean = mesh_fragment_shader({});
-  for (const char* name : {"TEXTURED", "CUTOUT", "HAZE", "WIND", "TRUTH", "ROVER", "LIGHT_MAP"}) {
+  for (const char* name :
+       {"TEXTURED", "CUTOUT", "HAZE", "WIND", "TRUTH", "ROVER", "LIGHT_MAP", "COLOURED"}) {
     EXPECT_EQ(lean.find(std::string("#define ") + name + "\n"), std::string::npos) << name;
   }
   MeshShader shader;
