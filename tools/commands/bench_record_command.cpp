@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <memory>
 
 #include "core/util/files.h"
+#include "core/util/output_folder.h"
 #include "harness/benchmarks/record_benchmark.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
@@ -35,13 +35,9 @@ int bench_record(const BenchRecordArguments& arguments, const Surroundings& surr
   benchmark.plant_cache = surroundings.machine.plant_cache;
   benchmark.frames = arguments.frames;
   benchmark.threads = arguments.threads;
-  const std::filesystem::path parent = arguments.folder.empty()
-                                           ? std::filesystem::temp_directory_path()
-                                           : std::filesystem::path(arguments.folder);
-  benchmark.folder = parent / fmt::format("vinebench-bench-{}", getpid());
+  const TemporaryFolder folder(arguments.folder);
+  benchmark.folder = folder.path();
   const auto result = harness::measure_recording(benchmark);
-  std::error_code ignored;
-  std::filesystem::remove_all(benchmark.folder, ignored);
   fmt::print("{}", harness::record_table(result));
   if (!arguments.json.empty()) write_file_atomically(arguments.json, result.dump(2) + "\n");
   return 0;

@@ -4,8 +4,10 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "core/util/files.h"
+#include "core/util/output_folder.h"
 #include "harness/benchmarks/measurement.h"
 #include "harness/benchmarks/render_benchmark.h"
 #include "harness/benchmarks/render_case.h"
@@ -40,6 +42,8 @@ int bench_render(const BenchArguments& arguments, const Surroundings& surroundin
   harness::RenderSuite suite = arguments.suite;
   suite.mujoco = !arguments.no_mujoco;
   suite.machine = surroundings.machine;
+  std::optional<FolderLock> lock;
+  if (!suite.images.empty()) lock.emplace(suite.images);
   const harness::Catalogue& catalogue = surroundings.catalogue;
   if (suite.rig.empty()) suite.rig = catalogue.find(harness::DataKind::kRig, "csl-rover").string();
   suite.small_world = catalogue.find(harness::DataKind::kWorld, "csl-vineyard").string();

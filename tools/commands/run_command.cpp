@@ -108,7 +108,7 @@ int run_one(const RunArguments& arguments) {
   const std::filesystem::path folder = arguments.out.empty()
                                            ? std::filesystem::path("out") / scenario.name
                                            : std::filesystem::path(arguments.out);
-  harness::prepare_scenario_folder(folder, scenario);
+  const FolderLock lock = harness::prepare_scenario_folder(folder, scenario);
   catch_interrupts();
   harness::RunOptions options = interactive_options(scenario.name);
   options.folder = folder;

@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <iostream>
+#include <optional>
 #include <system_error>
 
 #include "core/util/error.h"
 #include "core/util/files.h"
+#include "core/util/output_folder.h"
 #include "harness/jobs/run_scenario.h"
 #include "harness/sets/junit.h"
 #include "harness/sets/set_report.h"
@@ -22,12 +24,17 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Better before the runs than after them.
-void prepare(const ManyRuns& many) {
-  std::error_code error;
-  fs::create_directories(many.out, error);
-  if (error) fail("output folder {}: cannot be made: {}", many.out.string(), error.message());
-  for (const char* name : {"table.md", "summary.json"}) fs::remove(many.out / name, error);
+FolderLock prepare(const ManyRuns& many) {
+  std::optional<FolderLock> lock;
+  try {
+    lock.emplace(many.out);
+  } catch (const Error& error) {
+    fail("output folder {}", error.what());
+  }
+  std::error_code ignored;
+  for (const char* name : {"table.md", "summary.json"}) fs::remove(many.out / name, ignored);
   if (!many.junit.empty()) write_file_atomically(many.junit, "");
+  return *std::move(lock);
 }
 
 int report(const ManyRuns& many, const std::vector<harness::SeedsSummary>& scenarios) {
@@ -50,7 +57,7 @@ int report(const ManyRuns& many, const std::vector<harness::SeedsSummary>& scena
 int run_many(const ManyRuns& many) {
   const std::vector<harness::PlannedRun> plan =
       harness::plan_set(many.scenarios, many.seeds, many.out);
-  prepare(many);
+  const FolderLock lock = prepare(many);
   catch_interrupts();
   harness::SetOptions options;
   options.jobs = many.jobs;
