@@ -46,7 +46,7 @@ bool has_sequence(const fs::path& folder, const std::string& settings) {
 }
 
 /// One sequence; adds to the outcome.
-void record_sequence(const ScenarioConfig& scenario, const fs::path& plant_cache,
+void record_sequence(const ScenarioConfig& scenario, const CacheFolder& plant_cache,
                      const fs::path& folder, const RecordOptions& options, const RecordWatch& watch,
                      RecordOutcome& outcome) {
   WorkerPool pool(options.threads);

@@ -157,22 +157,32 @@ void compute_normals(Primitive& primitive) {
   for (Vertex& vertex : primitive.vertices) vertex.normal.stableNormalize();
 }
 
-Asset load_asset(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return std::tolower(c); });
-  Asset asset;
-  if (extension == ".glb" || extension == ".gltf") {
-    asset = read_gltf(file);
-  } else if (extension == ".obj" || extension == ".stl" || extension == ".dae") {
-    asset = import_mesh(file);
-  } else {
-    fail("{}: expected a mesh of .glb, .gltf, .obj, .stl or .dae", file.string());
-  }
+namespace {
+
+Asset sound(Asset asset, const std::filesystem::path& file) {
   check(asset, file.string());
   normalise(asset);
   asset.update_bounds();
   return asset;
+}
+
+}  // namespace
+
+Asset asset_of_glb(const std::string& bytes, const std::filesystem::path& file) {
+  return sound(read_gltf(bytes, file), file);
+}
+
+Asset load_asset(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return std::tolower(c); });
+  if (extension == ".glb" || extension == ".gltf") {
+    return sound(read_gltf(read_mesh_file(file), file), file);
+  }
+  if (extension == ".obj" || extension == ".stl" || extension == ".dae") {
+    return sound(import_mesh(file), file);
+  }
+  fail("{}: expected a mesh of .glb, .gltf, .obj, .stl or .dae", file.string());
 }
 
 }  // namespace vinebench::sim

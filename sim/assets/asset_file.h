@@ -14,13 +14,16 @@ namespace vinebench::sim {
 /// reason.
 Asset load_asset(const std::filesystem::path& file);
 
+/// The same of a .glb file's bytes that are in memory already; `file` is its name.
+Asset asset_of_glb(const std::string& bytes, const std::filesystem::path& file);
+
 /// The asset as the bytes of a .glb file with its images inside. Viewers show its finest level;
 /// load_asset restores all levels and materials exactly.
 std::string to_glb(const Asset& asset);
 
 // Parts of load_asset.
 
-Asset read_gltf(const std::filesystem::path& file);
+Asset read_gltf(const std::string& bytes, const std::filesystem::path& file);
 Asset import_mesh(const std::filesystem::path& file);  ///< with assimp
 
 /// The content of a mesh, image or buffer file. Throws Error if it is not a file, cannot be read,

@@ -118,8 +118,7 @@ std::string brief(std::string text) {
 
 }  // namespace
 
-tinygltf::Model parse_gltf(const std::filesystem::path& file) {
-  const std::string bytes = read_mesh_file(file);
+tinygltf::Model parse_gltf(const std::string& bytes, const std::filesystem::path& file) {
   check_depth(bytes.starts_with("glTF") ? glb_json(bytes, file.string()) : bytes, file.string());
   tinygltf::Model model;
   std::string problem;

@@ -31,8 +31,8 @@ constexpr std::array<const char*, 13> kNumberedLabels{"sky",  "ground", "grass",
 
 class GltfReader {
  public:
-  explicit GltfReader(const std::filesystem::path& file)
-      : file_(file.string()), model_(parse_gltf(file)) {}
+  GltfReader(const std::string& bytes, const std::filesystem::path& file)
+      : file_(file.string()), model_(parse_gltf(bytes, file)) {}
 
   Asset read() {
     for (const tinygltf::Texture& texture : model_.textures) add(texture);
@@ -303,8 +303,8 @@ class GltfReader {
 
 }  // namespace
 
-Asset read_gltf(const std::filesystem::path& file) {
-  return GltfReader(file).read();
+Asset read_gltf(const std::string& bytes, const std::filesystem::path& file) {
+  return GltfReader(bytes, file).read();
 }
 
 }  // namespace vinebench::sim

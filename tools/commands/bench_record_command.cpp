@@ -20,6 +20,7 @@ struct BenchRecordArguments {
   std::string scenario;
   std::string json;
   std::string folder;
+  std::filesystem::path cache;
   std::vector<std::string> overrides;
   int threads = default_threads();
   std::int64_t frames = 60;
@@ -32,7 +33,7 @@ int bench_record(const BenchRecordArguments& arguments, const Surroundings& surr
       harness::load_scenario(surroundings.catalogue.find(harness::DataKind::kScenario, scenario),
                              parse_overrides(arguments.overrides));
   sim::choose_backend(benchmark.scenario.simulation.renderer, surroundings.machine.gl_platform);
-  benchmark.plant_cache = surroundings.machine.plant_cache;
+  benchmark.plant_cache = with_cache(surroundings.machine, arguments.cache).plant_cache;
   benchmark.frames = arguments.frames;
   benchmark.threads = arguments.threads;
   const TemporaryFolder folder(arguments.folder);
@@ -61,6 +62,7 @@ Command bench_record_command(const Surroundings& surroundings) {
                        .existing = Existing::kFolder},
                       overrides_option(arguments->overrides, "Set a key of the scenario"),
                       threads_option(arguments->threads),
+                      cache_option(arguments->cache),
                       {.name = "--frames",
                        .target = &arguments->frames,
                        .help = "Frames of the run",

@@ -24,6 +24,7 @@ struct BenchArguments {
   harness::RenderSuite suite;
   std::string json;
   bool no_mujoco = false;
+  std::filesystem::path cache;
 };
 
 /// CPU time of a frame's images, each by itself, ms.
@@ -41,7 +42,7 @@ double growth_percent(const Json& few, const Json& many) {
 int bench_render(const BenchArguments& arguments, const Surroundings& surroundings) {
   harness::RenderSuite suite = arguments.suite;
   suite.mujoco = !arguments.no_mujoco;
-  suite.machine = surroundings.machine;
+  suite.machine = with_cache(surroundings.machine, arguments.cache);
   std::optional<FolderLock> lock;
   if (!suite.images.empty()) lock.emplace(suite.images);
   const harness::Catalogue& catalogue = surroundings.catalogue;
@@ -84,6 +85,7 @@ Command bench_render_command(const Surroundings& surroundings) {
                        .data = harness::DataKind::kRig},
                       json_option(arguments->json),
                       threads_option(suite.threads),
+                      cache_option(arguments->cache),
                       {.name = "--frames",
                        .target = &suite.frames,
                        .help = "Places on the route",

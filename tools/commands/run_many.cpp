@@ -9,6 +9,7 @@
 #include <optional>
 #include <system_error>
 
+#include "core/util/cache_folder.h"
 #include "core/util/error.h"
 #include "core/util/files.h"
 #include "core/util/output_folder.h"
@@ -37,6 +38,17 @@ FolderLock prepare(const ManyRuns& many) {
   return *std::move(lock);
 }
 
+/// Without a cache that cannot be used, of which each run would tell in its own messages alone.
+harness::Machine checked_machine(harness::Machine machine) {
+  const std::string problem = problem_of(machine.plant_cache);
+  if (problem.empty()) return machine;
+  if (machine.plant_cache.notice) {
+    machine.plant_cache.notice("generated plants are not kept: " + problem);
+  }
+  machine.plant_cache = {};
+  return machine;
+}
+
 int report(const ManyRuns& many, const std::vector<harness::SeedsSummary>& scenarios) {
   const std::string table = harness::format_table(scenarios);
   write_file_atomically(many.out / "table.md", table);
@@ -58,14 +70,15 @@ int run_many(const ManyRuns& many) {
   const std::vector<harness::PlannedRun> plan =
       harness::plan_set(many.scenarios, many.seeds, many.out);
   const FolderLock lock = prepare(many);
+  const harness::Machine machine = checked_machine(many.machine);
   catch_interrupts();
   harness::SetOptions options;
   options.jobs = many.jobs;
   options.threads = many.threads;
   options.force = many.force;
-  options.run = [&many](const harness::ScenarioConfig& scenario, int threads,
-                        const harness::RunOptions& run) {
-    return harness::run_scenario(scenario, many.machine, threads, run);
+  options.run = [&machine](const harness::ScenarioConfig& scenario, int threads,
+                           const harness::RunOptions& run) {
+    return harness::run_scenario(scenario, machine, threads, run);
   };
   options.stopped = interrupted;
   options.progress = &std::cerr;
