@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/machine.h"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <cstdlib>
+#include <filesystem>
+#include <system_error>
 
 namespace vinebench::harness {
 namespace {
@@ -21,7 +26,10 @@ std::filesystem::path plant_cache() {
   if (const char* home = non_empty("HOME")) {
     return std::filesystem::path(home) / ".cache" / "vinebench";
   }
-  return std::filesystem::temp_directory_path() / "vinebench-cache";
+  std::error_code none;
+  const std::filesystem::path temporary = std::filesystem::temp_directory_path(none);
+  if (none) return {};
+  return temporary / fmt::format("vinebench-cache-{}", geteuid());
 }
 
 }  // namespace

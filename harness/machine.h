@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <string>
+
+#include "core/util/cache_folder.h"
 
 namespace vinebench::harness {
 
@@ -11,11 +12,12 @@ namespace vinebench::harness {
 /// result.
 struct Machine {
   std::string gl_platform;  ///< where a scenario leaves it open; automatic if empty
-  std::filesystem::path plant_cache;
+  CacheFolder plant_cache;
 };
 
 /// $VINEBENCH_GL, and $VINEBENCH_CACHE, else $XDG_CACHE_HOME/vinebench, else ~/.cache/vinebench,
-/// else a folder for temporary files. For programs: nothing else reads the environment.
+/// else one of this user in the folder for temporary files. For programs: nothing else reads the
+/// environment.
 Machine machine_of_environment();
 
 }  // namespace vinebench::harness

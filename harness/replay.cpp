@@ -36,8 +36,9 @@ slam::SlamConfig replay_settings(const Recording& recording, const std::filesyst
   return document.read<slam::SlamConfig>();
 }
 
-void prepare_replay_folder(const std::filesystem::path& folder, const slam::SlamConfig& slam) {
-  prepare_run_folder(folder, "slam.resolved.yaml", format_yaml(slam));
+FolderLock prepare_replay_folder(const std::filesystem::path& folder,
+                                 const slam::SlamConfig& slam) {
+  return prepare_run_folder(folder, "slam.resolved.yaml", format_yaml(slam));
 }
 
 RunOutcome run_replay(Recording recording, const slam::SlamConfig& slam, int threads,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/config/override.h"
+#include "core/util/output_folder.h"
 #include "harness/datasets/open_recording.h"
 #include "harness/run.h"
 
@@ -17,8 +18,10 @@ namespace vinebench::harness {
 slam::SlamConfig replay_settings(const Recording& recording, const std::filesystem::path& file,
                                  const std::vector<Override>& overrides);
 
-/// Creates the run's folder, with slam.resolved.yaml.
-void prepare_replay_folder(const std::filesystem::path& folder, const slam::SlamConfig& slam);
+/// Prepares a folder for a replay, with slam.resolved.yaml. Throws Error as prepare_run_folder()
+/// does.
+[[nodiscard]] FolderLock prepare_replay_folder(const std::filesystem::path& folder,
+                                               const slam::SlamConfig& slam);
 
 /// Runs the SLAM core on the recording's frames and evaluates it with the recording's ground truth,
 /// if there is one; writes the same files as a scenario's run.

@@ -156,6 +156,12 @@ struct Arguments {
   int threads = 2;
 };
 
+/// As a warning of Python.
+void warn(const std::string& text) {
+  const py::gil_scoped_acquire acquired;
+  if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+}
+
 Scenario open_scenario(const Arguments& arguments) {
   harness::StreamRequest request;
   request.scenario = arguments.scenario;
@@ -172,6 +178,7 @@ Scenario open_scenario(const Arguments& arguments) {
   request.every = arguments.every;
   request.threads = arguments.threads;
   request.machine = harness::machine_of_environment();
+  request.machine.plant_cache.notice = warn;
   const py::gil_scoped_release others_may_run;
   return {std::make_shared<harness::FrameStream>(request)};
 }

@@ -27,7 +27,7 @@ Rig checked_rig(const SimulationConfig& config) {
 
 class Simulation : public SimulatedSource {
  public:
-  Simulation(const SimulationConfig& config, std::uint64_t seed, const std::filesystem::path& cache,
+  Simulation(const SimulationConfig& config, std::uint64_t seed, const CacheFolder& cache,
              WorkerPool& pool, const CapturePlan& plan)
       : config_(config),
         pool_(pool),
@@ -259,8 +259,8 @@ class Simulation : public SimulatedSource {
 }  // namespace
 
 std::unique_ptr<SimulatedSource> make_simulation(const SimulationConfig& config, std::uint64_t seed,
-                                                 const std::filesystem::path& cache,
-                                                 WorkerPool& pool, const CapturePlan& plan) {
+                                                 const CacheFolder& cache, WorkerPool& pool,
+                                                 const CapturePlan& plan) {
   validate(config);
   return std::make_unique<Simulation>(config, seed, cache, pool, plan);
 }

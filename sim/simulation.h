@@ -51,7 +51,7 @@ struct SimulationConfig {
 /// next one. Delivered images do not depend on the plan: with automatic exposure, the others are
 /// rendered too.
 std::unique_ptr<SimulatedSource> make_simulation(const SimulationConfig& config, std::uint64_t seed,
-                                                 const std::filesystem::path& cache,
-                                                 WorkerPool& pool, const CapturePlan& plan = {});
+                                                 const CacheFolder& cache, WorkerPool& pool,
+                                                 const CapturePlan& plan = {});
 
 }  // namespace vinebench::sim

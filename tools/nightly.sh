@@ -42,12 +42,14 @@ code=0
   code=$?
 [[ $code -le 2 && -s $out/table.md ]] || exit "$code" # interrupted: no table
 
+partial=$(mktemp "$results.XXXXXX")
+chmod --reference="$results" "$partial"
 awk -v begin="$begin" -v end="$end" -v table="$out/table.md" '
   $0 == end { inside = 0 }
   !inside { print }
   $0 == begin { inside = 1; while ((getline line < table) > 0) print line }
-' "$results" >"$results.partial"
-mv "$results.partial" "$results"
+' "$results" >"$partial"
+mv "$partial" "$results"
 echo "nightly.sh: the table is in $results"
 
 if [[ $mutations -gt 0 ]]; then

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <mutex>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -23,6 +24,12 @@ std::filesystem::path program_file() {
   return std::filesystem::read_symlink("/proc/self/exe", error);
 }
 
+/// The first one alone: some commands need plants several times, and the reason stays the same.
+void print_notice(const std::string& text) {
+  static std::once_flag printed;
+  std::call_once(printed, [&] { fmt::print(stderr, "vinebench: {}\n", text); });
+}
+
 int print_completions(const Command& program, std::vector<std::string> words,
                       const harness::Catalogue& catalogue) {
   words.erase(words.begin());
@@ -34,8 +41,9 @@ int print_completions(const Command& program, std::vector<std::string> words,
 }
 
 int main(const std::vector<std::string>& arguments) {
-  const Surroundings surroundings{harness::Catalogue(harness::data_folders(program_file())),
-                                  harness::machine_of_environment()};
+  Surroundings surroundings{harness::Catalogue(harness::data_folders(program_file())),
+                            harness::machine_of_environment()};
+  surroundings.machine.plant_cache.notice = print_notice;
   const Command commands = program(surroundings);
   if (!arguments.empty() && arguments.front() == kCompleteCommand) {
     return print_completions(commands, arguments, surroundings.catalogue);

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/util/error.h"
+#include "core/util/output_file.h"
 
 namespace vinebench {
 
@@ -33,24 +34,9 @@ std::string read_file(const std::filesystem::path& file, FileKind kind) {
 }
 
 void write_file_atomically(const std::filesystem::path& file, std::string_view content) {
-  std::filesystem::path partial = file;
-  partial += ".partial";
-  std::ofstream out(partial, std::ios::binary | std::ios::trunc);
-  if (!out) fail("{}: cannot be written: {}", file.string(), std::strerror(errno));
-  out.write(content.data(), static_cast<std::streamsize>(content.size()));
-  out.close();
-  std::error_code error;
-  if (!out) {
-    const int reason = errno;
-    std::filesystem::remove(partial, error);
-    fail("{}: cannot be written: {}", file.string(), std::strerror(reason));
-  }
-  std::filesystem::rename(partial, file, error);
-  if (error) {
-    std::error_code ignored;
-    std::filesystem::remove(partial, ignored);
-    fail("{}: cannot be written: {}", file.string(), error.message());
-  }
+  OutputFile out(file);
+  out.write(content);
+  out.finish();
 }
 
 }  // namespace vinebench

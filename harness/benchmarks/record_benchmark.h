@@ -15,7 +15,7 @@ struct RecordBenchmark {
   ScenarioConfig scenario;
   std::int64_t frames = 60;  ///< the first ones of the run
   int threads = 2;           ///< for rendering, and as many for encoding
-  std::filesystem::path plant_cache;
+  CacheFolder plant_cache;
   std::filesystem::path folder;  ///< for recordings, which are removed afterwards
 };
 

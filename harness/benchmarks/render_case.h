@@ -24,7 +24,7 @@ struct RenderBenchmark {
   int threads = 2;
   sim::RendererConfig renderer;
   bool mujoco = false;  ///< also measure MuJoCo's own renderer on the same scene
-  std::filesystem::path plant_cache;
+  CacheFolder plant_cache;
   std::filesystem::path images;  ///< folder for both renderers' images of one pose, if any
 };
 

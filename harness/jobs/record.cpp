@@ -46,7 +46,7 @@ bool has_sequence(const fs::path& folder, const std::string& settings) {
 }
 
 /// One sequence; adds to the outcome.
-void record_sequence(const ScenarioConfig& scenario, const fs::path& plant_cache,
+void record_sequence(const ScenarioConfig& scenario, const CacheFolder& plant_cache,
                      const fs::path& folder, const RecordOptions& options, const RecordWatch& watch,
                      RecordOutcome& outcome) {
   WorkerPool pool(options.threads);
@@ -118,9 +118,17 @@ void write_whole(const RecordRequest& request, const std::vector<std::string>& s
   write_card(request.out, card);
 }
 
+/// Locks the folder of a request; it must be empty unless the recording is resumed.
+FolderLock prepare_folder(const RecordRequest& request) {
+  FolderLock lock = lock_recording(request.out);
+  if (!request.resume) claim_folder(request.out);
+  return lock;
+}
+
 RecordOutcome record_one(const RecordRequest& request, const RecordWatch& watch) {
   RecordOutcome outcome;
   const ScenarioConfig scenario = scenario_of(request, std::nullopt);
+  const FolderLock lock = prepare_folder(request);
   if (request.resume &&
       has_sequence(request.out, settings_hash(notes_of(scenario), request.options))) {
     outcome.sequences = outcome.skipped = 1;
@@ -136,12 +144,12 @@ RecordOutcome record_one(const RecordRequest& request, const RecordWatch& watch)
 RecordOutcome record_dataset(const RecordRequest& request, const RecordWatch& watch) {
   if (!request.seeds) return record_one(request, watch);
   const auto [first, last] = *request.seeds;
-  if (!request.resume) claim_folder(request.out);
+  const FolderLock lock = prepare_folder(request);
   RecordOutcome outcome;
   std::vector<std::string> sequences;
   for (std::int64_t seed = first; seed <= last && !outcome.interrupted; ++seed) {
     const ScenarioConfig scenario = scenario_of(request, seed);
-    const fs::path folder = request.out / name_of_sequence(seed);
+    const fs::path folder = make_folder(request.out / name_of_sequence(seed));
     RecordOptions options = request.options;
     options.sequence = seed - first;
     sequences.push_back(name_of_sequence(seed));

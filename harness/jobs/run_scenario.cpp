@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/jobs/run_scenario.h"
 
-#include <stdlib.h>
-
 #include "core/util/error.h"
 #include "harness/datasets/dataset_writer.h"
 #include "harness/datasets/files/dataset_folder.h"
@@ -23,28 +21,6 @@ void expect_no_maps(const MapFiles& maps) {
   }
 }
 
-/// Temporary folder of a run without an output folder.
-class ScratchFolder {
- public:
-  explicit ScratchFolder(const std::filesystem::path& folder) : folder_(folder) {
-    if (!folder.empty()) return;
-    std::string name = (std::filesystem::temp_directory_path() / "vinebench-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) fail("{}: cannot be created", name);
-    folder_ = own_ = name;
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    if (!own_.empty()) std::filesystem::remove_all(own_, ignored);
-  }
-  const std::filesystem::path& path() const { return folder_; }
-
- private:
-  std::filesystem::path folder_;
-  std::filesystem::path own_;
-};
-
 /// With a SLAM system that is not ours.
 RunOutcome run_other_system(const ScenarioConfig& scenario, FrameSource& source, int threads,
                             const RunOptions& options) {
@@ -55,16 +31,19 @@ RunOutcome run_other_system(const ScenarioConfig& scenario, FrameSource& source,
                                        choice.dead_reckoning.wheels, threads);
     return run_lockstep_and_judge(trial_of(scenario), source, *slam, options);
   }
-  const ScratchFolder folder(options.folder);
+  std::optional<TemporaryFolder> temporary;
+  if (options.folder.empty()) temporary.emplace();
   const auto slam =
-      make_external_slam(*choice.external, notes_of(scenario), folder.path(), options.stopped);
+      make_external_slam(*choice.external, notes_of(scenario),
+                         temporary ? temporary->path() : options.folder, options.stopped);
   return run_lockstep_and_judge(trial_of(scenario), source, *slam, options);
 }
 
 }  // namespace
 
-void prepare_scenario_folder(const std::filesystem::path& folder, const ScenarioConfig& scenario) {
-  prepare_run_folder(folder, "scenario.resolved.yaml", resolved_settings(scenario));
+FolderLock prepare_scenario_folder(const std::filesystem::path& folder,
+                                   const ScenarioConfig& scenario) {
+  return prepare_run_folder(folder, "scenario.resolved.yaml", resolved_settings(scenario));
 }
 
 RunOutcome run_scenario(const ScenarioConfig& scenario, const Machine& machine, int threads,
@@ -72,7 +51,11 @@ RunOutcome run_scenario(const ScenarioConfig& scenario, const Machine& machine, 
   check_map_folders(options.maps);  // before the vineyard is generated
   const bool ours = !scenario.slam.external && !scenario.slam.plugin;
   if (!ours) expect_no_maps(options.maps);
-  if (recording) claim_folder(recording->folder);
+  std::optional<FolderLock> lock;
+  if (recording) {
+    lock.emplace(lock_recording(recording->folder));
+    claim_folder(recording->folder);
+  }
   // Separate pools, because rendering and estimation run concurrently.
   WorkerPool drawing(threads);
   WorkerPool estimating(threads);

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "core/util/output_folder.h"
 #include "harness/datasets/format/record_options.h"
 #include "harness/experiment/scenario.h"
 #include "harness/machine.h"
@@ -19,7 +20,8 @@ struct RunRecording {
 
 /// Prepares a folder for a scenario's run, with scenario.resolved.yaml. Throws Error as
 /// prepare_run_folder() does.
-void prepare_scenario_folder(const std::filesystem::path& folder, const ScenarioConfig& scenario);
+[[nodiscard]] FolderLock prepare_scenario_folder(const std::filesystem::path& folder,
+                                                 const ScenarioConfig& scenario);
 
 /// Builds simulation and SLAM system of a scenario and runs them in lockstep, with recording if
 /// requested. `threads` is the total number of worker threads; it changes no result.

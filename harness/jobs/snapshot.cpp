@@ -71,7 +71,7 @@ cv::Mat colour_labels(const cv::Mat& labels) {
 }
 
 cv::Mat turntable(const sim::WorldConfig& world, std::uint64_t seed, const PinholeCamera& camera,
-                  const sim::RendererConfig& config, const std::filesystem::path& plant_cache) {
+                  const sim::RendererConfig& config, const CacheFolder& plant_cache) {
   constexpr int kViews = 8;
   constexpr int kColumns = 4;
   constexpr double kPitchDown = 22 * kRadiansPerDegree;

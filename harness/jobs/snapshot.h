@@ -28,6 +28,6 @@ cv::Mat colour_labels(const cv::Mat& labels);
 
 /// A contact sheet of eight views of a world from all sides, from above eye level.
 cv::Mat turntable(const sim::WorldConfig& world, std::uint64_t seed, const PinholeCamera& camera,
-                  const sim::RendererConfig& renderer, const std::filesystem::path& plant_cache);
+                  const sim::RendererConfig& renderer, const CacheFolder& plant_cache);
 
 }  // namespace vinebench::harness

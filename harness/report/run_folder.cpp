@@ -17,37 +17,41 @@
 namespace vinebench::harness {
 namespace {
 
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) fail("output folder {}: cannot be created: {}", folder.string(), error.message());
-}
-
-void remove_old_images(const std::filesystem::path& folder) {
-  static const std::regex ours("[0-9]{6,}_.*\\.png");
+void remove_files(const std::filesystem::path& folder, const std::regex& names) {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    if (std::regex_match(entry.path().filename().string(), ours)) {
+    if (std::regex_match(entry.path().filename().string(), names)) {
       std::filesystem::remove(entry.path(), ignored);
     }
   }
 }
 
+/// Images and what a killed run has left unfinished.
+void remove_old_files(const std::filesystem::path& folder) {
+  static const std::regex unfinished(".*\\.[0-9a-f]{16}\\.partial");
+  static const std::regex images("[0-9]{6,}_.*\\.png");
+  remove_files(folder, unfinished);
+  remove_files(folder / "frames", unfinished);
+  remove_files(folder / "frames", images);
+}
+
 }  // namespace
 
-void prepare_run_folder(const std::filesystem::path& folder, const std::string& name,
-                        const std::string& settings) {
-  make_folder(folder / "frames");
+FolderLock prepare_run_folder(const std::filesystem::path& folder, const std::string& name,
+                              const std::string& settings) {
   try {
+    FolderLock lock(folder);
+    create_inner_folder(folder / "frames");
     write_file_atomically(folder / name, settings);
+    std::error_code ignored;
+    for (const char* stale : {"metrics.json", kInputsFile}) {
+      std::filesystem::remove(folder / stale, ignored);
+    }
+    remove_old_files(folder);
+    return lock;
   } catch (const Error& error) {
     fail("output folder {}", error.what());
   }
-  std::error_code ignored;
-  for (const char* stale : {"metrics.json", kInputsFile}) {
-    std::filesystem::remove(folder / stale, ignored);
-  }
-  remove_old_images(folder / "frames");
 }
 
 void write_run_files(const std::filesystem::path& folder, const Trial& trial,

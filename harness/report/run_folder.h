@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "core/util/output_folder.h"
 #include "harness/judge/run_report.h"
 
 namespace vinebench::harness {
@@ -13,10 +14,11 @@ namespace vinebench::harness {
 inline constexpr const char* kInputsFile = "inputs.txt";
 
 /// Creates the folder of a run, writes its settings to a file of the given name and removes results
-/// of an earlier run that would remain (metrics.json and images of frames). Throws Error if the
-/// folder is not writable, before any work is done.
-void prepare_run_folder(const std::filesystem::path& folder, const std::string& name,
-                        const std::string& settings);
+/// of an earlier run that would remain (metrics.json and images of frames). The folder belongs to
+/// this process while the lock lives. Throws Error if the folder is not writable or another process
+/// has it, before any work is done.
+[[nodiscard]] FolderLock prepare_run_folder(const std::filesystem::path& folder,
+                                            const std::string& name, const std::string& settings);
 
 /// Trajectories, events, plot and summary: all except the metrics, which only a complete run has.
 void write_run_files(const std::filesystem::path& folder, const Trial& trial,

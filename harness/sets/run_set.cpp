@@ -2,19 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/sets/run_set.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <iostream>
 #include <map>
 
 #include "core/util/error.h"
 #include "core/util/files.h"
+#include "core/util/output_file.h"
+#include "core/util/output_folder.h"
 #include "harness/jobs/run_scenario.h"
 #include "harness/report/run_folder.h"
 #include "harness/sets/child_process.h"
@@ -37,16 +36,16 @@ bool has_inputs(const fs::path& folder, const std::string& fingerprint) {
 
 /// Redirects the output of this process to the file.
 void write_messages_to(const fs::path& file) {
-  const int log = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-  if (log < 0) fail("{}: cannot be written: {}", file.string(), std::strerror(errno));
-  dup2(log, STDOUT_FILENO);
-  dup2(log, STDERR_FILENO);
-  close(log);
+  const Descriptor log = create_file(file);
+  dup2(log.number(), STDOUT_FILENO);
+  dup2(log.number(), STDERR_FILENO);
 }
 
 /// In a child process.
 std::string run_planned(const PlannedRun& run, const SetOptions& options, int threads) {
-  prepare_scenario_folder(run.folder, run.scenario);
+  create_inner_folder(run.folder.parent_path());
+  create_inner_folder(run.folder);
+  const FolderLock lock = prepare_scenario_folder(run.folder, run.scenario);
   write_messages_to(run.folder / "log.txt");
   RunOptions run_options;
   run_options.folder = run.folder;

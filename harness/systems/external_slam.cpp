@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/util/error.h"
+#include "core/util/output_folder.h"
 #include "harness/systems/foreign_trajectory.h"
 #include "harness/systems/program.h"
 
@@ -41,10 +42,10 @@ class ExternalSlam : public SlamSystem {
         output_(fs::absolute(folder / "external")),
         stopped_(std::move(stopped)) {
     check_external_slam(config, rig_);
-    std::error_code error;
-    fs::create_directories(output_, error);
-    if (error) fail("{}: cannot be created: {}", output_.string(), error.message());
-    fs::remove(output_ / config.trajectory, error);  // of an earlier run
+    create_inner_folder(output_);
+    create_inner_folder(recording_);
+    std::error_code ignored;
+    fs::remove(output_ / config.trajectory, ignored);  // of an earlier run
     writer_.emplace(recording_, notes);
   }
 

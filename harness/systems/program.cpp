@@ -14,7 +14,9 @@
 #include <thread>
 
 #include "core/util/error.h"
+#include "core/util/files.h"
 #include "core/util/input_file.h"
+#include "core/util/output_file.h"
 
 namespace vinebench::harness {
 namespace {
@@ -43,11 +45,10 @@ std::vector<std::string> environment_of(const Program& program) {
 /// Resources for spawning, released at the end.
 class SpawnSettings {
  public:
-  explicit SpawnSettings(const Program& program) {
+  explicit SpawnSettings(const Program& program) : log_(create_file(program.log)) {
     posix_spawn_file_actions_init(&actions_);
     posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, program.log.c_str(),
-                                     O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    posix_spawn_file_actions_adddup2(&actions_, log_.number(), STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO);
     posix_spawn_file_actions_addchdir_np(&actions_, program.folder.c_str());
     posix_spawnattr_init(&attributes_);
@@ -75,6 +76,7 @@ class SpawnSettings {
   }
 
  private:
+  Descriptor log_;
   posix_spawn_file_actions_t actions_{};
   posix_spawnattr_t attributes_{};
 };

@@ -157,6 +157,21 @@ std::array<std::uint8_t, 3> vertex_colour(const Eigen::Vector3f& linear) {
   return bytes;
 }
 
+namespace {
+
+ImportedMesh sound(ImportedMesh mesh, const std::filesystem::path& file) {
+  check(mesh.asset, file.string());
+  normalise(mesh.asset);
+  mesh.asset.update_bounds();
+  return mesh;
+}
+
+}  // namespace
+
+Asset asset_of_glb(const std::string& bytes, const std::filesystem::path& file) {
+  return sound(read_gltf(bytes, file, Strictness::kStrict), file).asset;
+}
+
 Asset load_asset(const std::filesystem::path& file) {
   return load_mesh(file, Strictness::kStrict).asset;
 }
@@ -165,18 +180,32 @@ ImportedMesh load_mesh(const std::filesystem::path& file, Strictness strictness)
   std::string extension = file.extension().string();
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return std::tolower(c); });
-  ImportedMesh mesh;
   if (extension == ".glb" || extension == ".gltf") {
-    mesh = read_gltf(file, strictness);
-  } else if (extension == ".obj" || extension == ".stl" || extension == ".dae") {
-    mesh = import_mesh(file, strictness);
-  } else {
-    fail("{}: expected a mesh of .glb, .gltf, .obj, .stl or .dae", file.string());
+    return sound(read_gltf(read_mesh_file(file), file, strictness), file);
   }
-  check(mesh.asset, file.string());
-  normalise(mesh.asset);
-  mesh.asset.update_bounds();
-  return mesh;
+  if (extension == ".obj" || extension == ".stl" || extension == ".dae") {
+    return sound(import_mesh(file, strictness), file);
+  }
+  fail("{}: expected a mesh of .glb, .gltf, .obj, .stl or .dae", file.string());
+}
+
+}  // namespace
+
+Asset asset_of_glb(const std::string& bytes, const std::filesystem::path& file) {
+  return sound(read_gltf(bytes, file), file);
+}
+
+Asset load_asset(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return std::tolower(c); });
+  if (extension == ".glb" || extension == ".gltf") {
+    return sound(read_gltf(read_mesh_file(file), file), file);
+  }
+  if (extension == ".obj" || extension == ".stl" || extension == ".dae") {
+    return sound(import_mesh(file), file);
+  }
+  fail("{}: expected a mesh of .glb, .gltf, .obj, .stl or .dae", file.string());
 }
 
 }  // namespace vinebench::sim

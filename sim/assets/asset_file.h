@@ -19,6 +19,8 @@ Asset load_asset(const std::filesystem::path& file);
 /// The same with the names of its parts. Unless it is strict, an image that is missing or broken
 /// and whatever else a mesh can be drawn without is noted in place of an Error.
 ImportedMesh load_mesh(const std::filesystem::path& file, Strictness strictness);
+/// The same of a .glb file's bytes that are in memory already; `file` is its name.
+Asset asset_of_glb(const std::string& bytes, const std::filesystem::path& file);
 
 /// The asset as the bytes of a .glb file with its images inside. Viewers show its finest level;
 /// load_asset restores all levels and materials exactly, but for colours of vertices.
@@ -26,7 +28,9 @@ std::string to_glb(const Asset& asset);
 
 // Parts of load_mesh.
 
-ImportedMesh read_gltf(const std::filesystem::path& file, Strictness strictness);
+/// Of a .glb's or .gltf's bytes; `file` is its name.
+ImportedMesh read_gltf(const std::string& bytes, const std::filesystem::path& file,
+                       Strictness strictness);
 /// With assimp. Equal vertices are joined. Where there are no normals, and for .stl, they are
 /// computed; edges of more than 60 degrees stay sharp.
 ImportedMesh import_mesh(const std::filesystem::path& file, Strictness strictness);

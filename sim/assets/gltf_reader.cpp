@@ -31,10 +31,10 @@ constexpr std::array<const char*, 13> kNumberedLabels{"sky",  "ground", "grass",
 
 class GltfReader {
  public:
-  GltfReader(const std::filesystem::path& file, Strictness strictness)
+  GltfReader(const std::string& bytes, const std::filesystem::path& file, Strictness strictness)
       : file_(file.string()),
         lenient_(strictness == Strictness::kLenient),
-        model_(parse_gltf(file)) {
+        model_(parse_gltf(bytes, file)) {
     mesh_.up_axis = UpAxis::kY;
   }
 
@@ -430,8 +430,9 @@ class GltfReader {
 
 }  // namespace
 
-ImportedMesh read_gltf(const std::filesystem::path& file, Strictness strictness) {
-  return GltfReader(file, strictness).read();
+ImportedMesh read_gltf(const std::string& bytes, const std::filesystem::path& file,
+                       Strictness strictness) {
+  return GltfReader(bytes, file, strictness).read();
 }
 
 }  // namespace vinebench::sim

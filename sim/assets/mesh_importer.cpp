@@ -48,9 +48,9 @@ class MeshImporter {
   }
 
   ImportedMesh read() {
-    std::string text = read_mesh_file(file_);
+    const std::string text = read_mesh_file(file_);
     check(text);
-    importer_.SetIOHandler(new MeshFiles(file_.string(), std::move(text)));  // owned by the importer
+    importer_.SetIOHandler(new MeshFiles(file_.string(), text));  // owned by the importer
     // Names rather than identifiers, which exporters make up from them.
     importer_.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
     importer_.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/plants/plant_cache.h"
 
-#include <algorithm>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "core/config/yaml_writer.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "core/util/random.h"
 #include "sim/assets/asset_file.h"
 #include "sim/plants/grapevine.h"
@@ -29,20 +29,11 @@ std::string plant_name(const PlantBrief& brief, std::uint64_t seed, int index) {
   return fmt::format("vine-{:016x}-{}.glb", fnv1a(key), index);
 }
 
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder, error)) {
-    fail("{}: the cache of plants cannot be made: {}", folder.string(),
-         error ? error.message() : "it is no folder");
-  }
-}
-
-std::optional<Asset> cached_plant(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) return std::nullopt;
+std::optional<Asset> cached_plant(const CacheFolder& cache, const std::string& name) {
+  const std::optional<std::string> bytes = read_cached(cache, name);
+  if (!bytes) return std::nullopt;
   try {
-    return load_asset(file);
+    return asset_of_glb(*bytes, name);
   } catch (const Error&) {
     return std::nullopt;
   }
@@ -57,31 +48,55 @@ std::vector<Grapevine> grow(PlantBrief brief, std::uint64_t seed, int count) {
   return plants;
 }
 
+/// The files of all plants of a set, as their bytes.
+std::vector<std::string> generate(const PlantBrief& brief, std::uint64_t seed, int count) {
+  const auto textures = plant_textures(brief.cultivar, brief.stage, seed);
+  std::vector<std::string> files;
+  for (const Asset& plant : mesh_grapevines(grow(brief, seed, count), textures)) {
+    files.push_back(to_glb(plant));
+  }
+  return files;
+}
+
+/// A cache saves time alone: without one the plants are generated each time.
+void keep(const CacheFolder& cache, const std::vector<std::string>& names,
+          const std::vector<std::string>& files) {
+  try {
+    for (std::size_t i = 0; i < files.size(); ++i) write_cached(cache, names[i], files[i]);
+  } catch (const Error& error) {
+    if (!cache.notice) return;
+    cache.notice(fmt::format("generated plants are not kept: {}", error.what()));
+  }
+}
+
+std::vector<Asset> load_or_generate(const PlantBrief& brief, std::uint64_t seed, int count,
+                                    const CacheFolder& cache) {
+  std::vector<std::string> names;
+  for (int i = 0; i < count; ++i) names.push_back(plant_name(brief, seed, i));
+  std::vector<Asset> plants;
+  for (const std::string& name : names) {
+    std::optional<Asset> plant = cached_plant(cache, name);
+    if (!plant) break;
+    plants.push_back(*std::move(plant));
+  }
+  if (plants.size() == names.size()) return plants;
+  const std::vector<std::string> files = generate(brief, seed, count);
+  keep(cache, names, files);
+  plants.clear();
+  // Read back, as all later runs will see them.
+  for (std::size_t i = 0; i < files.size(); ++i) plants.push_back(asset_of_glb(files[i], names[i]));
+  return plants;
+}
+
 }  // namespace
 
-PlantSet cached_plants(const VinesConfig& vines, std::uint64_t seed,
-                       const std::filesystem::path& cache) {
+PlantSet cached_plants(const VinesConfig& vines, std::uint64_t seed, const CacheFolder& cache) {
   const PlantBrief brief{vines, load_cultivar(vines.cultivar), growth_stage(vines.bbch), false};
-  make_folder(cache);
   const int count = vines.templates + (vines.young > 0 ? kYoungTemplates : 0);
-  std::vector<std::optional<Asset>> plants;
-  for (int i = 0; i < count; ++i)
-    plants.push_back(cached_plant(cache / plant_name(brief, seed, i)));
-  const bool whole =
-      std::ranges::all_of(plants, [](const auto& plant) { return plant.has_value(); });
-  if (!whole) {
-    const auto textures = plant_textures(brief.cultivar, brief.stage, seed);
-    const std::vector<Asset> assets = mesh_grapevines(grow(brief, seed, count), textures);
-    for (int i = 0; i < count; ++i) {
-      const std::filesystem::path file = cache / plant_name(brief, seed, i);
-      write_file_atomically(file, to_glb(assets.at(static_cast<std::size_t>(i))));
-      plants.at(static_cast<std::size_t>(i)) = load_asset(file);  // as all later runs will see it
-    }
-  }
   PlantSet set;
-  for (int i = 0; i < count; ++i) {
-    std::vector<Asset>& to = i < vines.templates ? set.grown : set.young;
-    to.push_back(*std::move(plants.at(static_cast<std::size_t>(i))));
+  for (Asset& plant : load_or_generate(brief, seed, count, cache)) {
+    const bool is_young = set.grown.size() == static_cast<std::size_t>(vines.templates);
+    (is_young ? set.young : set.grown).push_back(std::move(plant));
   }
   return set;
 }

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
+#include <cstdint>
 #include <vector>
 
+#include "core/util/cache_folder.h"
 #include "sim/assets/asset.h"
 #include "sim/world/vines.h"
 
@@ -16,10 +17,10 @@ struct PlantSet {
   std::vector<Asset> young;  ///< of the second year; empty if the world has none
 };
 
-/// Read from the folder `cache`, or generated from the seed and stored there as .glb files. Their
-/// names contain a hash of all inputs; if one is missing or damaged all are generated again. Throws
-/// Error if the folder cannot be written or the cultivar's file cannot be read.
-PlantSet cached_plants(const VinesConfig& vines, std::uint64_t seed,
-                       const std::filesystem::path& cache);
+/// Read from the cache, or generated from the seed and kept there as .glb files. Their names
+/// contain a hash of all inputs; if one is missing or not as it was written, all are generated
+/// again. Where they cannot be kept the cache's notice tells so, once. Throws Error if the
+/// cultivar's file cannot be read.
+PlantSet cached_plants(const VinesConfig& vines, std::uint64_t seed, const CacheFolder& cache);
 
 }  // namespace vinebench::sim

@@ -24,7 +24,7 @@ struct PlantModels {
 
 /// The world's own meshes, or the plants that are grown for it.
 PlantModels add_plants(Scene& scene, const WorldConfig& world, std::uint64_t seed,
-                       const std::filesystem::path& cache) {
+                       const CacheFolder& cache) {
   PlantModels models;
   const MeshImport import = world.vines.mesh_import.value_or(MeshImport{});
   for (Asset& plant :
@@ -43,7 +43,7 @@ PlantModels add_plants(Scene& scene, const WorldConfig& world, std::uint64_t see
 /// Plants in their rows: which template, which way round and how tall is drawn for each place. Wood
 /// that is led to one side only points the same way all along a row.
 void add_vines(Scene& scene, const WorldConfig& world, const WorldLayout& layout,
-               std::uint64_t seed, const std::filesystem::path& cache) {
+               std::uint64_t seed, const CacheFolder& cache) {
   const PlantModels models = add_plants(scene, world, seed, cache);
   const std::vector<VinePlace>& places = layout.vines;
   const bool one_sided = world.vines.training == Training::kUnilateralCordon ||
@@ -65,8 +65,7 @@ void add_vines(Scene& scene, const WorldConfig& world, const WorldLayout& layout
 
 }  // namespace
 
-Scene build_scene(const WorldConfig& world, std::uint64_t seed,
-                  const std::filesystem::path& cache) {
+Scene build_scene(const WorldConfig& world, std::uint64_t seed, const CacheFolder& cache) {
   Scene scene;
   scene.seed = seed;
   scene.light = daylight(world.sun, world.sky);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/config/config_field.h"
+#include "core/util/cache_folder.h"
 #include "sim/scene/scene.h"
 #include "sim/world/daylight.h"
 #include "sim/world/ground_config.h"
@@ -162,7 +163,8 @@ enum class VineKind { kNone, kYoung, kGrown };
 VineKind vine_at(const WorldConfig& world, std::uint64_t seed, std::size_t place);
 
 /// Grows (or loads) the plants and assembles all that can be drawn. The plants of a seed are grown
-/// once into `cache` as .glb files. Throws Error that names the mesh that cannot be loaded.
-Scene build_scene(const WorldConfig& world, std::uint64_t seed, const std::filesystem::path& cache);
+/// once into `cache` as .glb files, or each time where it cannot be used. Throws Error that names
+/// the mesh that cannot be loaded.
+Scene build_scene(const WorldConfig& world, std::uint64_t seed, const CacheFolder& cache);
 
 }  // namespace vinebench::sim

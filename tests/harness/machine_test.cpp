@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/machine.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include <map>
 #include <optional>
@@ -16,7 +18,8 @@ namespace {
 class MachineTest : public ::testing::Test {
  protected:
   MachineTest() {
-    for (const char* name : {"VINEBENCH_GL", "VINEBENCH_CACHE", "XDG_CACHE_HOME", "HOME"}) {
+    for (const char* name :
+         {"VINEBENCH_GL", "VINEBENCH_CACHE", "XDG_CACHE_HOME", "HOME", "TMPDIR"}) {
       const char* value = getenv(name);
       before_[name] = value == nullptr ? std::nullopt : std::optional<std::string>(value);
       unsetenv(name);
@@ -39,21 +42,26 @@ TEST_F(MachineTest, ThePlatformIsThatOfTheVariable) {
 }
 
 TEST_F(MachineTest, TheCacheIsTheFirstOfFourFolders) {
-  EXPECT_EQ(machine_of_environment().plant_cache,
-            std::filesystem::temp_directory_path() / "vinebench-cache");
+  EXPECT_EQ(machine_of_environment().plant_cache.folder,
+            std::filesystem::temp_directory_path() / fmt::format("vinebench-cache-{}", geteuid()));
   setenv("HOME", "/home/anne", 1);
-  EXPECT_EQ(machine_of_environment().plant_cache, "/home/anne/.cache/vinebench");
+  EXPECT_EQ(machine_of_environment().plant_cache.folder, "/home/anne/.cache/vinebench");
   setenv("XDG_CACHE_HOME", "/var/cache", 1);
-  EXPECT_EQ(machine_of_environment().plant_cache, "/var/cache/vinebench");
+  EXPECT_EQ(machine_of_environment().plant_cache.folder, "/var/cache/vinebench");
   setenv("VINEBENCH_CACHE", "/plants", 1);
-  EXPECT_EQ(machine_of_environment().plant_cache, "/plants");
+  EXPECT_EQ(machine_of_environment().plant_cache.folder, "/plants");
+}
+
+TEST_F(MachineTest, WithoutAnyFolderThereIsNoCache) {
+  setenv("TMPDIR", "/nowhere", 1);
+  EXPECT_EQ(machine_of_environment().plant_cache.folder, "");
 }
 
 TEST_F(MachineTest, AnEmptyVariableIsNone) {
   setenv("HOME", "/home/anne", 1);
   setenv("VINEBENCH_CACHE", "", 1);
   setenv("VINEBENCH_GL", "", 1);
-  EXPECT_EQ(machine_of_environment().plant_cache, "/home/anne/.cache/vinebench");
+  EXPECT_EQ(machine_of_environment().plant_cache.folder, "/home/anne/.cache/vinebench");
   EXPECT_EQ(machine_of_environment().gl_platform, "");
 }
 

@@ -45,7 +45,8 @@ class ReplayTest : public testing::Test {
     const slam::SlamConfig slam = replay_settings(recording, "", {});
     RunOptions options;
     options.folder = out;
-    if (!out.empty()) prepare_replay_folder(out, slam);
+    std::optional<FolderLock> lock;
+    if (!out.empty()) lock.emplace(prepare_replay_folder(out, slam));
     return run_replay(std::move(recording), slam, threads, options);
   }
 

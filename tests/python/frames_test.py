@@ -4,11 +4,13 @@
 
 Usage: frames_test.py VINEBENCH ROOT, with the module's folder in PYTHONPATH.
 """
+import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import numpy as np
 
@@ -56,6 +58,12 @@ class FramesTest(unittest.TestCase):
             self.assertEqual(frame.images["side"].shape, (1080, 1920, 3))
             self.assertEqual(frame.images["back_left"].dtype, np.uint8)
             self.assertEqual(frame.time, frame.stamp * 1e-9)
+
+    def test_plants_that_cannot_be_kept_are_a_warning(self):
+        bare = {"world.vines.templates": 1, "world.vines.bbch": 0}
+        with unittest.mock.patch.dict(os.environ, VINEBENCH_CACHE="/proc/none"):
+            with self.assertWarnsRegex(RuntimeWarning, "plants are not kept: /proc/none"):
+                open_frames(set=bare)
 
     def test_depth_and_poses_are_the_recorded_ones_to_the_bit(self):
         poses = np.loadtxt(self.recording / "tum/body.txt")

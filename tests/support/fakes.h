@@ -145,7 +145,8 @@ inline constexpr const char* kFakeSettings = "name: \"fake\"\n";
 
 /// A run folder for these fakes.
 inline void prepare_fake_folder(const std::filesystem::path& folder) {
-  harness::prepare_run_folder(folder, "scenario.resolved.yaml", kFakeSettings);
+  const FolderLock lock =
+      harness::prepare_run_folder(folder, "scenario.resolved.yaml", kFakeSettings);
 }
 
 }  // namespace vinebench::test

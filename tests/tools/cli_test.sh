@@ -199,6 +199,81 @@ expect 0 "bench record" "pictures/hour" -- bench record --scenario quick-loop "$
 [[ $? -eq 1 ]] || report "set of runs: expected exit code 1, for a drive that ends too early"
 grep -q '<testcase ' verdicts.xml || report "set of runs: verdicts.xml has no case"
 grep -q 'quick-loop' set/table.md || report "set of runs: table.md lacks the scenario"
+
+# Caches: those of other users and of nobody, and several processes that fill one at once.
+view=(render csl-vineyard --set vines.templates=1 --set vines.bbch=0 --camera 32x24@20 --pose 0,0,1,0)
+expect_notices() { # expect_notices COUNT NAME
+  local got
+  got=$(grep -c 'plants are not kept' "$work/stderr")
+  [[ $got -eq $1 ]] || report "$2: $got notices, expected $1"
+}
+expect 0 "render with a cache" -- "${view[@]}" --out kept.png --cache plants
+expect_notices 0 "render with a cache"
+[[ -n $(ls plants/*.glb) ]] || report "render with a cache: nothing is kept"
+[[ $(stat -c %a plants) == 700 ]] || report "render with a cache: the folder is not private"
+for cache in "$work/file" "$work/file/below" /proc/none; do
+  expect 0 "render with the cache $cache" -- "${view[@]}" --out unkept.png --cache "$cache"
+  expect_notices 1 "render with the cache $cache"
+  cmp -s kept.png unkept.png || report "render with the cache $cache: another image"
+done
+bare=(--set world.vines.templates=1 --set world.vines.bbch=0)
+VINEBENCH_CACHE=/proc/none expect 0 "a recording of two seeds without a cache" -- \
+  record quick-loop --format tum --out uncached --seeds 1..2 --frames 0..1 "${court[@]}" "${bare[@]}"
+expect_notices 1 "a recording of two seeds without a cache"
+"$vinebench" run quick-loop "${court[@]}" "${bare[@]}" --seeds 1..2 --jobs 2 --out uncached_set \
+  --cache /proc/none >"$work/stdout" 2>"$work/stderr"
+[[ -s uncached_set/table.md ]] || report "a set without a cache: no table"
+expect_notices 1 "a set without a cache"
+mkdir tmp theirs && chmod 1777 tmp
+planted=$PWD/tmp/vinebench-cache-$(id -u)
+ln -s "$PWD/theirs" "$planted"
+unset_home=(env -u HOME -u XDG_CACHE_HOME -u VINEBENCH_CACHE TMPDIR="$PWD/tmp")
+"${unset_home[@]}" "$vinebench" "${view[@]}" --out unkept.png >"$work/stdout" 2>"$work/stderr" ||
+  report "a planted cache: exit code $?"
+expect_notices 1 "a planted cache"
+[[ -z $(ls theirs) ]] || report "a planted cache: its link was followed"
+rm "$planted"
+"${unset_home[@]}" "$vinebench" "${view[@]}" --out unkept.png >"$work/stdout" 2>"$work/stderr"
+expect_notices 0 "the cache of a user without a home"
+[[ $(stat -c %a "$planted") == 700 ]] || report "the cache of a user without a home: is not private"
+
+processes=()
+for i in 1 2 3 4 5 6; do
+  "$vinebench" "${view[@]}" --out "at_once_$i.png" --cache at_once >"at_once_$i.txt" 2>&1 &
+  processes+=($!)
+done
+for i in 1 2 3 4 5 6; do
+  wait "${processes[i - 1]}" || report "process $i of several that fill a cache: exit code $?"
+  [[ -s at_once_$i.txt ]] && report "process $i of several that fill a cache: $(cat at_once_$i.txt)"
+  cmp -s kept.png "at_once_$i.png" || report "process $i of several that fill a cache: another image"
+done
+[[ -z $(find at_once -name '*.partial') ]] || report "several that fill a cache: temporary files stay"
+
+# Folders in use. flock(1) holds them as another process would.
+in_use() { # in_use NAME FOLDER ARGUMENTS...
+  local name=$1 folder=$2 before
+  shift 2
+  mkdir -p "$folder"
+  before=$(ls -A "$folder")
+  exec 9<"$folder"
+  flock 9
+  expect 2 "$name" "another process is writing there" -- "$@"
+  [[ $(ls -A "$folder") == "$before" ]] || report "$name: the folder has changed"
+  exec 9<&-
+}
+in_use "run into a folder in use" busy run quick-loop "${court[@]}" --out busy
+in_use "set into a folder in use" busy run quick-loop "${court[@]}" --seeds 1..2 --out busy
+in_use "record into a folder in use" busy record quick-loop --format tum --out busy "${court[@]}"
+in_use "run with a recording in use" busy run quick-loop "${court[@]}" --out free --record busy
+in_use "replay into a folder in use" busy replay recorded --out busy
+"$vinebench" run quick-loop --set renderer.engine=fake --out busy >/dev/null 2>&1 &
+first=$!
+for _ in {1..100}; do [[ -d busy/frames ]] && break || sleep 0.1; done
+expect 2 "two runs into one folder" "another process is writing there" -- \
+  run quick-loop "${court[@]}" --out busy
+kill -KILL $first
+wait $first 2>/dev/null
+expect 0 "replay after a killed run" "results: " -- replay recorded --out busy
 popd >/dev/null || exit 1
 
 # What is no file is neither waited for nor read without end.

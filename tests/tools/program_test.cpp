@@ -47,6 +47,15 @@ TEST_F(ProgramTest, OptionsHaveAHelpATargetAndANameOfTheirOwn) {
   }
 }
 
+TEST_F(ProgramTest, CommandsThatNeedPlantsTakeACache) {
+  std::set<std::string> with_cache;
+  for (const auto& [name, command] : commands_) {
+    if (std::ranges::count(command.options, "--cache", &Option::name) > 0) with_cache.insert(name);
+  }
+  EXPECT_EQ(with_cache, (std::set<std::string>{"run", "record", "render", "bench render",
+                                               "bench slam", "bench record"}));
+}
+
 TEST_F(ProgramTest, WhatAnOptionExcludesIsAnOptionOfTheSameCommand) {
   for (const auto& [name, command] : commands_) {
     for (const Option& option : command.options) {

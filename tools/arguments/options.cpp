@@ -29,6 +29,20 @@ int default_threads() {
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
+Option cache_option(std::filesystem::path& folder) {
+  return {.name = "--cache",
+          .target = &folder,
+          .help =
+              "Folder of generated plants (default: $VINEBENCH_CACHE, else vinebench in the "
+              "user's cache); changes no result",
+          .type = "FOLDER"};
+}
+
+harness::Machine with_cache(harness::Machine machine, const std::filesystem::path& folder) {
+  if (!folder.empty()) machine.plant_cache.folder = folder;
+  return machine;
+}
+
 Option json_option(std::string& file) {
   return {.name = "--json",
           .target = &file,

@@ -24,6 +24,10 @@ std::vector<Override> parse_overrides(const std::vector<std::string>& texts);
 Option threads_option(int& threads);
 int default_threads();
 
+/// --cache, of a command that needs plants, and the machine with the folder that it names.
+Option cache_option(std::filesystem::path& folder);
+harness::Machine with_cache(harness::Machine machine, const std::filesystem::path& folder);
+
 /// --json, of a benchmark.
 Option json_option(std::string& file);
 

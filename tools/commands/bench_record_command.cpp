@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <memory>
 
 #include "core/util/files.h"
+#include "core/util/output_folder.h"
 #include "harness/benchmarks/record_benchmark.h"
 #include "harness/datasets/files/json_file.h"
 #include "tools/arguments/options.h"
@@ -21,6 +21,7 @@ struct BenchRecordArguments {
   std::string scenario;
   std::string json;
   std::string folder;
+  std::filesystem::path cache;
   std::vector<std::string> overrides;
   int threads = default_threads();
   std::int64_t frames = 60;
@@ -33,16 +34,12 @@ int bench_record(const BenchRecordArguments& arguments, const Surroundings& surr
       harness::load_scenario(surroundings.catalogue.find(harness::DataKind::kScenario, scenario),
                              parse_overrides(arguments.overrides));
   sim::choose_backend(benchmark.scenario.simulation.renderer, surroundings.machine.gl_platform);
-  benchmark.plant_cache = surroundings.machine.plant_cache;
+  benchmark.plant_cache = with_cache(surroundings.machine, arguments.cache).plant_cache;
   benchmark.frames = arguments.frames;
   benchmark.threads = arguments.threads;
-  const std::filesystem::path parent = arguments.folder.empty()
-                                           ? std::filesystem::temp_directory_path()
-                                           : std::filesystem::path(arguments.folder);
-  benchmark.folder = parent / fmt::format("vinebench-bench-{}", getpid());
+  const TemporaryFolder folder(arguments.folder);
+  benchmark.folder = folder.path();
   const auto result = harness::measure_recording(benchmark);
-  std::error_code ignored;
-  std::filesystem::remove_all(benchmark.folder, ignored);
   fmt::print("{}", harness::record_table(result));
   if (!arguments.json.empty())
     write_file_atomically(arguments.json, harness::json_text(result, 2) + "\n");
@@ -67,6 +64,7 @@ Command bench_record_command(const Surroundings& surroundings) {
                        .existing = Existing::kFolder},
                       overrides_option(arguments->overrides, "Set a key of the scenario"),
                       threads_option(arguments->threads),
+                      cache_option(arguments->cache),
                       {.name = "--frames",
                        .target = &arguments->frames,
                        .help = "Frames of the run",

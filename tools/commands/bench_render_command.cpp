@@ -4,8 +4,10 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "core/util/files.h"
+#include "core/util/output_folder.h"
 #include "harness/benchmarks/measurement.h"
 #include "harness/benchmarks/render_benchmark.h"
 #include "harness/benchmarks/render_case.h"
@@ -23,6 +25,7 @@ struct BenchArguments {
   harness::RenderSuite suite;
   std::string json;
   bool no_mujoco = false;
+  std::filesystem::path cache;
 };
 
 /// CPU time of a frame's images, each by itself, ms.
@@ -40,7 +43,9 @@ double growth_percent(const Json& few, const Json& many) {
 int bench_render(const BenchArguments& arguments, const Surroundings& surroundings) {
   harness::RenderSuite suite = arguments.suite;
   suite.mujoco = !arguments.no_mujoco;
-  suite.machine = surroundings.machine;
+  suite.machine = with_cache(surroundings.machine, arguments.cache);
+  std::optional<FolderLock> lock;
+  if (!suite.images.empty()) lock.emplace(suite.images);
   const harness::Catalogue& catalogue = surroundings.catalogue;
   if (suite.rig.empty()) suite.rig = catalogue.find(harness::DataKind::kRig, "csl-rover").string();
   suite.small_world = catalogue.find(harness::DataKind::kWorld, "csl-vineyard").string();
@@ -82,6 +87,7 @@ Command bench_render_command(const Surroundings& surroundings) {
                        .data = harness::DataKind::kRig},
                       json_option(arguments->json),
                       threads_option(suite.threads),
+                      cache_option(arguments->cache),
                       {.name = "--frames",
                        .target = &suite.frames,
                        .help = "Places on the route",

@@ -26,6 +26,7 @@ struct BenchSlamArguments {
   std::vector<std::string> overrides;
   int threads = default_threads();
   int frames = 150;
+  std::filesystem::path cache;
 };
 
 void load_recording(const BenchSlamArguments& arguments, harness::SlamBenchmark& benchmark) {
@@ -45,7 +46,8 @@ int bench_slam(const BenchSlamArguments& arguments, const Surroundings& surround
   if (arguments.dataset.empty()) {
     const std::string scenario = arguments.scenario.empty() ? kRunByDefault : arguments.scenario;
     simulate_frames({surroundings.catalogue.find(harness::DataKind::kScenario, scenario),
-                     parse_overrides(arguments.overrides), arguments.frames, surroundings.machine},
+                     parse_overrides(arguments.overrides), arguments.frames,
+                     with_cache(surroundings.machine, arguments.cache)},
                     benchmark);
   } else {
     load_recording(arguments, benchmark);
@@ -77,6 +79,7 @@ Command bench_slam_command(const Surroundings& surroundings) {
                       overrides_option(arguments->overrides,
                                        "Set a key, e.g. slam.features.features=1200"),
                       threads_option(arguments->threads),
+                      cache_option(arguments->cache),
                       {.name = "--frames",
                        .target = &arguments->frames,
                        .help = "Frames at most; they are kept in memory",

@@ -23,10 +23,12 @@ struct RecordArguments {
   std::string seeds;
   std::string frames;
   std::string images;
+  std::filesystem::path cache;
 };
 
 harness::RecordRequest request_of(const RecordArguments& arguments) {
   harness::RecordRequest request = arguments.request;
+  request.machine = with_cache(request.machine, arguments.cache);
   request.overrides = parse_overrides(arguments.overrides);
   request.options.formats = harness::parse_formats(arguments.formats);
   request.options.categories = harness::parse_categories(arguments.labels);
@@ -134,7 +136,8 @@ std::vector<Option> request_options(RecordArguments& arguments) {
            .range = Range::between(1, 64)},
           {.name = "--resume",
            .target = &request.resume,
-           .help = "Go on with an interrupted recording: what is complete is kept"}};
+           .help = "Go on with an interrupted recording: what is complete is kept"},
+          cache_option(arguments.cache)};
 }
 
 }  // namespace

@@ -86,12 +86,13 @@ std::vector<Option> rover_options(ViewRequest& request) {
 struct RenderArguments {
   ViewRequest request;
   std::vector<std::string> overrides;
+  std::filesystem::path cache;
 };
 
 int render(const RenderArguments& arguments, const Surroundings& surroundings) {
   ViewRequest request = arguments.request;
   request.overrides = parse_overrides(arguments.overrides);
-  request.machine = surroundings.machine;
+  request.machine = with_cache(surroundings.machine, arguments.cache);
   if (!request.rover.empty() && request.rover_file.empty()) {
     request.rover_file =
         surroundings.catalogue.find(harness::DataKind::kRover, "csl-rover").string();
@@ -110,6 +111,7 @@ Command render_command(const Surroundings& surroundings) {
                   .run = [arguments, surroundings] { return render(*arguments, surroundings); }};
   append(command.options, truth_options(arguments->request));
   append(command.options, rover_options(arguments->request));
+  command.options.push_back(cache_option(arguments->cache));
   return command;
 }
 

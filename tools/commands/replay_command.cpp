@@ -32,7 +32,7 @@ int replay(const ReplayArguments& arguments) {
   const std::string format = recording.format;
   const std::filesystem::path folder = arguments.out.empty() ? std::filesystem::path("out") / name
                                                              : std::filesystem::path(arguments.out);
-  harness::prepare_replay_folder(folder, slam);
+  const FolderLock lock = harness::prepare_replay_folder(folder, slam);
   catch_interrupts();
   harness::RunOptions options = interactive_options(name);
   options.folder = folder;

@@ -31,6 +31,7 @@ struct RunArguments {
   int threads = default_threads();
   bool verify_determinism = false;
   harness::MapFiles maps;
+  std::filesystem::path cache;
   harness::Machine machine;
 };
 
@@ -108,7 +109,7 @@ int run_one(const RunArguments& arguments) {
   const std::filesystem::path folder = arguments.out.empty()
                                            ? std::filesystem::path("out") / scenario.name
                                            : std::filesystem::path(arguments.out);
-  harness::prepare_scenario_folder(folder, scenario);
+  const FolderLock lock = harness::prepare_scenario_folder(folder, scenario);
   catch_interrupts();
   harness::RunOptions options = interactive_options(scenario.name);
   options.folder = folder;
@@ -126,7 +127,8 @@ int run_one(const RunArguments& arguments) {
                                                     : kExpectationFailed;
 }
 
-int run(const RunArguments& arguments) {
+int run(RunArguments arguments) {
+  arguments.machine = with_cache(arguments.machine, arguments.cache);
   const bool set = arguments.scenarios.size() > 1 || !arguments.seeds.empty();
   if (!set && (!arguments.junit.empty() || arguments.jobs > 1 || arguments.force)) {
     fail("--jobs, --junit, --force: expected several scenarios or --seeds, such as --seeds 1..5");
@@ -153,7 +155,8 @@ std::vector<Option> run_options(RunArguments& arguments) {
            .type = "FOLDER"},
           overrides_option(arguments.overrides,
                            "Set a key of the scenario, e.g. world.sun.elevation_deg=20"),
-          threads_option(arguments.threads)};
+          threads_option(arguments.threads),
+          cache_option(arguments.cache)};
 }
 
 std::vector<Option> single_run_options(RunArguments& arguments) {

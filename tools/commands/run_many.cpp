@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <iostream>
+#include <optional>
 #include <system_error>
 
+#include "core/util/cache_folder.h"
 #include "core/util/error.h"
 #include "core/util/files.h"
+#include "core/util/output_folder.h"
 #include "harness/datasets/files/json_file.h"
 #include "harness/jobs/run_scenario.h"
 #include "harness/sets/junit.h"
@@ -23,12 +26,28 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Better before the runs than after them.
-void prepare(const ManyRuns& many) {
-  std::error_code error;
-  fs::create_directories(many.out, error);
-  if (error) fail("output folder {}: cannot be made: {}", many.out.string(), error.message());
-  for (const char* name : {"table.md", "summary.json"}) fs::remove(many.out / name, error);
+FolderLock prepare(const ManyRuns& many) {
+  std::optional<FolderLock> lock;
+  try {
+    lock.emplace(many.out);
+  } catch (const Error& error) {
+    fail("output folder {}", error.what());
+  }
+  std::error_code ignored;
+  for (const char* name : {"table.md", "summary.json"}) fs::remove(many.out / name, ignored);
   if (!many.junit.empty()) write_file_atomically(many.junit, "");
+  return *std::move(lock);
+}
+
+/// Without a cache that cannot be used, of which each run would tell in its own messages alone.
+harness::Machine checked_machine(harness::Machine machine) {
+  const std::string problem = problem_of(machine.plant_cache);
+  if (problem.empty()) return machine;
+  if (machine.plant_cache.notice) {
+    machine.plant_cache.notice("generated plants are not kept: " + problem);
+  }
+  machine.plant_cache = {};
+  return machine;
 }
 
 int report(const ManyRuns& many, const std::vector<harness::SeedsSummary>& scenarios) {
@@ -52,15 +71,16 @@ int report(const ManyRuns& many, const std::vector<harness::SeedsSummary>& scena
 int run_many(const ManyRuns& many) {
   const std::vector<harness::PlannedRun> plan =
       harness::plan_set(many.scenarios, many.seeds, many.out);
-  prepare(many);
+  const FolderLock lock = prepare(many);
+  const harness::Machine machine = checked_machine(many.machine);
   catch_interrupts();
   harness::SetOptions options;
   options.jobs = many.jobs;
   options.threads = many.threads;
   options.force = many.force;
-  options.run = [&many](const harness::ScenarioConfig& scenario, int threads,
-                        const harness::RunOptions& run) {
-    return harness::run_scenario(scenario, many.machine, threads, run);
+  options.run = [&machine](const harness::ScenarioConfig& scenario, int threads,
+                           const harness::RunOptions& run) {
+    return harness::run_scenario(scenario, machine, threads, run);
   };
   options.stopped = interrupted;
   options.progress = &std::cerr;

@@ -9,11 +9,11 @@
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <system_error>
 
 #include "core/util/error.h"
 #include "core/util/input_file.h"
 #include "harness/datasets/files/json_file.h"
+#include "core/util/output_file.h"
 #include "vinebench/version.h"
 
 namespace vinebench::harness {
@@ -70,40 +70,31 @@ Items lists_of(const fs::path& folder, const std::vector<std::string>& parts,
 }
 
 /// A list of the file.
-void write_list(std::ofstream& out, const std::string& name, const Items& items) {
-  out << "\"" << name << "\": [";
+void write_list(OutputFile& out, const std::string& name, const Items& items) {
+  out.write(fmt::format("\"{}\": [", name));
   const char* before = "\n";
   items([&](const std::string& line) {
-    out << before << line;
+    out.write(before);
+    out.write(line);
     before = ",\n";
   });
-  out << "\n]";
+  out.write("\n]");
 }
 
 void write_coco(const fs::path& file, const Json& categories, const Items& images,
                 const Items& annotations) {
-  fs::path partial = file;
-  partial += ".partial";
-  std::ofstream out(partial, std::ios::binary | std::ios::trunc);
-  if (!out) fail("{}: cannot be written: {}", file.string(), std::strerror(errno));
+  OutputFile out(file);
   const Json info{{"description", "Simulated vineyard, Vinebench"}, {"version", kVersion}};
   const Json licence{{"id", 1},
                      {"name", "CC0 1.0"},
                      {"url", "https://creativecommons.org/publicdomain/zero/1.0/"}};
-  out << "{\"info\": " << json_text(info) << ",\n\"licenses\": [" << json_text(licence)
-      << "],\n\"categories\": " << json_text(categories) << ",\n";
+  out.write(fmt::format("{{\"info\": {},\n\"licenses\": [{}],\n\"categories\": {},\n",
+                        json_text(info), json_text(licence), json_text(categories)));
   write_list(out, "images", images);
-  out << ",\n";
+  out.write(",\n");
   write_list(out, "annotations", annotations);
-  out << "}\n";
-  out.close();
-  std::error_code error;
-  if (out) fs::rename(partial, file, error);
-  if (!out || error) {
-    const std::string reason = error ? error.message() : std::strerror(errno);
-    fs::remove(partial, error);
-    fail("{}: cannot be written: {}", file.string(), reason);
-  }
+  out.write("}\n");
+  out.finish();
 }
 
 Json category_json(Category category) {

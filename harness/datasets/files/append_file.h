@@ -4,13 +4,15 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <string_view>
+
+#include "core/util/descriptor.h"
 
 namespace vinebench::harness {
 
-/// A text file that grows by complete parts: each part is flushed at once, and a part that does not
-/// fit on the disk is removed again. Throws Error with the system's reason.
+/// A text file that grows by complete parts: each part is written at once, and a part that does not
+/// fit on the disk is removed again. What had its name is replaced. Throws Error with the system's
+/// reason.
 class AppendFile {
  public:
   explicit AppendFile(std::filesystem::path file);
@@ -18,7 +20,7 @@ class AppendFile {
 
  private:
   std::filesystem::path file_;
-  std::ofstream out_;
+  Descriptor out_;
   std::uintmax_t size_ = 0;
 };
 

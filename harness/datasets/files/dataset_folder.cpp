@@ -14,15 +14,26 @@
 namespace vinebench::harness {
 
 std::filesystem::path make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) fail("recording {}: cannot be created: {}", folder.string(), error.message());
+  try {
+    create_inner_folder(folder);
+  } catch (const Error& error) {
+    fail("recording {}", error.what());
+  }
   return folder;
 }
 
+FolderLock lock_recording(const std::filesystem::path& folder) {
+  try {
+    return FolderLock(folder);
+  } catch (const Error& error) {
+    fail("recording {}", error.what());
+  }
+}
+
 std::filesystem::path claim_folder(const std::filesystem::path& folder) {
-  make_folder(folder);
   std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) fail("recording {}: cannot be created: {}", folder.string(), error.message());
   const bool empty = std::filesystem::is_empty(folder, error);
   if (error) fail("recording {}: cannot be read: {}", folder.string(), error.message());
   if (!empty) {

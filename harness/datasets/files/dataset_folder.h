@@ -4,10 +4,16 @@
 
 #include <filesystem>
 
+#include "core/util/output_folder.h"
+
 namespace vinebench::harness {
 
-/// Creates a folder and its parents. Throws Error with the system's reason.
+/// Creates a folder of a recording and its parents. Throws Error as create_inner_folder() does.
 std::filesystem::path make_folder(const std::filesystem::path& folder);
+
+/// The recording's folder, made if it is missing, for this process alone. Throws Error as
+/// FolderLock does.
+[[nodiscard]] FolderLock lock_recording(const std::filesystem::path& folder);
 
 /// Creates a new or empty folder and returns it. Throws Error if it cannot be created, is not
 /// writable, or is not empty.

@@ -155,6 +155,30 @@ TEST_F(RecordTest, FramesAndCamerasAreThoseAskedFor) {
   EXPECT_EQ(read_file(request_.out / "rgb/side/000003.png"), sparse);
 }
 
+TEST_F(RecordTest, AFolderInUseIsAnErrorAndUnchanged) {
+  request_.resume = true;
+  for (const bool several : {false, true}) {
+    if (several) request_.seeds = {1, 2};
+    const FolderLock other(request_.out);
+    EXPECT_THAT(error_of([&] { record({"rgb"}); }),
+                HasSubstr("recording " + request_.out.string() + ": another process is writing"));
+    EXPECT_TRUE(std::filesystem::is_empty(request_.out));
+  }
+}
+
+// It would be taken for an interrupted sequence, and its content removed.
+TEST_F(RecordTest, ALinkInASequencesPlaceIsNotFollowed) {
+  record({"rgb"}, 3);
+  std::filesystem::create_directories(folder_ / "all");
+  std::filesystem::create_directory_symlink(request_.out, folder_ / "all/seed_000001");
+  const std::string before = manifest();
+  request_.out = folder_ / "all";
+  request_.seeds = {1, 1};
+  request_.resume = true;
+  EXPECT_THAT(error_of([&] { record({"rgb"}); }), HasSubstr("seed_000001: is a link"));
+  EXPECT_EQ(read_file(folder_ / "data/files.xxh128"), before);
+}
+
 TEST_F(RecordTest, BadRequestsAreOneError) {
   request_.options.cameras = {"lefft"};
   EXPECT_THAT(error_of([&] { record({"rgb"}); }), HasSubstr("no camera named 'lefft'"));

@@ -72,6 +72,20 @@ TEST_F(RecordedBagsTest, ImagesAndColourAreThoseAskedFor) {
   EXPECT_FALSE(fs::exists(request_.out / "ros/left"));
 }
 
+TEST_F(RecordedBagsTest, LinksInItsPlaceAreNotFollowed) {
+  if (!has_rosbag()) GTEST_SKIP() << "built without rosbag";
+  const fs::path target = folder_.write("target", "theirs");
+  const fs::path file = folder_ / "linked.bag";
+  fs::create_symlink(target, file);
+  fs::create_symlink(target, file.string() + ".active");
+  RosBag bag(file);
+  bag.write_clock("/clock", 1);
+  bag.close();
+  EXPECT_EQ(read_file(target), "theirs");
+  EXPECT_FALSE(fs::is_symlink(file));
+  EXPECT_GT(fs::file_size(file), 0u);
+}
+
 /// Limits the size of files during its lifetime.
 class SizeLimit {
  public:

@@ -19,7 +19,7 @@ using RunScenarioTest = test::CourtScenario;
 TEST_F(RunScenarioTest, RepeatsToTheByteWhateverTheThreadsAndTheRecording) {
   RunOptions options;
   options.folder = folder_ / "out";
-  prepare_scenario_folder(options.folder, scenario());
+  const FolderLock lock = prepare_scenario_folder(options.folder, scenario());
   const RunReport first = run_scenario(scenario(), machine(), 1, options).report;
   EXPECT_EQ(first.scenario, "court");
   EXPECT_EQ(first.seed, 5);
@@ -34,6 +34,14 @@ TEST_F(RunScenarioTest, RepeatsToTheByteWhateverTheThreadsAndTheRecording) {
   const DatasetCard card = read_card(folder_ / "data");
   EXPECT_TRUE(card.complete);
   EXPECT_EQ(card.frames, kFrames);
+}
+
+TEST_F(RunScenarioTest, ARecordingInUseIsAnError) {
+  const FolderLock other(folder_ / "data");
+  EXPECT_THAT(test::error_of([&] {
+                run_scenario(scenario(), machine(), 1, {}, RunRecording{folder_ / "data", {}});
+              }),
+              HasSubstr("another process is writing there"));
 }
 
 TEST_F(RunScenarioTest, MapsAreForTheBuiltInCore) {

@@ -5,8 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+#include <tuple>
+
 #include "core/util/error.h"
 #include "core/util/files.h"
+#include "harness/run.h"
 #include "tests/support/fakes.h"
 #include "tests/support/test_folder.h"
 
@@ -19,14 +23,19 @@ using testing::HasSubstr;
 TEST(RunFolderTest, WhatAnEarlierRunLeftIsRemoved) {
   const test::TestFolder tests;
   const fs::path folder = tests / "a/run";
-  prepare_run_folder(folder, "settings.yaml", "old: 1\n");
-  const std::vector<std::string> stale{"metrics.json", kInputsFile, "frames/000200_side.png",
-                                       "frames/1000000_front_left.png"};
-  const std::vector<std::string> foreign{"notes.txt", "frames/my.png", "frames/12_side.png"};
+  { const FolderLock lock = prepare_run_folder(folder, "settings.yaml", "old: 1\n"); }
+  const std::vector<std::string> stale{"metrics.json",
+                                       kInputsFile,
+                                       "frames/000200_side.png",
+                                       "frames/1000000_front_left.png",
+                                       "plot.svg.0123456789abcdef.partial",
+                                       "frames/000200_side.png.0123456789abcdef.partial"};
+  const std::vector<std::string> foreign{"notes.txt", "frames/my.png", "frames/12_side.png",
+                                         "x.partial"};
   for (const auto& names : {stale, foreign}) {
     for (const std::string& name : names) write_file_atomically(folder / name, "x");
   }
-  prepare_run_folder(folder, "settings.yaml", "new: 1\n");
+  const FolderLock lock = prepare_run_folder(folder, "settings.yaml", "new: 1\n");
   for (const std::string& name : stale) EXPECT_FALSE(fs::exists(folder / name)) << name;
   for (const std::string& name : foreign) EXPECT_TRUE(fs::exists(folder / name)) << name;
   EXPECT_EQ(read_file(folder / "settings.yaml"), "new: 1\n");
@@ -35,11 +44,13 @@ TEST(RunFolderTest, WhatAnEarlierRunLeftIsRemoved) {
 TEST(RunFolderTest, AFolderThatCannotBeWrittenIsAnError) {
   const test::TestFolder tests;
   const fs::path file = tests.write("file", "not a folder");
-  EXPECT_THAT(test::error_of([&] { prepare_run_folder(file / "run", "settings.yaml", ""); }),
-              testing::AllOf(HasSubstr("output folder"), HasSubstr("Not a directory")));
+  EXPECT_THAT(
+      test::error_of([&] { std::ignore = prepare_run_folder(file / "run", "settings.yaml", ""); }),
+      testing::AllOf(HasSubstr("output folder"), HasSubstr("Not a directory")));
   fs::create_directories(tests / "run/settings.yaml");  // in place of the file
-  EXPECT_THAT(test::error_of([&] { prepare_run_folder(tests / "run", "settings.yaml", ""); }),
-              HasSubstr("output folder"));
+  EXPECT_THAT(
+      test::error_of([&] { std::ignore = prepare_run_folder(tests / "run", "settings.yaml", ""); }),
+      HasSubstr("output folder"));
 }
 
 TEST(RunFolderTest, HasTheFilesOfTheRun) {
@@ -57,6 +68,70 @@ TEST(RunFolderTest, HasTheFilesOfTheRun) {
   write_metrics(folder.path(), report);
   EXPECT_THAT(read_file(folder / "metrics.json"),
               testing::StartsWith("{\n  \"scenario\": \"fake\",\n"));
+}
+
+TEST(RunFolderTest, AFolderInUseIsAnErrorAndUnchanged) {
+  const test::TestFolder folder;
+  const FolderLock first = prepare_run_folder(folder.path(), "settings.yaml", "first: 1\n");
+  folder.write("metrics.json", "{}");
+  EXPECT_THAT(test::error_of([&] {
+                std::ignore = prepare_run_folder(folder.path(), "settings.yaml", "second: 1\n");
+              }),
+              testing::AllOf(HasSubstr("output folder " + folder.path().string()),
+                             HasSubstr("another process is writing there")));
+  EXPECT_EQ(read_file(folder / "settings.yaml"), "first: 1\n");
+  EXPECT_TRUE(fs::exists(folder / "metrics.json"));
+}
+
+/// Files and images of a run of the fakes.
+void run_fakes(const fs::path& folder) {
+  const FolderLock lock = prepare_run_folder(folder, "settings.yaml", test::kFakeSettings);
+  test::FakeSource source;
+  test::FakeSlam slam;
+  RunOptions options;
+  options.folder = folder;
+  run_lockstep_and_judge(test::fake_trial(), source, slam, options);
+}
+
+std::set<std::string> files_of(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_directory()) names.insert(entry.path().lexically_relative(folder).string());
+  }
+  return names;
+}
+
+// The names are those that a first run writes; beside each, that of a temporary file before its
+// name was random.
+TEST(RunFolderTest, LinksInTheFolderAreNotFollowed) {
+  const test::TestFolder tests;
+  run_fakes(tests / "first");
+  const std::set<std::string> names = files_of(tests / "first");
+  EXPECT_GE(names.size(), 9u);
+  const fs::path target = tests.write("target", "theirs");
+  fs::create_directories(tests / "second/frames");
+  for (const std::string& name : names) {
+    fs::create_symlink(target, tests / "second" / name);
+    fs::create_symlink(target, tests / "second" / (name + ".partial"));
+  }
+  run_fakes(tests / "second");
+  EXPECT_EQ(read_file(target), "theirs");
+  for (const std::string& name : names) {
+    EXPECT_FALSE(fs::is_symlink(tests / "second" / name)) << name;
+    EXPECT_TRUE(fs::is_symlink(tests / "second" / (name + ".partial"))) << name;
+  }
+}
+
+TEST(RunFolderTest, ALinkInTheImagesPlaceIsAnErrorAndNothingIsRemovedBehindIt) {
+  const test::TestFolder tests;
+  fs::create_directories(tests / "theirs");
+  fs::create_directories(tests / "run");
+  tests.write("theirs/000000_front_left.png", "x");
+  fs::create_directory_symlink(tests / "theirs", tests / "run/frames");
+  EXPECT_THAT(
+      test::error_of([&] { std::ignore = prepare_run_folder(tests / "run", "s.yaml", ""); }),
+      HasSubstr("run/frames: is a link"));
+  EXPECT_TRUE(fs::exists(tests / "theirs/000000_front_left.png"));
 }
 
 // Cartons cover 95 % of the front pair; the events' threshold is that of the expectation.

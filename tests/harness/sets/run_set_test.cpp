@@ -111,6 +111,30 @@ TEST_F(RunSetTest, ARunThatCrashesIsAnErrorOfItsOwn) {
   EXPECT_EQ(runs[2].error, "");
 }
 
+TEST_F(RunSetTest, AFolderInUseIsAnErrorOfItsRun) {
+  const FolderLock other(folder_ / "fake/seed-2");
+  const auto runs = run({1, 2});
+  EXPECT_EQ(runs[0].error, "");
+  EXPECT_THAT(runs[1].error, HasSubstr("another process is writing there"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_ / "fake/seed-2"));
+}
+
+TEST_F(RunSetTest, LinksInTheFoldersAreNotFollowed) {
+  const auto target = folder_.write("target", "theirs");
+  std::filesystem::create_directories(folder_ / "fake/seed-1");
+  std::filesystem::create_directories(folder_ / "theirs");
+  for (const char* name : {"log.txt", "inputs.txt", "inputs.txt.partial"}) {
+    std::filesystem::create_symlink(target, folder_ / "fake/seed-1" / name);
+  }
+  std::filesystem::create_directory_symlink(folder_ / "theirs", folder_ / "fake/seed-2");
+  const auto runs = run({1, 2});
+  EXPECT_EQ(runs[0].error, "");
+  EXPECT_EQ(read_file(target), "theirs");
+  EXPECT_THAT(read_file(folder_ / "fake/seed-1/log.txt"), HasSubstr("100%"));
+  EXPECT_THAT(runs[1].error, HasSubstr("seed-2: is a link"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_ / "theirs"));
+}
+
 TEST_F(RunSetTest, AStopLeavesTheRestForAnotherTime) {
   options_.stopped = [&] { return std::filesystem::exists(folder_ / "fake/seed-1/inputs.txt"); };
   options_.run = [](const ScenarioConfig& scenario, int threads, const RunOptions& options) {

@@ -100,6 +100,16 @@ TEST_F(ExternalSlamTest, PosesOfACameraAreJudgedAsTheBodys) {
   EXPECT_NEAR(outcome.report.results.corrected.value().origin.rmse, 0, 1e-8);  // m, of nine digits
 }
 
+TEST_F(ExternalSlamTest, LinksInTheFoldersPlacesAreErrors) {
+  fs::create_directories(folder_ / "theirs");
+  for (const char* name : {"external", "recording"}) {
+    fs::create_directory_symlink(folder_ / "theirs", folder_ / name);
+    EXPECT_THAT(error(kStand), HasSubstr(std::string(name) + ": is a link"));
+    EXPECT_TRUE(fs::is_empty(folder_ / "theirs"));
+    fs::remove(folder_ / name);
+  }
+}
+
 TEST_F(ExternalSlamTest, SaysWhatWentWrong) {
   EXPECT_THAT(
       error("echo no vocabulary >&2; exit 3"),

@@ -35,6 +35,14 @@ TEST_F(ProgramTest, RunsInItsFolderWithItsEnvironmentAndLog) {
   EXPECT_EQ(log(), "given\naside\n");
 }
 
+TEST_F(ProgramTest, ALinkInTheLogsPlaceIsReplaced) {
+  const auto target = folder_.write("target", "theirs");
+  std::filesystem::create_symlink(target, folder_ / "log.txt");
+  EXPECT_TRUE(run_program(shell("echo ours")));
+  EXPECT_EQ(log(), "ours\n");
+  EXPECT_EQ(read_file(target), "theirs");
+}
+
 TEST_F(ProgramTest, AnExitCodeIsAnErrorWithTheLastLine) {
   const std::string error =
       test::error_of([&] { run_program(shell("echo first; echo the reason; echo; exit 3")); });

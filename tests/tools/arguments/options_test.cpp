@@ -40,6 +40,15 @@ TEST(Options, ThreadsAreAtLeastOne) {
   EXPECT_EQ(std::get<int*>(option.target), &threads);
 }
 
+TEST(Options, TheCacheReplacesThatOfTheMachine) {
+  std::filesystem::path folder;
+  EXPECT_EQ(std::get<std::filesystem::path*>(cache_option(folder).target), &folder);
+  harness::Machine machine;
+  machine.plant_cache.folder = "/home/anne/.cache/vinebench";
+  EXPECT_EQ(with_cache(machine, folder).plant_cache.folder, "/home/anne/.cache/vinebench");
+  EXPECT_EQ(with_cache(machine, "plants").plant_cache.folder, "plants");
+}
+
 TEST(Options, MapsAreLoadedFromExistingFilesAlone) {
   harness::MapFiles maps;
   const std::vector<Option> options = map_options(maps);

@@ -23,6 +23,7 @@
 #include <system_error>
 
 #include "core/util/error.h"
+#include "core/util/output_file.h"
 
 namespace vinebench::harness {
 namespace {
@@ -107,6 +108,7 @@ struct RosBag::Impl {
   bool begun = false;  ///< whether the current chunk has messages
 
   explicit Impl(const fs::path& name) : file(name), active(name.string() + ".active") {
+    create_file(active);  // the library would follow a link of this name
     expect_room(0);
     attempt([&] {
       bag = std::make_unique<rosbag::Bag>();

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "core/util/descriptor.h"
+
+namespace vinebench {
+
+// Every file that the program writes is made by one of these. Neither opens what has the file's
+// name already: a link in an output folder could lead anywhere.
+
+/// Creates a file for writing, with the mode by umask; closed by exec. What has its name, also a
+/// link, is removed first. Throws Error with the system's reason.
+Descriptor create_file(const std::filesystem::path& file);
+
+/// Writes all bytes; returns 0 or the error number.
+int write_bytes(const Descriptor& descriptor, std::string_view bytes);
+
+/// A file that is written in parts to a temporary file beside it, of a random name, which gets the
+/// file's name when complete. An unfinished one is removed. Throws Error with the system's reason.
+class OutputFile {
+ public:
+  explicit OutputFile(std::filesystem::path file);
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  ~OutputFile();
+
+  void write(std::string_view part);
+  void finish();
+
+ private:
+  void flush();
+  void check(int error) const;
+
+  std::filesystem::path file_;
+  std::filesystem::path partial_;
+  Descriptor out_;
+  std::string waiting_;
+};
+
+}  // namespace vinebench
