@@ -113,7 +113,8 @@ bool can_be_left_out(const std::string& extension) {
 }  // namespace
 
 tinygltf::Model parse_gltf(const std::string& bytes, const std::filesystem::path& file) {
-  check_json_depth(bytes.starts_with("glTF") ? glb_json(bytes, file.string()) : bytes, file.string());
+  check_json_depth(bytes.starts_with("glTF") ? glb_json(bytes, file.string()) : bytes,
+                   file.string());
   tinygltf::Model model;
   std::string problem;
   const bool whole = load(bytes, file, model, problem);

@@ -12,8 +12,8 @@
 
 #include "core/util/error.h"
 #include "core/util/input_file.h"
-#include "harness/datasets/files/json_file.h"
 #include "core/util/output_file.h"
+#include "harness/datasets/files/json_file.h"
 #include "vinebench/version.h"
 
 namespace vinebench::harness {

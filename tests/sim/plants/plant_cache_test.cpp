@@ -170,8 +170,8 @@ TEST(PlantCacheTest, SeveralProcessesMayFillItAtOnce) {
   EXPECT_EQ(node_of(plant_in(cache)), node);
 }
 
-// The values that core/config reads stand in the key themselves; errors, reading files and the cache
-// shape nothing, nor do the meshes that stand in place of plants.
+// The values that core/config reads stand in the key themselves; errors, reading files and the
+// cache shape nothing, nor do the meshes that stand in place of plants.
 bool shapes_no_plant(const std::string& path) {
   return path.starts_with("core/config/") || path.starts_with("core/util/error") ||
          path.starts_with("core/util/files") || path.starts_with("core/util/cache_folder") ||
