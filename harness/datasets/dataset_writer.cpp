@@ -74,8 +74,9 @@ DatasetWriter::DatasetWriter(const fs::path& folder, const RecordingNotes& notes
       options_(options),
       plan_(plan_of(options, source.rig())),
       cameras_(chosen_cameras(plan_, source.rig())),
-      card_(card_of(notes, options, source.rig(), planned)) {
-  const RecordingNotes chosen = with_cameras(notes, options.cameras);
+      card_(initial_card(notes, options, source.rig(), planned)) {
+  RecordingNotes chosen = with_cameras(notes, options.cameras);
+  chosen.first_reading = source.first_reading();
   claim_folder(folder);
   try {
     begin(chosen, source.scene());

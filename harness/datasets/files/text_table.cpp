@@ -33,6 +33,19 @@ std::vector<std::string> split_fields(const std::string& line) {
   return fields;
 }
 
+std::vector<TableRow> rows_of(const std::filesystem::path& file, const std::string& text) {
+  std::istringstream in(text);
+  std::vector<TableRow> rows;
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    line = trimmed(line);
+    if (line.empty() || line[0] == '#') continue;
+    rows.push_back({file, number, split_fields(line)});
+  }
+  return rows;
+}
+
 }  // namespace
 
 bool is_number(const std::string& text) {
@@ -67,16 +80,12 @@ Stamp TableRow::nanoseconds(std::size_t column) const {
 }
 
 std::vector<TableRow> read_rows(const std::filesystem::path& file) {
-  std::istringstream in(read_file(file));
-  std::vector<TableRow> rows;
-  int number = 0;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
-    line = trimmed(line);
-    if (line.empty() || line[0] == '#') continue;
-    rows.push_back({file, number, split_fields(line)});
-  }
-  return rows;
+  return rows_of(file, read_file(file));
+}
+
+std::vector<TableRow> read_ended_rows(const std::filesystem::path& file) {
+  const std::string text = read_file(file);
+  return rows_of(file, text.substr(0, text.rfind('\n') + 1));
 }
 
 std::vector<TableRow> read_table(const std::filesystem::path& file) {
