@@ -69,6 +69,7 @@ assert set(np.unique(numbers)) - {0} <= table
 # COCO, with its masks decompressed here.
 coco = json.loads((root / "coco/instances.json").read_text())
 images = {image["id"]: image for image in coco["images"]}
+assert all((root / "coco/images" / image["file_name"]).is_file() for image in coco["images"])
 assert len(images) == 2 * frames
 
 
