@@ -25,7 +25,7 @@ std::string read_file(const std::filesystem::path& file) {
 
 void write_file_atomically(const std::filesystem::path& file, std::string_view content) {
   std::filesystem::path partial = file;
-  partial += ".partial";
+  partial += kPartialEnding;
   std::ofstream out(partial, std::ios::binary | std::ios::trunc);
   if (!out) fail("{}: cannot be written: {}", file.string(), std::strerror(errno));
   out.write(content.data(), static_cast<std::streamsize>(content.size()));
