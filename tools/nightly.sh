@@ -4,8 +4,9 @@
 #
 # All scenarios in full over the seeds 1 to 5: builds, makes the runs that this build has not made yet
 # (they are kept in out/nightly), and writes the table into docs/results.md between its two markers.
-# Further arguments go to `vinebench run`, e.g. --jobs 4 or --force. Exit code 1 if an expectation
-# fails; the table is written in any case.
+# Then recordings and runs are killed, and their file operations fail, at each operation in turn
+# (not where VINEBENCH names a program). Further arguments go to `vinebench run`, e.g. --jobs 4 or
+# --force. Exit code 1 if an expectation fails; the table is written in any case.
 #   SEEDS=1..5  OUT=out/nightly  RESULTS=docs/results.md  SCENARIOS="scenarios/*.yaml"
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -26,8 +27,9 @@ fi
 if [[ -z ${VINEBENCH:-} ]]; then
   tools/setup.sh
   cmake --preset release
-  cmake --build build --target vinebench
+  cmake --build build --target vinebench fault_shim
   VINEBENCH=build/vinebench
+  endings=(build/vinebench build/fault_shim.so .)
 fi
 mkdir -p "$out"
 rm -f "$out/table.md"
@@ -44,4 +46,8 @@ awk -v begin="$begin" -v end="$end" -v table="$out/table.md" '
 ' "$results" >"$results.partial"
 mv "$results.partial" "$results"
 echo "nightly.sh: the table is in $results"
+if [[ -n ${endings:-} ]]; then
+  python3 tests/tools/kill_test.py "${endings[@]}" --every 1 --times 100 || code=1
+  python3 tests/tools/fault_test.py "${endings[@]}" --every 1 || code=1
+fi
 exit "$code"
