@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -44,16 +46,27 @@ int main(const std::vector<std::string>& arguments) {
                           [&] { return versions_text(surroundings.machine); });
 }
 
+/// What was printed may still be in a buffer, and may not have a place where it goes.
+int checked_output(int code) {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  fmt::print(stderr, "vinebench: standard output: cannot be written{}{}\n", errno != 0 ? ": " : "",
+             errno != 0 ? std::strerror(errno) : "");
+  return code <= kExpectationFailed ? kBadInput : code;
+}
+
 }  // namespace
 }  // namespace vinebench::tools
 
 int main(int argc, char** argv) {
+  using vinebench::tools::checked_output;
   try {
-    return vinebench::tools::main({argv + 1, argv + argc});
+    return checked_output(vinebench::tools::main({argv + 1, argv + argc}));
   } catch (const vinebench::Error& error) {
     fmt::print(stderr, "vinebench: {}\n", error.what());
     return vinebench::tools::kBadInput;
   } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) return checked_output(0);  // thrown while printing
     fmt::print(stderr, "vinebench: internal error: {}\n", error.what());
     return vinebench::tools::kInternalError;
   }
