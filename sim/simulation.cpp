@@ -40,6 +40,7 @@ class Simulation : public SimulatedSource {
         timing_(config.sensors.timing, config.sensors.drops, rig_, seed),
         exposure_(config.sensors.camera.exposure, rig_),
         inertial_(config.sensors.inertial, config.rover.imu_rate_hz, seed),
+        first_reading_(inertial_.measured_at_start(rover_.first_reading())),
         wheels_(config.sensors.wheels) {
     window_ = from_seconds(config.sensors.camera.half_window()) + timing_.longest_delay();
     Scene scene = build_scene(config.world, seed, cache);
@@ -63,6 +64,7 @@ class Simulation : public SimulatedSource {
       sample.frame.index = index_;
       sample.frame.stamp = timing_.stamp(index_);
       drive(sample.frame);
+      rover_.hand_out_path(sample.frame.stamp, sample.truth.path);
       const bool wanted = plan_.has_frame(index_);
       if (!wanted && !takes_all()) continue;
       sample.truth.T_world_body = rover_.T_world_body(timing_.instant(index_));
@@ -89,6 +91,7 @@ class Simulation : public SimulatedSource {
   const SceneIndex& scene() const override { return index_of_scene_; }
   const Rig& true_rig() const override { return rig_; }
   const Rig& rig() const override { return nominal_rig_; }
+  std::optional<ImuSample> first_reading() const override { return first_reading_; }
   const StageTimes& times() const override { return times_; }
 
  private:
@@ -247,6 +250,7 @@ class Simulation : public SimulatedSource {
   FrameTiming timing_;
   ExposureControl exposure_;
   InertialSensor inertial_;
+  ImuSample first_reading_;
   WheelSensor wheels_;
   std::vector<CameraSensor> cameras_;
   std::optional<EnginePool> engines_;

@@ -4,10 +4,11 @@
 #
 # All scenarios in full over the seeds 1 to 5: builds, makes the runs that this build has not made yet
 # (they are kept in out/nightly), and writes the table into docs/results.md between its two markers.
-# Then runs the program on damaged inputs (docs/robustness.md), others every day; those that end it
-# are kept in out/nightly/mutations. Further arguments go to `vinebench run`, e.g. --jobs 4 or --force.
-# Exit code 1 if an expectation fails or a damaged input ends the program; the table is written in
-# any case.
+# Then the program runs on damaged inputs (docs/robustness.md), others every day; those that end it
+# are kept in out/nightly/mutations. Last, recordings and runs are killed, and their file operations
+# fail, at each operation in turn (not where VINEBENCH names a program). Further arguments go to
+# `vinebench run`, e.g. --jobs 4 or --force. Exit code 1 if an expectation fails or any of the rest
+# finds something; the table is written in any case.
 #   SEEDS=1..5  OUT=out/nightly  RESULTS=docs/results.md  SCENARIOS="scenarios/*.yaml"
 #   MUTATIONS=2000  MUTATION_SEED=20260101
 set -euo pipefail
@@ -31,8 +32,9 @@ fi
 if [[ -z ${VINEBENCH:-} ]]; then
   tools/setup.sh
   cmake --preset release
-  cmake --build build --target vinebench
+  cmake --build build --target vinebench fault_shim
   VINEBENCH=build/vinebench
+  endings=(build/vinebench build/fault_shim.so .)
 fi
 mkdir -p "$out"
 rm -f "$out/table.md"
@@ -57,5 +59,10 @@ if [[ $mutations -gt 0 ]]; then
   ${MUTATE:-python3 tests/tools/mutate.py} "$VINEBENCH" . --cases "$mutations" \
     --seed "$mutation_seed" --keep "$out/mutations" | tee "$out/mutations.md" || offences=1
   [[ $offences -eq 0 || $code -ne 0 ]] || code=1
+fi
+
+if [[ -n ${endings:-} ]]; then
+  python3 tests/tools/kill_test.py "${endings[@]}" --every 1 --times 100 || code=1
+  python3 tests/tools/fault_test.py "${endings[@]}" --every 1 || code=1
 fi
 exit "$code"

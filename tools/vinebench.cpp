@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <mutex>
 #include <string>
@@ -52,6 +55,15 @@ int main(const std::vector<std::string>& arguments) {
                           [&] { return versions_text(surroundings.machine); });
 }
 
+/// What was printed may still be in a buffer, and may not have a place where it goes.
+int checked_output(int code) {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  fmt::print(stderr, "vinebench: standard output: cannot be written{}{}\n", errno != 0 ? ": " : "",
+             errno != 0 ? std::strerror(errno) : "");
+  return code <= kExpectationFailed ? kBadInput : code;
+}
+
 }  // namespace
 }  // namespace vinebench::tools
 
@@ -59,5 +71,7 @@ int main(int argc, char** argv) {
   vinebench::set_warning_sink(
       [](const std::string& text) { fmt::print(stderr, "vinebench: warning: {}\n", text); });
   const std::vector<std::string> arguments(argv + 1, argv + argc);
-  return vinebench::tools::outcome_of(arguments, [&] { return vinebench::tools::main(arguments); });
+  return vinebench::tools::outcome_of(arguments, [&] {
+    return vinebench::tools::checked_output(vinebench::tools::main(arguments));
+  });
 }

@@ -38,6 +38,8 @@ class SimulatedSource : public FrameSource {
   virtual const SceneIndex& scene() const = 0;
   /// The true rig, which takes the images.
   virtual const Rig& true_rig() const = 0;
+  /// A reading of the inertial unit at the start, at rest; those of the frames come after it.
+  virtual std::optional<ImuSample> first_reading() const { return std::nullopt; }
 };
 
 /// What a simulation delivers for a recording: more than a SLAM system needs, or less.

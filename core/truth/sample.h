@@ -7,6 +7,7 @@
 
 #include "core/frame.h"
 #include "core/geometry/pose.h"
+#include "core/trajectory.h"
 #include "core/truth/occlusion.h"
 #include "core/truth/truth_images.h"
 
@@ -18,6 +19,9 @@ struct Truth {
   bool known = true;  ///< false if a recording has no ground truth; the pose is then undefined
   /// Of each camera's image, the shares covered by occluders; empty if unknown.
   std::vector<Occlusion> occlusion{};
+  /// True poses at the instants of the inertial readings since the previous frame, and that of the
+  /// start, oldest first; empty if unknown.
+  Trajectory path{};
   /// Indices into the list of the world's tags (Site::tags) that are completely in the image of a
   /// tag camera, unoccluded at their centre and corners.
   std::vector<int> visible_tags;

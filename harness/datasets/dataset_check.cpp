@@ -23,7 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kPartial = ".partial";
 constexpr std::size_t kFramesCompared = 6;  // whose label images are held against each other
 
 /// What moves in the world of a sequence.
@@ -63,16 +62,41 @@ class Check {
 
   void run() {
     card_ = read_card(folder_);
-    if (!card_.complete) {
-      report_.notes.push_back(
-          fmt::format("{}recording was interrupted; the existing part was checked",
-                      prefix_.empty() ? "" : prefix_ + ": "));
-    }
     check_files();
     if (!card_.sequences.empty()) return;
     ++report_.sequences;
     sequence_.folder = folder_;
     sequence_.complete = card_.complete;
+    if (has_begun()) check_sequence();
+    if (card_.complete) return;
+    note_interruption(
+        fmt::format("{} of {} frames", sequence_.frames.size(), card_.planned_frames));
+  }
+
+  /// Of the folder of several sequences.
+  void note_complete_sequences(std::size_t complete) {
+    if (card_.complete) return;
+    note_interruption(fmt::format("{} of {} sequences, {} frames", complete, card_.sequences.size(),
+                                  report_.frames));
+  }
+
+  const DatasetCard& card() const { return card_; }
+
+ private:
+  void note_interruption(const std::string& extent) {
+    if (prefix_.empty()) report_.interrupted = extent;
+    report_.notes.push_back(
+        fmt::format("{}recording was interrupted: {}; the existing part was checked",
+                    prefix_.empty() ? "" : prefix_ + ": ", extent));
+  }
+
+  /// frames.csv is the last file that a recording creates before its first frame.
+  bool has_begun() const {
+    std::error_code ignored;
+    return card_.complete || fs::is_regular_file(folder_ / "frames.csv", ignored);
+  }
+
+  void check_sequence() {
     check_frames();
     sequence_.rig = read_calibration(folder_ / "calibration.yaml");
     const Movement movement = movement_of(folder_ / "scenario.resolved.yaml");
@@ -81,9 +105,6 @@ class Check {
     check_formats();
   }
 
-  const DatasetCard& card() const { return card_; }
-
- private:
   void fault(const std::string& file, const std::string& problem) {
     report_.faults.push_back({prefix_ + file, problem});
   }
@@ -93,11 +114,12 @@ class Check {
     if (card_.complete && xxh128(read_file(list, FileKind::kTable)) != card_.files_xxh128) {
       fault(FileManifest::kName, "does not match its hash in dataset.yaml");
     }
+    std::error_code ignored;
+    if (!card_.complete && !fs::exists(list, ignored)) return;
     std::set<std::string> listed{DatasetCard::kName, FileManifest::kName};
     for (const ListedFile& file : read_manifest(list)) {
       if (!listed.insert(file.name).second) fault(file.name, "is listed twice");
       ++report_.files;
-      std::error_code ignored;
       if (!fs::is_regular_file(folder_ / file.name, ignored)) {
         fault(file.name, "is missing");
       } else if (xxh128_of_file(folder_ / file.name) != file.hash) {
@@ -107,14 +129,14 @@ class Check {
     if (!card_.complete || !card_.sequences.empty())
       return;  // incomplete lists are not in the manifest
     for (const std::string& name : files_below(folder_)) {
-      if (!listed.contains(name) && !name.ends_with(kPartial)) {
+      if (!listed.contains(name) && !name.ends_with(kPartialEnding)) {
         fault(name, "is not in the list of files");
       }
     }
   }
 
   void check_frames() {
-    for (const TableRow& row : read_table(folder_ / "frames.csv")) {
+    for (const TableRow& row : sequence_.read("frames.csv")) {
       row.expect_columns(10, "number, frame, timestamp [ns], position, quaternion");
       RecordedPose frame{row.nanoseconds(2), {}};
       frame.T_world_body.translation = {row.number(3), row.number(4), row.number(5)};
@@ -172,6 +194,10 @@ class Check {
 }  // namespace
 
 DatasetReport check_dataset(const fs::path& folder) {
+  if (has_partial_card_alone(folder)) {
+    fail("{}: was interrupted before its first file was complete; --resume of record goes on",
+         folder.string());
+  }
   if (!has_card(folder)) {
     fail("{}: is no data set of ours: expected a folder with {}", folder.string(),
          DatasetCard::kName);
@@ -179,7 +205,14 @@ DatasetReport check_dataset(const fs::path& folder) {
   DatasetReport report;
   Check whole(folder, "", report);
   whole.run();
-  for (const std::string& sequence : whole.card().sequences) Check(folder, sequence, report).run();
+  std::size_t complete = 0;
+  for (const std::string& name : whole.card().sequences) {
+    if (!whole.card().complete && !has_card(folder / name)) continue;  // has not begun
+    Check sequence(folder, name, report);
+    sequence.run();
+    complete += sequence.card().complete ? 1 : 0;
+  }
+  if (!whole.card().sequences.empty()) whole.note_complete_sequences(complete);
   return report;
 }
 

@@ -14,6 +14,7 @@ namespace vinebench::harness {
 struct DatasetReport {
   std::vector<DatasetFault> faults;
   std::vector<std::string> notes;  ///< remarks that are not faults, such as an interruption
+  std::string interrupted;         ///< what there is of it, "3 of 15 frames"; empty if complete
   std::int64_t sequences = 0;
   std::int64_t frames = 0;
   std::int64_t files = 0;         ///< with compared hashes
@@ -22,7 +23,8 @@ struct DatasetReport {
 
 /// Checks a data set of `vinebench record`: that every listed file exists with its hash and there
 /// are no others, that each format's check holds, and at some frames that of its label images. Of
-/// an interrupted one, what there is. Throws Error for a folder that is no such data set.
+/// an interrupted one, what there is, whenever it was interrupted. Throws Error for a folder that
+/// is no such data set.
 DatasetReport check_dataset(const std::filesystem::path& folder);
 
 }  // namespace vinebench::harness

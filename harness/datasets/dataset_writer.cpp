@@ -17,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kFrameList = "frames.csv";
+
 /// frames.csv. It is written last, so a frame in it is complete in all formats.
 class FrameList : public FormatWriter {
  public:
@@ -44,8 +46,10 @@ std::vector<std::size_t> chosen_cameras(const CapturePlan& plan, const Rig& rig)
   return cameras;
 }
 
-DatasetCard card_of(const RecordingNotes& notes, const RecordOptions& options, const Rig& rig,
-                    std::int64_t planned) {
+}  // namespace
+
+DatasetCard initial_card(const RecordingNotes& notes, const RecordOptions& options, const Rig& rig,
+                         std::int64_t planned) {
   DatasetCard card;
   card.name = notes.scenario;
   card.made_by = fmt::format("Vinebench {}", kVersion);
@@ -61,7 +65,13 @@ DatasetCard card_of(const RecordingNotes& notes, const RecordOptions& options, c
   return card;
 }
 
-}  // namespace
+void clear_recording(const fs::path& folder) {
+  for (const char* list : {FileManifest::kName, kFrameList}) {
+    std::error_code ignored;
+    fs::remove(folder / list, ignored);
+  }
+  clear_folder(folder, DatasetCard::kName);
+}
 
 std::string settings_hash(const RecordingNotes& notes, const RecordOptions& options) {
   return xxh128(notes.settings + options.text() + kVersion);
@@ -74,26 +84,26 @@ DatasetWriter::DatasetWriter(const fs::path& folder, const RecordingNotes& notes
       options_(options),
       plan_(plan_of(options, source.rig())),
       cameras_(chosen_cameras(plan_, source.rig())),
-      card_(card_of(notes, options, source.rig(), planned)) {
-  const RecordingNotes chosen = with_cameras(notes, options.cameras);
+      card_(initial_card(notes, options, source.rig(), planned)) {
+  RecordingNotes chosen = with_cameras(notes, options.cameras);
+  chosen.first_reading = source.first_reading();
   claim_folder(folder);
   try {
     begin(chosen, source.scene());
   } catch (const Error&) {  // a format that is incompatible with the rig: the folder is unchanged
-    clear_folder(folder);
+    clear_recording(folder);
     throw;
   }
 }
 
 void DatasetWriter::begin(const RecordingNotes& notes, const SceneIndex& scene) {
-  DatasetEncoder::Writers writers = make_writers(notes, scene);
-  write_card(folder_, card_);
+  write_card(folder_, card_);  // first, so that any interruption leaves a recording to resume
   write_file_atomically(folder_ / "scenario.resolved.yaml", notes.settings);
   Rig rig = notes.rig.make();
   rig.cameras = notes.true_cameras;
   write_file_atomically(folder_ / "calibration.yaml", format_calibration(rig));
   manifest_ = std::make_unique<FileManifest>(folder_);
-  encoder_ = std::make_unique<DatasetEncoder>(std::move(writers), options_.threads, folder_,
+  encoder_ = std::make_unique<DatasetEncoder>(make_writers(notes, scene), options_.threads, folder_,
                                               manifest_.get());
 }
 
@@ -108,7 +118,7 @@ DatasetEncoder::Writers DatasetWriter::make_writers(const RecordingNotes& notes,
       if (writer != nullptr) writers.push_back(std::move(writer));
     }
   }
-  writers.push_back(std::make_unique<FrameList>(folder_ / "frames.csv"));
+  writers.push_back(std::make_unique<FrameList>(folder_ / kFrameList));
   return writers;
 }
 

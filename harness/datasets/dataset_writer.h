@@ -45,6 +45,14 @@ class DatasetWriter : public Sink {
   std::unique_ptr<DatasetEncoder> encoder_;
 };
 
+/// The card of a recording that has begun.
+DatasetCard initial_card(const RecordingNotes& notes, const RecordOptions& options, const Rig& rig,
+                         std::int64_t planned);
+
+/// Removes what an interrupted recording left, not the folder: its lists first and its card last,
+/// so that another interruption leaves something to check and to resume. Throws Error.
+void clear_recording(const std::filesystem::path& folder);
+
 /// Hash of all inputs of a recording.
 std::string settings_hash(const RecordingNotes& notes, const RecordOptions& options);
 

@@ -40,7 +40,7 @@ struct RecordOutcome {
   std::int64_t sequences = 0;  ///< complete ones
   std::int64_t skipped = 0;    ///< of these, completed by an earlier recording
   std::int64_t frames = 0;     ///< recorded now
-  std::uint64_t bytes = 0;     ///< likewise, in images
+  std::uint64_t bytes = 0;     ///< likewise, of all files
 };
 
 /// Simulates without a SLAM system and records. When resuming, complete sequences are kept and an

@@ -22,8 +22,8 @@ void expect_no_maps(const MapFiles& maps) {
 }
 
 /// With a SLAM system that is not ours.
-RunOutcome run_other_system(const ScenarioConfig& scenario, FrameSource& source, int threads,
-                            const RunOptions& options) {
+RunOutcome run_other_system(const ScenarioConfig& scenario, const RecordingNotes& notes,
+                            FrameSource& source, int threads, const RunOptions& options) {
   const SlamChoice& choice = scenario.slam;
   if (choice.plugin) {
     const auto slam = load_plugin_slam(*choice.plugin, source.rig(),
@@ -34,7 +34,7 @@ RunOutcome run_other_system(const ScenarioConfig& scenario, FrameSource& source,
   std::optional<TemporaryFolder> temporary;
   if (options.folder.empty()) temporary.emplace();
   const auto slam =
-      make_external_slam(*choice.external, notes_of(scenario),
+      make_external_slam(*choice.external, notes,
                          temporary ? temporary->path() : options.folder, options.stopped);
   return run_lockstep_and_judge(trial_of(scenario), source, *slam, options);
 }
@@ -77,7 +77,11 @@ RunOutcome run_scenario(const ScenarioConfig& scenario, const Machine& machine, 
                    source.size());
     with_writer.sinks.push_back(&*writer);
   }
-  if (!ours) return run_other_system(scenario, source, threads, with_writer);
+  if (!ours) {
+    RecordingNotes notes = notes_of(scenario);
+    notes.first_reading = simulation->first_reading();
+    return run_other_system(scenario, notes, source, threads, with_writer);
+  }
   const auto slam = slam::make_slam(scenario.slam, source.rig(),
                                     sim::registered_tags(scenario.simulation.world), estimating);
   return run_mapping_system(trial_of(scenario), source, *slam, with_writer);

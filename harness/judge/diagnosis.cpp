@@ -271,6 +271,13 @@ std::vector<DegradedSegment> diagnose(const RunRecord& record, const RunResults&
 
 std::string format_diagnosis(const RunRecord& record,
                              const std::vector<DegradedSegment>& segments) {
+  const auto any = [&](const auto& holds) { return std::ranges::any_of(record.ticks, holds); };
+  if (!any([](const Tick& tick) { return is_tracked(tick.estimate); })) {
+    return "no degraded segment can be found: there was never a pose that cameras support\n";
+  }
+  if (!any([](const Tick& tick) { return tick.truth.known; })) {
+    return "no degraded segment can be found: the truth is not known\n";
+  }
   if (segments.empty()) {
     return "no degraded segment: no weak tracking, no fast growth of the error\n";
   }

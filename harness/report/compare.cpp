@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/report/compare.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +13,7 @@
 #include <utility>
 
 #include "core/util/error.h"
+#include "core/util/files.h"
 
 namespace vinebench::harness {
 namespace {
@@ -24,11 +26,15 @@ std::string text_of(const RunName& name) {
   return fmt::format("{}, seed {}", name.first, name.second);
 }
 
-std::map<RunName, StoredRun> find_runs(const fs::path& folder) {
+struct FoundRun {
+  StoredRun run;
+  fs::path folder;
+};
+
+std::map<RunName, FoundRun> find_runs(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) fail("{}: expected a folder of runs", folder.string());
-  std::map<RunName, StoredRun> runs;
-  std::map<RunName, fs::path> places;
+  std::map<RunName, FoundRun> runs;
   const auto options = fs::directory_options::skip_permission_denied;
   fs::recursive_directory_iterator entry(folder, options, error);
   for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
@@ -37,19 +43,80 @@ std::map<RunName, StoredRun> find_runs(const fs::path& folder) {
     std::optional<StoredRun> run = read_stored_run(file);
     if (!run) fail("{}: is not a metrics.json of a run", file.string());
     const RunName name{run->scenario, run->seed};
-    if (runs.contains(name)) {
-      const auto [first, second] = std::minmax(places[name], file);
+    const fs::path place = file.parent_path();
+    if (const auto other = runs.find(name); other != runs.end()) {
+      const auto [first, second] = std::minmax(other->second.folder, place);
       fail("{}: {} is duplicate, in {} and {}", folder.string(), text_of(name), first.string(),
            second.string());
     }
-    places[name] = file;
-    runs.emplace(name, std::move(*run));
+    runs.emplace(name, FoundRun{std::move(*run), place});
   }
   if (error) fail("{}: cannot be read: {}", folder.string(), error.message());
   if (runs.empty()) {
     fail("{}: contains no run; expected a metrics.json in it or in its folders", folder.string());
   }
   return runs;
+}
+
+/// The number of frames of both where it differs.
+std::string different_length(const StoredRun& before, const StoredRun& after) {
+  const auto a = before.value("/frames");
+  const auto b = after.value("/frames");
+  if (!a || !b || *a == *b) return "";
+  return fmt::format("A has {:.0f} frames, B has {:.0f}", *a, *b);
+}
+
+/// Files are compared by their names, because their folders may differ.
+std::string comparable(const YAML::Node& node) {
+  if (node.IsScalar() && node.Scalar().find('/') != std::string::npos) {
+    return fs::path(node.Scalar()).filename().string();
+  }
+  return YAML::Dump(node);
+}
+
+/// Keys that are in both and differ, as `world.sun.elevation_deg`.
+void add_differences(const YAML::Node& before, const YAML::Node& after, const std::string& key,
+                     std::vector<std::string>& keys) {
+  if (!before.IsMap() || !after.IsMap()) {
+    if (comparable(before) != comparable(after)) keys.push_back(key);
+    return;
+  }
+  for (const auto& item : before) {
+    const auto name = item.first.as<std::string>();
+    const YAML::Node other = after[name];
+    if (!other) continue;
+    add_differences(item.second, other, key.empty() ? name : key + "." + name, keys);
+  }
+}
+
+/// The experiment of a run, without what a comparison is about; null if it has no such file.
+YAML::Node experiment_of(const fs::path& folder) {
+  std::error_code ignored;
+  const fs::path file = folder / "scenario.resolved.yaml";
+  if (!fs::is_regular_file(file, ignored)) return {};
+  try {
+    YAML::Node experiment = YAML::Load(read_file(file));
+    for (const char* other : {"slam", "expectations", "description"}) {
+      if (experiment.IsMap()) experiment.remove(other);
+    }
+    return experiment;
+  } catch (const YAML::Exception& error) {
+    fail("{}: is not valid YAML: {}", file.string(), error.what());
+  }
+}
+
+/// What the experiments of two runs differ in, human-readable; empty if nothing is known to differ.
+std::string differing_keys(const fs::path& before, const fs::path& after) {
+  constexpr std::size_t kShown = 5;
+  std::vector<std::string> keys;
+  const YAML::Node first = experiment_of(before);
+  const YAML::Node second = experiment_of(after);
+  if (first.IsMap() && second.IsMap()) add_differences(first, second, "", keys);
+  if (keys.empty()) return "";
+  const std::size_t shown = std::min(keys.size(), kShown);
+  std::string text = fmt::format("{}", fmt::join(keys.begin(), keys.begin() + shown, ", "));
+  if (shown < keys.size()) text += fmt::format(" and {} more", keys.size() - shown);
+  return text;
 }
 
 MetricChange change_of(const Metric& metric, const std::vector<RunPair>& pairs) {
@@ -119,27 +186,34 @@ std::string table_of(const std::vector<MetricChange>& changes) {
 }  // namespace
 
 PairedRuns pair_runs(const fs::path& before, const fs::path& after) {
-  const std::map<RunName, StoredRun> first = find_runs(before);
-  const std::map<RunName, StoredRun> second = find_runs(after);
+  const std::map<RunName, FoundRun> first = find_runs(before);
+  const std::map<RunName, FoundRun> second = find_runs(after);
   PairedRuns runs;
-  for (const auto& [name, run] : first) {
+  std::string length;
+  for (const auto& [name, found] : first) {
     const auto partner = second.find(name);
     if (partner == second.end()) {
       runs.unpaired.push_back(fmt::format("{} (only in {})", text_of(name), before.string()));
-    } else {
-      runs.pairs.push_back({run, partner->second});
+      continue;
     }
+    const auto& [run, folder] = partner->second;
+    if (const std::string lengths = different_length(found.run, run); !lengths.empty()) {
+      length = fmt::format("{} ({})", text_of(name), lengths);
+      runs.unpaired.push_back(length);
+      continue;
+    }
+    runs.pairs.push_back({found.run, run});
+    const std::string keys = differing_keys(found.folder, folder);
+    if (!keys.empty()) runs.differing.push_back(fmt::format("{}: {}", text_of(name), keys));
   }
   for (const auto& [name, run] : second) {
-    if (!first.contains(name)) {
-      runs.unpaired.push_back(fmt::format("{} (only in {})", text_of(name), after.string()));
-    }
+    if (first.contains(name)) continue;
+    runs.unpaired.push_back(fmt::format("{} (only in {})", text_of(name), after.string()));
   }
-  if (runs.pairs.empty()) {
-    fail("no scenario and seed is in both folders: {} has {}, {} has {}", before.string(),
-         text_of(first.begin()->first), after.string(), text_of(second.begin()->first));
-  }
-  return runs;
+  if (!runs.pairs.empty()) return runs;
+  if (!length.empty()) fail("no two runs are of the same length: {}", length);
+  fail("no scenario and seed is in both folders: {} has {}, {} has {}", before.string(),
+       text_of(first.begin()->first), after.string(), text_of(second.begin()->first));
 }
 
 const char* name_of(Change change) {
@@ -189,6 +263,9 @@ std::string format_comparison(const PairedRuns& runs) {
                         table_of(changes));
   }
   for (const std::string& run : runs.unpaired) text += fmt::format("not compared: {}\n", run);
+  for (const std::string& run : runs.differing) {
+    text += fmt::format("warning: not the same experiment: {}\n", run);
+  }
   return text;
 }
 
@@ -216,7 +293,7 @@ Json comparison_json(const PairedRuns& runs) {
                       {"pairs", seeds},
                       {"figures", list}});
   }
-  return {{"groups", groups}, {"not_compared", runs.unpaired}};
+  return {{"groups", groups}, {"not_compared", runs.unpaired}, {"differing", runs.differing}};
 }
 
 double student_t_95(std::size_t degrees_of_freedom) {

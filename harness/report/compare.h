@@ -20,11 +20,15 @@ struct RunPair {
 /// Runs of two folders, paired by scenario and seed, in their order.
 struct PairedRuns {
   std::vector<RunPair> pairs;
-  std::vector<std::string> unpaired;  ///< runs that are in only one of the folders, human-readable
+  /// Runs that are in only one of the folders, or of another length, human-readable.
+  std::vector<std::string> unpaired;
+  /// Pairs whose experiments differ beside the SLAM system's settings, human-readable.
+  std::vector<std::string> differing;
 };
 
-/// Each folder is a run's folder or contains runs' folders at any depth. Throws Error if there is
-/// no run, a duplicate run, an unreadable metrics.json, or no pair.
+/// Each folder is a run's folder or contains runs' folders at any depth. Runs of different numbers
+/// of frames are no pair. Throws Error if there is no run, a duplicate run, an unreadable
+/// metrics.json or scenario.resolved.yaml, or no pair.
 PairedRuns pair_runs(const std::filesystem::path& before, const std::filesystem::path& after);
 
 enum class Change { kBetter, kSame, kWorse, kMixed, kUnknown };

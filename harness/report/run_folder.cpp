@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/report/run_folder.h"
 
+#include <fmt/format.h>
+
+#include <map>
 #include <regex>
 #include <system_error>
 
@@ -35,6 +38,33 @@ void remove_old_files(const std::filesystem::path& folder) {
   remove_files(folder / "frames", images);
 }
 
+const char* name_of(TrackingStatus status) {
+  switch (status) {
+    case TrackingStatus::kInitializing:
+      return "initialising";
+    case TrackingStatus::kTracking:
+      return "tracked";
+    case TrackingStatus::kDeadReckoning:
+      return "dead_reckoning";
+    case TrackingStatus::kLost:
+      return "lost";
+  }
+  return "";
+}
+
+/// A line for each line of estimate.tum, whose format has no place for it.
+std::string format_statuses(const RunRecord& record) {
+  std::map<Stamp, TrackingStatus> statuses;
+  for (const Tick& tick : record.ticks) statuses[tick.stamp] = tick.estimate.status;
+  std::string text = "#timestamp [s],status\n";
+  for (const StampedPose& pose : record.summary.trajectory) {
+    const auto status = statuses.find(pose.stamp);
+    text += fmt::format("{},{}\n", format_seconds(pose.stamp),
+                        status == statuses.end() ? "unknown" : name_of(status->second));
+  }
+  return text;
+}
+
 }  // namespace
 
 FolderLock prepare_run_folder(const std::filesystem::path& folder, const std::string& name,
@@ -61,6 +91,7 @@ void write_run_files(const std::filesystem::path& folder, const Trial& trial,
   write_tum(true_trajectory(record), folder / "groundtruth.tum");
   write_tum(live_trajectory(record), folder / "estimate_live.tum");
   write_tum(record.summary.trajectory, folder / "estimate.tum");
+  write_file_atomically(folder / "estimate_status.csv", format_statuses(record));
   write_tum(record.summary.keyframes, folder / "keyframes.tum");
   write_file_atomically(folder / "events.jsonl",
                         format_events(record, report.results, report.diagnosis, box_share));

@@ -24,18 +24,32 @@ void move_until(Stamp stamp, std::vector<Reading>& from, std::vector<Reading>& t
 
 DrivenRover::DrivenRover(const RoverConfig& rover, const WorldConfig& world,
                          const RouteConfig& route, std::uint64_t seed)
-    : route_(route), rover_(rover, world, route_.start(), seed) {
+    : route_(route),
+      imu_rate_hz_(rover.imu_rate_hz),
+      rover_(rover, world, route_.start(), seed),
+      first_reading_(rover_.inertial_reading()) {
   remember();
 }
 
 void DrivenRover::advance_to(Stamp stamp) {
   for (; next_control_ <= stamp; next_control_ += kControlPeriod) {
-    rover_.advance_to(next_control_, imu_, wheels_);
+    drive_to(next_control_);
     twist_ = follow(route_.at(next_control_), steered_by(next_control_));
     rover_.command(twist_);
   }
-  if (stamp > rover_.now()) rover_.advance_to(stamp, imu_, wheels_);
+  drive_to(stamp);
   remember();
+}
+
+/// With a stop at each inertial instant; stops do not change the physics.
+void DrivenRover::drive_to(Stamp stamp) {
+  for (;; ++path_count_) {
+    const Stamp instant = stamp_of_frame(path_count_, imu_rate_hz_);
+    if (instant > stamp) break;
+    if (instant > rover_.now()) rover_.advance_to(instant, imu_, wheels_);
+    path_.push_back({instant, rover_.T_world_body()});
+  }
+  if (stamp > rover_.now()) rover_.advance_to(stamp, imu_, wheels_);
 }
 
 void DrivenRover::steer_by(Stamp stamp, const Pose& T_world_body) {
@@ -85,6 +99,10 @@ void DrivenRover::hand_out(Stamp stamp, std::vector<ImuSample>& imu,
                            std::vector<WheelSample>& wheels) {
   move_until(stamp, imu_, imu);
   move_until(stamp, wheels_, wheels);
+}
+
+void DrivenRover::hand_out_path(Stamp stamp, Trajectory& path) {
+  move_until(stamp, path_, path);
 }
 
 }  // namespace vinebench::sim

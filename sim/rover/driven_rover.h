@@ -38,19 +38,29 @@ class DrivenRover {
 
   /// Appends the true readings up to `stamp` that have not been taken yet.
   void hand_out(Stamp stamp, std::vector<ImuSample>& imu, std::vector<WheelSample>& wheels);
+  /// Likewise the true poses at the start and at the inertial unit's instants.
+  void hand_out_path(Stamp stamp, Trajectory& path);
+
+  /// What an inertial unit would measure at the start, at rest.
+  const ImuSample& first_reading() const { return first_reading_; }
 
  private:
   void remember();
+  void drive_to(Stamp stamp);
   Pose steered_by(Stamp stamp);
 
   Route route_;
+  double imu_rate_hz_;
   Rover rover_;
+  ImuSample first_reading_;
   Stamp next_control_ = 0;
   Eigen::Vector3d twist_ = Eigen::Vector3d::Zero();  ///< commanded: m/s forward, left; rad/s
   std::optional<StampedPose> believed_;              ///< pose for steering; the truth if absent
   std::deque<StampedPose> poses_;
   std::vector<ImuSample> imu_;
   std::vector<WheelSample> wheels_;
+  Trajectory path_;
+  std::int64_t path_count_ = 0;  ///< poses of the path so far
 };
 
 }  // namespace vinebench::sim

@@ -302,4 +302,8 @@ Pose Rover::T_world_body() const {
   return physics_->pose_at(physics_->now);
 }
 
+ImuSample Rover::inertial_reading() const {
+  return physics_->imu_at(physics_->now);
+}
+
 }  // namespace vinebench::sim

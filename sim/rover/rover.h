@@ -62,6 +62,8 @@ class Rover {
 
   Stamp now() const;
   Pose T_world_body() const;  ///< the true pose at `now`
+  /// What an inertial unit without errors measures at `now`.
+  ImuSample inertial_reading() const;
 
  private:
   struct Physics;

@@ -13,6 +13,7 @@ InertialAxes::InertialAxes(const InertialAxesConfig& config, const std::string& 
       noise_(seed, name + ".noise"),
       walk_(seed, name + ".bias_walk"),
       wander_(seed, name + ".bias_wander"),
+      start_noise_(seed, name + ".start_noise"),
       bias_(config.initial_bias * draw(RandomStream(seed, name + ".initial_bias"), 0)),
       wandering_bias_(config.bias_instability * draw(wander_, 0)) {}
 
@@ -21,12 +22,20 @@ Eigen::Vector3d InertialAxes::draw(const RandomStream& stream, std::uint64_t ind
 }
 
 /// A reading is the mean over its period, so the variance of the white noise is N^2 / period.
+Eigen::Vector3d InertialAxes::with_noise(const Eigen::Vector3d& truth,
+                                         const Eigen::Vector3d& normal) const {
+  const Eigen::Vector3d white = config_.noise_density / std::sqrt(period_) * normal;
+  const Eigen::Vector3d reading = truth + bias_ + wandering_bias_ + white;
+  if (config_.range <= 0) return reading;
+  return reading.cwiseMax(-config_.range).cwiseMin(config_.range);
+}
+
+Eigen::Vector3d InertialAxes::measure_at_start(const Eigen::Vector3d& truth) const {
+  return with_noise(truth, draw(start_noise_, 0));
+}
+
 Eigen::Vector3d InertialAxes::measure(const Eigen::Vector3d& truth) {
-  const Eigen::Vector3d white = config_.noise_density / std::sqrt(period_) * draw(noise_, index_);
-  Eigen::Vector3d reading = truth + bias_ + wandering_bias_ + white;
-  if (config_.range > 0) {
-    reading = reading.cwiseMax(-config_.range).cwiseMin(config_.range);
-  }
+  const Eigen::Vector3d reading = with_noise(truth, draw(noise_, index_));
   ++index_;
   bias_ += config_.bias_random_walk * std::sqrt(period_) * draw(walk_, index_);
   const double kept = std::exp(-period_ / config_.correlation_time);
@@ -39,6 +48,11 @@ InertialSensor::InertialSensor(const InertialSensorConfig& config, double rate_h
                                std::uint64_t seed)
     : gyroscope_(config.gyroscope, "imu.gyroscope", rate_hz, seed),
       accelerometer_(config.accelerometer, "imu.accelerometer", rate_hz, seed) {}
+
+ImuSample InertialSensor::measured_at_start(const ImuSample& truth) const {
+  return {truth.stamp, gyroscope_.measure_at_start(truth.angular_velocity),
+          accelerometer_.measure_at_start(truth.specific_force)};
+}
 
 void InertialSensor::measure(ImuSample& sample) {
   sample.angular_velocity = gyroscope_.measure(sample.angular_velocity);

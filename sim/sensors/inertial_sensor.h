@@ -51,8 +51,11 @@ class InertialAxes {
                std::uint64_t seed);
   /// The reading for the next true value.
   Eigen::Vector3d measure(const Eigen::Vector3d& truth);
+  /// A reading before the first one, which changes none of them.
+  Eigen::Vector3d measure_at_start(const Eigen::Vector3d& truth) const;
 
  private:
+  Eigen::Vector3d with_noise(const Eigen::Vector3d& truth, const Eigen::Vector3d& normal) const;
   Eigen::Vector3d draw(const RandomStream& stream, std::uint64_t index) const;
 
   InertialAxesConfig config_;
@@ -60,6 +63,7 @@ class InertialAxes {
   RandomStream noise_;
   RandomStream walk_;
   RandomStream wander_;
+  RandomStream start_noise_;
   Eigen::Vector3d bias_;
   Eigen::Vector3d wandering_bias_;
   std::uint64_t index_ = 0;
@@ -71,6 +75,8 @@ class InertialSensor {
  public:
   InertialSensor(const InertialSensorConfig& config, double rate_hz, std::uint64_t seed);
   void measure(ImuSample& sample);
+  /// A reading before the first one, which changes none of them.
+  ImuSample measured_at_start(const ImuSample& truth) const;
 
  private:
   InertialAxes gyroscope_;

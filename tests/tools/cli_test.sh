@@ -111,6 +111,12 @@ echo "5 1 2 3" >"$work/short.tum"
 expect 2 "eval of a broken file" "short.tum:1: expected 8 columns" -- \
   eval "$work/truth.tum" "$work/short.tum"
 sed 's/^/10/' "$work/truth.tum" >"$work/later.tum"
+for command in "eval $work/truth.tum $work/same.tum" "list" "run --help" "--version"; do
+  "$vinebench" $command >/dev/full 2>"$work/stderr"
+  [[ $? -eq 2 ]] || report "$command on a full disk: expected exit code 2"
+  [[ $(<"$work/stderr") == "vinebench: standard output: cannot be written: No space left on device" ]] ||
+    report "$command on a full disk: $(<"$work/stderr")"
+done
 expect 2 "eval of unrelated trajectories" "later.tum: fewer than three" -- \
   eval "$work/truth.tum" "$work/later.tum"
 
@@ -149,6 +155,9 @@ mkdir -p "$work/a" "$work/b"
 echo '{"scenario": "row", "seed": 1, "ate_rmse_m": 0.01}' >"$work/a/metrics.json"
 echo '{"scenario": "row", "seed": 1, "ate_rmse_m": 0.02}' >"$work/b/metrics.json"
 expect 0 "comparison" "row: B is unknown" "one pair" -- compare "$work/a" "$work/b"
+sed -i 's/0.01}/0.01, "frames": 150}/' "$work/a/metrics.json"
+sed -i 's/0.02}/0.02, "frames": 22}/' "$work/b/metrics.json"
+expect 2 "comparison of other lengths" "A has 150 frames, B has 22" -- compare "$work/a" "$work/b"
 sed -i 's/"seed": 1/"seed": 2/' "$work/b/metrics.json"
 expect 2 "comparison of unrelated runs" "no scenario and seed is in both folders" -- \
   compare "$work/a" "$work/b"
@@ -181,6 +190,9 @@ grep -q "occluded-camera" "$work/stdout" && report "list of worlds: lists scenar
 expect 2 "list of something else" "expected one of scenarios, worlds" -- list tractors
 expect 2 "scenario by name" "output folder" -- run quick-loop --out "$work/file/out"
 expect 0 "new world" "new.yaml" -- world new --rows 2 --length 3 --terrain even
+expect 0 "a rover in a world" -- render world.yaml --pose -2,0,1,0 --camera 64x48@50 --rover 0,0,0,0 \
+  --out rover.png
+[[ -s rover.png ]] || report "a rover in a world: no image"
 expect 2 "new world again" "new.yaml" -- world new
 expect 2 "new world of no terrain" "expected one of" "found lunar" -- world other --terrain lunar
 expect 0 "completion of commands" "replay" -- __complete -- re
@@ -191,6 +203,11 @@ court=(--set renderer.engine=fake --set duration=1)
 expect 0 "record" "15 frames" -- record quick-loop --format euroc,rgb --out recorded "${court[@]}" \
   --frames 0..14
 expect 0 "check" "SOUND" -- check recorded
+cp -r recorded interrupted
+rm interrupted/frames.csv
+sed -i 's/^complete: true/complete: false/' interrupted/dataset.yaml
+expect 0 "check of an interrupted data set" "INTERRUPTED, 0 of 15 frames: no frame to check" -- \
+  check interrupted
 expect 0 "replay" "frames" "results: " -- replay recorded --out replayed
 expect 0 "bench slam" "% tracked" -- bench slam recorded --frames 12 --json slam.json
 expect 0 "bench record" "pictures/hour" -- bench record --scenario quick-loop "${court[@]}" --frames 3

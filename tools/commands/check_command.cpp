@@ -12,6 +12,15 @@ namespace {
 
 constexpr std::size_t kShown = 20;
 
+std::string verdict(const harness::DatasetReport& report) {
+  const std::string faults =
+      report.faults.empty() ? "SOUND" : fmt::format("{} FAULTS", report.faults.size());
+  if (report.interrupted.empty()) return faults;
+  const bool nothing = report.frames == 0 && report.faults.empty();
+  return fmt::format("INTERRUPTED, {}: {}", report.interrupted,
+                     nothing ? "no frame to check" : "what there is: " + faults);
+}
+
 int check(const std::string& folder) {
   const harness::DatasetReport report = harness::check_dataset(folder);
   for (const std::string& note : report.notes) fmt::print("note: {}\n", note);
@@ -22,8 +31,7 @@ int check(const std::string& folder) {
     fmt::print("and {} more\n", report.faults.size() - kShown);
   }
   fmt::print("{}: {} ({} sequences, {} frames, {} files, {} label images compared)\n", folder,
-             report.faults.empty() ? "SOUND" : fmt::format("{} FAULTS", report.faults.size()),
-             report.sequences, report.frames, report.files, report.label_images);
+             verdict(report), report.sequences, report.frames, report.files, report.label_images);
   return report.faults.empty() ? 0 : kExpectationFailed;
 }
 
@@ -39,7 +47,9 @@ Command check_command() {
                    .help = "Folder with dataset.yaml",
                    .required = true,
                    .existing = Existing::kFolder}},
-      .footer = "Exit code: 0 for a sound data set, 1 for one with faults, 2 for bad input.",
+      .footer =
+          "Exit code: 0 for a sound data set or part of one, 1 for one with faults, 2 for bad "
+          "input.",
       .run = [folder] { return check(*folder); }};
 }
 

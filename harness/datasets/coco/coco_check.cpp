@@ -11,6 +11,8 @@
 #include <system_error>
 
 #include "core/util/error.h"
+#include "core/util/files.h"
+#include "harness/datasets/coco/coco_file.h"
 #include "harness/datasets/files/image_file.h"
 #include "harness/datasets/files/json_file.h"
 #include "harness/datasets/labels/mask_rle.h"
@@ -57,7 +59,9 @@ class Checker {
       }
       const auto name = image.at("file_name").get<std::string>();
       std::error_code ignored;
-      if (!fs::exists(folder_ / name, ignored)) fault(name + ": image is missing");
+      const bool found = fs::exists(folder_ / kCocoImages / name, ignored) ||
+                         fs::exists(folder_ / name, ignored);  // of version 0.2.0 and earlier
+      if (!found) fault(name + ": image is missing");
     }
     return sizes;
   }

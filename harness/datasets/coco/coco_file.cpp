@@ -52,7 +52,8 @@ void take_list(const fs::path& file, const std::string& list, const Take& take) 
   fail("{}: expected a list '{}' with one item on each line", file.string(), list);
 }
 
-/// The items of all parts, with image names below `prefix(part)`.
+/// The items of all parts, with image names in the folder `below` of each part; parts of version
+/// 0.2.0 and earlier name it already.
 Items lists_of(const fs::path& folder, const std::vector<std::string>& parts,
                const std::string& file, const std::string& list, const std::string& below) {
   return [=](const Take& take) {
@@ -61,7 +62,9 @@ Items lists_of(const fs::path& folder, const std::vector<std::string>& parts,
         std::string moved = item;
         const std::size_t at = moved.find(kFileName);
         if (at != std::string::npos) {
-          moved.insert(at + std::strlen(kFileName), part + "/" + below);
+          const std::size_t name = at + std::strlen(kFileName);
+          const bool has_folder = moved.compare(name, below.size(), below) == 0;
+          moved.insert(name, part + "/" + (has_folder ? "" : below));
         }
         take(moved);
       });
@@ -140,11 +143,12 @@ void write_coco_from_lists(const fs::path& folder, const std::set<Category>& cat
 
 void merge_coco(const fs::path& folder, const std::vector<std::string>& parts,
                 const std::set<Category>& categories) {
+  const std::string images = std::string(kCocoImages) + "/";
   write_coco(folder / "instances.json", category_list(false, categories),
-             lists_of(folder, parts, "instances.json", "images", ""),
+             lists_of(folder, parts, "instances.json", "images", images),
              lists_of(folder, parts, "instances.json", "annotations", ""));
   write_coco(folder / "panoptic.json", category_list(true, {}),
-             lists_of(folder, parts, "panoptic.json", "images", ""),
+             lists_of(folder, parts, "panoptic.json", "images", images),
              lists_of(folder, parts, "panoptic.json", "annotations", "panoptic/"));
 }
 

@@ -11,6 +11,9 @@
 
 namespace vinebench::harness {
 
+/// Folder of the images, which `file_name` is relative to, as COCO's readers expect it.
+inline constexpr const char* kCocoImages = "images";
+
 // COCO's two files, instances.json and panoptic.json. They may be larger than memory: every item of
 // their lists is one line, and lines are copied.
 

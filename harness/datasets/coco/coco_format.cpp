@@ -19,7 +19,7 @@ std::unique_ptr<FormatWriter> write(const WriterInputs& inputs) {
 }
 
 void check(const RecordedSequence& sequence, std::vector<DatasetFault>& faults) {
-  if (!sequence.has("coco/instances.json")) return;  // interrupted
+  if (!sequence.has("coco/panoptic.json")) return;  // the last file; interrupted
   for (const DatasetFault& fault : check_coco(sequence.folder / "coco")) {
     faults.push_back({"coco/" + fault.file, fault.problem});
   }

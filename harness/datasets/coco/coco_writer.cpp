@@ -76,7 +76,7 @@ CocoWriter::CocoWriter(const fs::path& folder, const RecordingNotes& notes, cons
       annotations_(folder / "annotations.jsonl"),
       panoptic_(folder / "panoptic.jsonl") {
   for (const RigConfig::Camera& camera : notes.rig.cameras) cameras_.push_back(camera.name);
-  make_folder(folder / "images");
+  make_folder(folder / kCocoImages);
   make_folder(folder / "panoptic");
 }
 
@@ -91,9 +91,10 @@ std::vector<FileTask> CocoWriter::files(const std::shared_ptr<const DatasetFrame
   pending_.assign(cameras_.size(), {});
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     if (frame->frame.images[i].empty()) continue;
-    tasks.push_back(
-        {fmt::format("rgb {} {}", ending, i), folder_ / "images" / name_of_image(*frame, i, ending),
-         [this, frame, i] { return encode_image(frame->frame.images[i], options_.kind); }});
+    tasks.push_back({fmt::format("rgb {} {}", ending, i),
+                     folder_ / kCocoImages / name_of_image(*frame, i, ending), [this, frame, i] {
+                       return encode_image(frame->frame.images[i], options_.kind);
+                     }});
     tasks.push_back({fmt::format("panoptic {}", i),
                      folder_ / "panoptic" / name_of_image(*frame, i, "png"), [this, frame, i] {
                        const ImageLabels labels = label_things(frame->truth.views[i], scene_);
@@ -111,7 +112,7 @@ CocoWriter::Lines CocoWriter::describe(const DatasetFrame& frame, std::size_t ca
   const cv::Size size = labels.segments.size();
   Lines lines;
   lines.image = json_text(Json{{"id", image},
-                               {"file_name", "images/" + name_of_image(frame, camera, ending)},
+                               {"file_name", name_of_image(frame, camera, ending)},
                                {"width", size.width},
                                {"height", size.height},
                                {"license", 1},

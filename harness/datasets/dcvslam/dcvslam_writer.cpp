@@ -21,6 +21,7 @@ constexpr std::size_t kPairs = 2;  // supported by DC-VSLAM
 constexpr std::array<std::array<const char*, 2>, kPairs> kFolders{
     {{"left", "right"}, {"leftBack", "rightBack"}}};
 constexpr const char* kTagHeader =
+    "# the truth, not detections: every tag that is completely and visibly in view, without noise\n"
     "#timestamp [ns],frame,camera,family,id,size [m],p_x [m],p_y [m],p_z [m],q_x [],q_y [],q_z [],"
     "q_w [],u0 [px],v0 [px],u1 [px],v1 [px],u2 [px],v2 [px],u3 [px],v3 [px]\n";
 

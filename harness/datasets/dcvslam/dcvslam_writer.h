@@ -9,8 +9,9 @@ namespace vinebench::harness {
 
 /// DC-VSLAM's input without ROS (its programs SingleCam and DualCam, run in this folder):
 /// config.yaml, the images of the first pair in left and right, of a second one in leftBack and
-/// rightBack; and tags.csv, the tags that are completely in view, with their true poses and corners
-/// (bottom left first, then anticlockwise, px).
+/// rightBack; and tags.csv, which is truth and not a detector's output: the tags that are
+/// completely in view, with their true poses and corners (bottom left first, then anticlockwise,
+/// px).
 class DcvslamWriter : public FormatWriter {
  public:
   /// Throws Error for a rig without a pair, or with one that is not rectified.

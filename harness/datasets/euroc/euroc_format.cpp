@@ -22,7 +22,7 @@ void check_camera(const RecordedSequence& sequence, const std::string& camera,
   std::set<Stamp> stamps;
   for (const RecordedPose& frame : sequence.frames) stamps.insert(frame.stamp);
   const std::string list = camera + "/data.csv";
-  for (const TableRow& row : read_table(sequence.folder / list)) {
+  for (const TableRow& row : sequence.read(list)) {
     row.expect_columns(2, "timestamp [ns], filename");
     if (sequence.complete && !stamps.contains(row.nanoseconds(0))) {
       faults.push_back({list, fmt::format("{}: no frame has this stamp", row.fields[0])});
@@ -33,16 +33,32 @@ void check_camera(const RecordedSequence& sequence, const std::string& camera,
   }
 }
 
+/// Poses at the inertial unit's rate, and one of each frame.
+void check_truth(const RecordedSequence& sequence, std::vector<DatasetFault>& faults) {
+  const std::string list = "euroc/mav0/state_groundtruth_estimate0/data.csv";
+  std::set<Stamp> stamps;
+  for (const TableRow& row : sequence.read(list)) {
+    row.expect_columns(17, "EuRoC's");
+    const Stamp stamp = row.nanoseconds(0);
+    if (!stamps.empty() && stamp <= *stamps.rbegin()) {
+      faults.push_back({list, fmt::format("{}: stamp does not ascend", stamp)});
+    }
+    stamps.insert(stamp);
+  }
+  if (!sequence.complete) return;  // a pose is written with the next one
+  for (const RecordedPose& frame : sequence.frames) {
+    if (stamps.contains(frame.stamp)) continue;
+    faults.push_back({list, fmt::format("{}: no pose of this frame", frame.stamp)});
+  }
+}
+
 void check(const RecordedSequence& sequence, std::vector<DatasetFault>& faults) {
   const std::string frames = "euroc/frames.csv";
-  expect_rows(sequence, frames, read_table(sequence.folder / frames).size(), faults);
+  expect_rows(sequence, frames, sequence.read(frames).size(), faults);
   for (int i = 0; sequence.has(fmt::format("euroc/mav0/cam{}", i)); ++i) {
     check_camera(sequence, fmt::format("euroc/mav0/cam{}", i), faults);
   }
-  const std::string truth = "euroc/mav0/state_groundtruth_estimate0/data.csv";
-  const std::vector<TableRow> rows = read_table(sequence.folder / truth);
-  if (sequence.complete) expect_rows(sequence, truth, rows.size(), faults);
-  for (const TableRow& row : rows) row.expect_columns(17, "EuRoC's");
+  check_truth(sequence, faults);
 }
 
 }  // namespace

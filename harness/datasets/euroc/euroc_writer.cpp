@@ -57,6 +57,18 @@ std::string describe_imu(const RecordingNotes& notes) {
       gyroscope.bias_random_walk, accelerometer.noise_density, accelerometer.bias_random_walk);
 }
 
+std::string line_of(const ImuSample& sample) {
+  const Eigen::Vector3d& w = sample.angular_velocity;
+  const Eigen::Vector3d& a = sample.specific_force;
+  return fmt::format("{},{},{},{},{},{},{}\n", sample.stamp, w.x(), w.y(), w.z(), a.x(), a.y(),
+                     a.z());
+}
+
+/// As many digits as EuRoC's own stamps have, so that names in order are in order of time.
+std::string digits_of(Stamp stamp) {
+  return fmt::format("{:019}", stamp);
+}
+
 }  // namespace
 
 EurocWriter::EurocWriter(const fs::path& folder, const RecordingNotes& notes, bool colour)
@@ -69,6 +81,7 @@ EurocWriter::EurocWriter(const fs::path& folder, const RecordingNotes& notes, bo
       truth_(make_folder(mav_ / "state_groundtruth_estimate0") / "data.csv") {
   frames_.append("#timestamp [ns]\n");
   imu_.append(kImuHeader);
+  if (notes.first_reading) imu_.append(line_of(*notes.first_reading));
   wheels_.append(kWheelHeader);
   truth_.append(kTruthHeader);
   const Rig rig = notes.rig.make();
@@ -99,7 +112,7 @@ void EurocWriter::describe(const fs::path& folder, const RecordingNotes& notes) 
 }
 
 std::vector<FileTask> EurocWriter::files(const std::shared_ptr<const DatasetFrame>& frame) {
-  const std::string name = fmt::format("{}.png", frame->frame.stamp);
+  const std::string name = digits_of(frame->frame.stamp) + ".png";
   std::vector<FileTask> tasks;
   for (std::size_t i = 0; i < frame->frame.images.size(); ++i) {
     if (frame->frame.images[i].empty()) continue;
@@ -115,31 +128,25 @@ void EurocWriter::commit(const DatasetFrame& written) {
   };
   for (std::size_t i = 0; i < frame.images.size(); ++i) {
     if (!frame.images[i].empty()) {
-      cameras_[i].append(fmt::format("{},{}.png\n", frame.stamp, frame.stamp));
+      cameras_[i].append(fmt::format("{0},{0}.png\n", digits_of(frame.stamp)));
     }
   }
   if (pair_ && has(pair_->left) && has(pair_->right)) {
-    times_.append(fmt::format("{}\n", frame.stamp));
+    times_.append(digits_of(frame.stamp) + "\n");
   }
   write_readings(frame);
-  if (written.truth.known) write_truth({frame.stamp, written.truth.T_world_body});
+  if (written.truth.known) add_truth(written);
   frames_.append(fmt::format("{}\n", frame.stamp));
 }
 
 void EurocWriter::finish() {
-  if (poses_.empty()) return;
-  append_truth(poses_.back(), poses_.front(), poses_.back());
-  poses_.clear();
+  for (const PendingPose& pose : pending_) append_truth(pose.at, *before_, *support_);
+  pending_.clear();
 }
 
 void EurocWriter::write_readings(const Frame& frame) {
   std::string rows;
-  for (const ImuSample& s : frame.imu) {
-    const Eigen::Vector3d& w = s.angular_velocity;
-    const Eigen::Vector3d& a = s.specific_force;
-    rows +=
-        fmt::format("{},{},{},{},{},{},{}\n", s.stamp, w.x(), w.y(), w.z(), a.x(), a.y(), a.z());
-  }
+  for (const ImuSample& sample : frame.imu) rows += line_of(sample);
   imu_.append(rows);
   rows.clear();
   for (const WheelSample& s : frame.wheels) {
@@ -148,12 +155,24 @@ void EurocWriter::write_readings(const Frame& frame) {
   wheels_.append(rows);
 }
 
-void EurocWriter::write_truth(const StampedPose& now) {
-  poses_.push_back(now);
-  if (poses_.size() == 2) append_truth(poses_[0], poses_[0], poses_[1]);
-  if (poses_.size() < 3) return;
-  append_truth(poses_[1], poses_[0], poses_[2]);
-  poses_.pop_front();
+/// The supports are the path's poses, or the frames' own where a source has no path.
+void EurocWriter::add_truth(const DatasetFrame& frame) {
+  const StampedPose now{frame.frame.stamp, frame.truth.T_world_body};
+  for (const StampedPose& pose : frame.truth.path) add_support(pose);
+  if (frame.truth.path.empty()) {
+    add_support(now);
+  } else if (support_->stamp == now.stamp) {
+    pending_.back().at = now;
+  } else {
+    pending_.push_back({now, *support_});
+  }
+}
+
+void EurocWriter::add_support(const StampedPose& support) {
+  for (const PendingPose& pose : pending_) append_truth(pose.at, pose.from, support);
+  before_ = support_.value_or(support);
+  pending_.assign(1, {support, *before_});
+  support_ = support;
 }
 
 /// With the mean velocity from one pose to another; the sensor models do not expose biases.

@@ -29,6 +29,15 @@ struct Setup {
   Pose T_left_right() const { return left.T_body_cam.inverse() * right.T_body_cam; }
 };
 
+Setup setup_of(const Rig& rig, const StereoPair& pair, const RecordingNotes& notes) {
+  return {rig.cameras[static_cast<std::size_t>(pair.left)],
+          rig.cameras[static_cast<std::size_t>(pair.right)],
+          rig.rate_hz,
+          rig.baseline(pair),
+          is_rectified(rig, pair),
+          notes};
+}
+
 /// With a decimal point, which ORB-SLAM3 requires.
 std::string real(double value) {
   std::string text = fmt::format("{}", value);
@@ -123,11 +132,10 @@ Json basalt_intrinsics(const PinholeCamera& c) {
   return {{"camera_type", "pinhole-radtan8"}, {"intrinsics", values}};
 }
 
-/// Every camera of the rig; Basalt supports any number.
+/// One pair: Basalt reads the images of two cameras.
 std::string basalt(const Setup& setup) {
-  const Rig rig = setup.notes.rig.make();
   Json value;
-  for (const RigCamera& camera : rig.cameras) {
+  for (const RigCamera& camera : {setup.left, setup.right}) {
     const Eigen::Vector3d& p = camera.T_body_cam.translation;
     const Eigen::Quaterniond& q = camera.T_body_cam.rotation;
     value["T_imu_cam"].push_back({{"px", p.x()},
@@ -234,19 +242,18 @@ std::string stella(const Setup& setup) {
 std::vector<SettingsFile> slam_settings(const RecordingNotes& notes) {
   const Rig rig = notes.rig.make();
   if (rig.stereo_pairs.empty()) fail("settings: rig '{}' has no stereo pair", rig.name);
-  const StereoPair& pair = rig.stereo_pairs.front();
-  const Setup setup{rig.cameras[static_cast<std::size_t>(pair.left)],
-                    rig.cameras[static_cast<std::size_t>(pair.right)],
-                    rig.rate_hz,
-                    rig.baseline(pair),
-                    is_rectified(rig, pair),
-                    notes};
+  const Setup setup = setup_of(rig, rig.stereo_pairs.front(), notes);
   std::vector<SettingsFile> files{{"orbslam3_raw.yaml", orbslam_raw(setup)},
                                   {"basalt_calib.json", basalt(setup)},
                                   {"kalibr_imucam_chain.yaml", kalibr_cameras(setup)},
                                   {"kalibr_imu_chain.yaml", kalibr_imu(setup)},
                                   {"stella_vslam.yaml", stella(setup)}};
   if (setup.rectified) files.push_back({"orbslam3_rectified.yaml", orbslam_rectified(setup)});
+  for (std::size_t i = 1; i < rig.stereo_pairs.size(); ++i) {
+    const StereoPair& pair = rig.stereo_pairs[i];
+    files.push_back(
+        {fmt::format("basalt_calib_{}.json", pair.name), basalt(setup_of(rig, pair, notes))});
+  }
   return files;
 }
 

@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -45,12 +46,14 @@ std::filesystem::path claim_folder(const std::filesystem::path& folder) {
   return folder;
 }
 
-void clear_folder(const std::filesystem::path& folder) {
+void clear_folder(const std::filesystem::path& folder, const std::string& last) {
   std::error_code error;
   std::vector<std::filesystem::path> entries;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     entries.push_back(entry.path());
   }
+  std::ranges::stable_partition(
+      entries, [&](const std::filesystem::path& entry) { return entry.filename() != last; });
   for (const std::filesystem::path& entry : entries) {
     if (!error) std::filesystem::remove_all(entry, error);
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "core/util/output_folder.h"
 
@@ -19,7 +20,8 @@ std::filesystem::path make_folder(const std::filesystem::path& folder);
 /// writable, or is not empty.
 std::filesystem::path claim_folder(const std::filesystem::path& folder);
 
-/// Removes the content of a folder, not the folder. Throws Error.
-void clear_folder(const std::filesystem::path& folder);
+/// Removes the content of a folder, not the folder; the entry of the name `last` after all others,
+/// so that an interruption leaves it. Throws Error.
+void clear_folder(const std::filesystem::path& folder, const std::string& last = "");
 
 }  // namespace vinebench::harness

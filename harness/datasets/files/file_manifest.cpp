@@ -68,6 +68,16 @@ std::vector<std::string> files_below(const fs::path& folder) {
   return names;
 }
 
+std::uint64_t bytes_below(const fs::path& folder) {
+  std::uint64_t bytes = 0;
+  for (const std::string& name : files_below(folder)) {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(folder / name, error);
+    if (!error) bytes += size;
+  }
+  return bytes;
+}
+
 FileManifest::FileManifest(const fs::path& folder) : folder_(folder), list_(folder / kName) {}
 
 void FileManifest::add(const std::vector<ListedFile>& files) {

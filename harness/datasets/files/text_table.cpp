@@ -33,6 +33,20 @@ std::vector<std::string> split_fields(const std::string& line) {
   return fields;
 }
 
+std::vector<TableRow> rows_of(const std::filesystem::path& file, const std::string& text) {
+  std::istringstream in(text);
+  std::vector<TableRow> rows;
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    line = trimmed(line);
+    if (line.empty() || line[0] == '#') continue;
+    TableRow row{file, number, split_fields(line)};
+    if (!row.fields.empty()) rows.push_back(std::move(row));  // other kinds of blanks alone
+  }
+  return rows;
+}
+
 }  // namespace
 
 bool is_number(const std::string& text) {
@@ -67,17 +81,12 @@ Stamp TableRow::nanoseconds(std::size_t column) const {
 }
 
 std::vector<TableRow> read_rows(const std::filesystem::path& file) {
-  std::istringstream in(read_file(file, FileKind::kTable));
-  std::vector<TableRow> rows;
-  int number = 0;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
-    line = trimmed(line);
-    if (line.empty() || line[0] == '#') continue;
-    TableRow row{file, number, split_fields(line)};
-    if (!row.fields.empty()) rows.push_back(std::move(row));  // other kinds of blanks alone
-  }
-  return rows;
+  return rows_of(file, read_file(file, FileKind::kTable));
+}
+
+std::vector<TableRow> read_ended_rows(const std::filesystem::path& file) {
+  const std::string text = read_file(file, FileKind::kTable);
+  return rows_of(file, text.substr(0, text.rfind('\n') + 1));
 }
 
 std::vector<TableRow> read_table(const std::filesystem::path& file) {

@@ -27,7 +27,10 @@ struct TableRow {
 /// '#' and carriage returns are ignored. Throws Error if the file cannot be read.
 std::vector<TableRow> read_rows(const std::filesystem::path& file);
 
-/// The same, without a header: a first line that does not begin with a number.
+/// Only lines that end: one that an interruption cut off is ignored.
+std::vector<TableRow> read_ended_rows(const std::filesystem::path& file);
+
+/// The rows of read_rows(), without a header: a first line that does not begin with a number.
 std::vector<TableRow> read_table(const std::filesystem::path& file);
 
 /// Whether the whole text is a finite number.

@@ -23,4 +23,17 @@ bool has_card(const std::filesystem::path& folder) {
   return std::filesystem::is_regular_file(folder / DatasetCard::kName, ignored);
 }
 
+bool has_partial_card_alone(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::int64_t entries = 0;
+  bool others = false;
+  for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error)) {
+    ++entries;
+    const std::string name = it->path().filename().string();
+    others = others || !name.starts_with(DatasetCard::kName) || !name.ends_with(kPartialEnding);
+  }
+  return !error && entries == 1 && !others;
+}
+
 }  // namespace vinebench::harness

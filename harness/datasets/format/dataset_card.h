@@ -64,4 +64,8 @@ void write_card(const std::filesystem::path& folder, const DatasetCard& card);
 
 bool has_card(const std::filesystem::path& folder);
 
+/// Whether a recording was interrupted before it had its card: the card, which is written first, is
+/// incomplete and there is nothing else.
+bool has_partial_card_alone(const std::filesystem::path& folder);
+
 }  // namespace vinebench::harness

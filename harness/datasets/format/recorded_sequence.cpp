@@ -13,6 +13,10 @@ bool RecordedSequence::has(const std::string& name) const {
   return std::filesystem::exists(folder / name, ignored);
 }
 
+std::vector<TableRow> RecordedSequence::read(const std::string& list) const {
+  return complete ? read_rows(folder / list) : read_ended_rows(folder / list);
+}
+
 void expect_rows(const RecordedSequence& sequence, const std::string& list, std::size_t rows,
                  std::vector<DatasetFault>& faults) {
   const std::size_t frames = sequence.frames.size();

@@ -8,6 +8,7 @@
 
 #include "core/geometry/rig.h"
 #include "core/time.h"
+#include "harness/datasets/files/text_table.h"
 
 namespace vinebench::harness {
 
@@ -34,6 +35,9 @@ struct RecordedSequence {
 
   /// Whether it has a file or folder of this name.
   bool has(const std::string& name) const;
+
+  /// Rows of a list; of an interrupted recording without a line that was cut off. Throws Error.
+  std::vector<TableRow> read(const std::string& list) const;
 };
 
 /// Adds a fault where a list does not have a line for each frame; that of an interrupted recording

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/frame.h"
 #include "core/geometry/rig.h"
 #include "core/slam_system.h"
 #include "core/truth/site.h"
@@ -29,8 +31,9 @@ struct RecordingNotes {
   slam::SlamConfig slam;
   double imu_rate_hz = 200;
   ImuNoise imu;
-  std::string scenario;  ///< name
-  std::string world;     ///< name
+  std::optional<ImuSample> first_reading{};  ///< inertial, before those of the first frame
+  std::string scenario;                      ///< name
+  std::string world;                         ///< name
   std::int64_t seed = 0;
   std::string settings;              ///< the scenario with all defaults resolved, YAML
   std::vector<WorldTag> world_tags;  ///< indexed by Truth::visible_tags

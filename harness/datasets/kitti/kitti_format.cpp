@@ -16,7 +16,7 @@ std::unique_ptr<FormatWriter> write(const WriterInputs& inputs) {
 
 void check(const RecordedSequence& sequence, std::vector<DatasetFault>& faults) {
   for (const char* list : {"kitti/times.txt", "kitti/poses.txt"}) {
-    expect_rows(sequence, list, read_table(sequence.folder / list).size(), faults);
+    expect_rows(sequence, list, sequence.read(list).size(), faults);
   }
 }
 

@@ -68,6 +68,104 @@ TEST_F(RecordTest, AnInterruptedRecordingIsReadableAndGoesOn) {
   EXPECT_EQ(manifest(), resumed);
 }
 
+// The files are made in this order; the recording ends before each of them.
+TEST_F(RecordTest, ARecordingThatEndedBeforeItsFirstFrameGoesOn) {
+  record({"euroc"});
+  const std::string whole = manifest();
+  const std::vector<std::string> made{"scenario.resolved.yaml", "calibration.yaml", "files.xxh128",
+                                      "euroc", "frames.csv"};
+  for (std::size_t there = 0; there <= made.size(); ++there) {
+    request_.resume = false;
+    request_.out = folder_ / std::to_string(there);
+    record({"euroc"}, 0);
+    for (std::size_t i = there; i < made.size(); ++i) {
+      std::filesystem::remove_all(request_.out / made[i]);
+    }
+    EXPECT_THAT(faults(), testing::IsEmpty()) << there;
+    EXPECT_EQ(check_dataset(request_.out).interrupted, "0 of 6 frames") << there;
+    request_.resume = true;
+    EXPECT_EQ(record({"euroc"}).frames, kFrames) << there;
+    EXPECT_EQ(manifest(), whole) << there;
+  }
+}
+
+TEST_F(RecordTest, ARecordingThatEndedBeforeItsCardWasCompleteGoesOn) {
+  std::filesystem::create_directories(request_.out);
+  folder_.write("data/dataset.yaml.partial", "name:");
+  EXPECT_THAT(error_of([&] { check_dataset(request_.out); }), HasSubstr("was interrupted before"));
+  EXPECT_THAT(error_of([&] { record({"euroc"}); }), HasSubstr("is not empty"));
+  request_.resume = true;
+  EXPECT_EQ(record({"euroc"}).frames, kFrames);
+  EXPECT_THAT(faults(), testing::IsEmpty());
+}
+
+// A recording that was resumed and ended while the earlier one was removed.
+TEST_F(RecordTest, WhatIsHalfRemovedGoesOn) {
+  record({"euroc"}, 3);
+  std::filesystem::remove(request_.out / "files.xxh128");
+  std::filesystem::remove(request_.out / "frames.csv");
+  std::filesystem::remove_all(request_.out / "euroc/mav0/cam0");
+  EXPECT_THAT(faults(), testing::IsEmpty());
+  request_.resume = true;
+  EXPECT_EQ(record({"euroc"}).frames, kFrames);
+  EXPECT_THAT(faults(), testing::IsEmpty());
+}
+
+TEST_F(RecordTest, AnInterruptedSetSaysWhatThereIs) {
+  const auto root_files = [&] {
+    return read_file(request_.out / "files.xxh128") + read_file(request_.out / "dataset.yaml");
+  };
+  request_.seeds = {4, 6};
+  record({"coco"});
+  const std::string whole = root_files();
+  request_.out = folder_ / "stopped";
+  EXPECT_TRUE(record({"coco"}, kFrames + 3).interrupted);
+  EXPECT_EQ(check_dataset(request_.out).interrupted, "1 of 3 sequences, 8 frames");
+  EXPECT_THAT(faults(), testing::IsEmpty());
+  // As after an abrupt end: the initial card, and no list.
+  DatasetCard card = read_card(request_.out);
+  EXPECT_EQ(card.sequences.size(), 3u);
+  card.frames = card.planned_frames = card.files = 0;
+  card.files_xxh128 = "";
+  write_card(request_.out, card);
+  std::filesystem::remove(request_.out / "files.xxh128");
+  EXPECT_EQ(check_dataset(request_.out).interrupted, "1 of 3 sequences, 8 frames");
+  EXPECT_THAT(faults(), testing::IsEmpty());
+  request_.resume = true;
+  EXPECT_EQ(record({"coco"}).skipped, 1);
+  EXPECT_EQ(root_files(), whole);
+  EXPECT_EQ(check_dataset(request_.out).interrupted, "");
+}
+
+TEST_F(RecordTest, ResumingAsSomethingElseChangesNothing) {
+  request_.resume = true;
+  record({"rgb"});
+  const auto unchanged = [&](const std::string& message) {
+    const std::string before = read_file(request_.out / "dataset.yaml") + manifest();
+    EXPECT_THAT(error_of([&] { record({"rgb"}); }), HasSubstr(message));
+    EXPECT_EQ(read_file(request_.out / "dataset.yaml") + manifest(), before);
+  };
+  request_.seeds = {1, 2};
+  unchanged("is one sequence; expected no --seeds");
+  request_.out = folder_ / "set";
+  record({"rgb"});
+  request_.seeds = {1, 1};
+  unchanged("has 2 sequences; expected --seeds with at least these");
+  request_.seeds = {2, 3};
+  unchanged("from another seed on");
+  request_.seeds.reset();
+  unchanged("has several sequences; expected the same --seeds");
+}
+
+TEST_F(RecordTest, BytesAreThoseOfAllFiles) {
+  const RecordOutcome outcome = record({"coco"});
+  std::uint64_t bytes = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(request_.out)) {
+    if (entry.is_regular_file()) bytes += entry.file_size();
+  }
+  EXPECT_EQ(outcome.bytes, bytes);
+}
+
 TEST_F(RecordTest, WhatAnAbruptEndLeavesIsReadable) {
   record({"euroc", "depth"}, 3);
   // As after a power failure: the initial dataset.yaml, half a line, half an image.
@@ -95,10 +193,10 @@ TEST_F(RecordTest, DamageIsFound) {
   folder_.write("data/stray.txt", "");
   EXPECT_THAT(faults(), testing::ElementsAre("stray.txt: is not in the list of files"));
   std::filesystem::remove(request_.out / "stray.txt");
-  std::filesystem::remove(request_.out / "euroc/mav0/cam1/data/0.png");
-  EXPECT_THAT(faults(),
-              testing::UnorderedElementsAre(HasSubstr("cam1/data/0.png: is missing"),
-                                            HasSubstr("cam1/data.csv: 0.png: image is missing")));
+  std::filesystem::remove(request_.out / "euroc/mav0/cam1/data/0000000000000000000.png");
+  EXPECT_THAT(faults(), testing::UnorderedElementsAre(
+                            HasSubstr("cam1/data/0000000000000000000.png: is missing"),
+                            HasSubstr("cam1/data.csv: 0000000000000000000.png: image is missing")));
   EXPECT_THAT(error_of([&] { check_dataset(folder_.path()); }),
               HasSubstr("is no data set of ours"));
 }

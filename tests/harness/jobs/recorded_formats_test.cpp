@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <yaml-cpp/yaml.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -13,7 +14,9 @@
 #include <regex>
 #include <sstream>
 
+#include "core/config/yaml.h"
 #include "core/trajectory.h"
+#include "harness/datasets/euroc/slam_settings.h"
 #include "harness/datasets/open_recording.h"
 #include "tests/support/recorded_folders.h"
 #include "tests/support/small_scenario.h"
@@ -53,25 +56,40 @@ TEST_F(RecordedFormatsTest, Euroc) {
   ASSERT_EQ(left.size(), kFrameCount + 1);
   for (std::size_t i = 1; i < left.size(); ++i) {
     std::smatch parts;
-    ASSERT_TRUE(std::regex_match(left[i], parts, std::regex("([0-9]+),([0-9]+)\\.png"))) << left[i];
+    // 19 digits as EuRoC's own, so that sorted names are in order of time.
+    ASSERT_TRUE(std::regex_match(left[i], parts, std::regex("([0-9]{19}),([0-9]{19})\\.png")))
+        << left[i];
     EXPECT_EQ(parts[1], parts[2]);
+    EXPECT_TRUE(std::filesystem::exists(mav / "cam0/data" / (parts[2].str() + ".png")));
   }
   EXPECT_EQ(lines_of(mav / "cam1/data.csv"), left);
   const auto times = lines_of(out() / "euroc/times.txt");
   ASSERT_EQ(times.size(), kFrameCount);
-  EXPECT_EQ(times[1], "66666667");
+  EXPECT_EQ(times[1], "0000000000066666667");
   const auto imu = lines_of(mav / "imu0/data.csv");
   EXPECT_EQ(numbers_of(imu.at(1), ',').size(), 7u);
   EXPECT_EQ(imu.at(0).substr(0, 43), "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_");
+  // An inertial reading no later than the first image, as systems that integrate up to it need.
+  EXPECT_EQ(numbers_of(imu.at(1), ',')[0], 0);
+  EXPECT_NEAR(numbers_of(imu.at(1), ',')[6], 9.81, 0.1);  // at rest; the bias has 0.02 m/s^2
+  EXPECT_EQ(numbers_of(imu.at(2), ',')[0], 5e6);
   // 17 columns, w first: of a rover that hardly turns, w is near 1. TUM has it last.
-  const auto truth = lines_of(mav / "state_groundtruth_estimate0/data.csv");
   const auto tum = lines_of(out() / "tum/body.txt");
-  ASSERT_EQ(truth.size(), kFrameCount + 1);
+  std::map<double, std::vector<double>> truth;
+  for (const std::string& line : lines_of(mav / "state_groundtruth_estimate0/data.csv")) {
+    if (line.starts_with("#")) continue;
+    truth[numbers_of(line, ',')[0]] = numbers_of(line, ',');
+    ASSERT_EQ(numbers_of(line, ',').size(), 17u);
+  }
+  // 0 to 0.333333333 s at 200 Hz are 67 poses, from 0 on; of the six frames' stamps 0 and 0.2 s are
+  // among them.
+  EXPECT_EQ(truth.size(), 67u + 4u);
   for (std::size_t i = 0; i < kFrameCount; ++i) {
-    const auto euroc = numbers_of(truth[i + 1], ',');
     const auto body = numbers_of(tum[i], ' ');
-    ASSERT_EQ(euroc.size(), 17u);
     ASSERT_EQ(body.size(), 8u);
+    const auto at = truth.find(std::stod(left[i + 1]));
+    ASSERT_NE(at, truth.end());
+    const std::vector<double>& euroc = at->second;
     EXPECT_GT(euroc[4], 0.99);
     EXPECT_NEAR(euroc[4], body[7], 1e-9);
     EXPECT_NEAR(euroc[1], body[1], 1e-9);
@@ -111,15 +129,56 @@ TEST_F(RecordedFormatsTest, SettingsOfOtherSystems) {
   raw["Stereo.T_c1_c2"] >> T_c1_c2;
   EXPECT_NEAR(T_c1_c2.at<float>(0, 3), 0.12f, 1e-6f);  // the right camera is on the right
   const auto basalt = nlohmann::json::parse(read_file(settings / "basalt_calib.json"))["value0"];
-  EXPECT_EQ(basalt["T_imu_cam"].size(), 3u);
+  EXPECT_EQ(basalt["T_imu_cam"].size(), 2u);  // Basalt reads a pair
   EXPECT_EQ(basalt["calib_gyro_bias"].size(), 12u);
-  EXPECT_EQ(basalt["resolution"][2][0], 160);
+  EXPECT_EQ(basalt["resolution"][1][0], 96);
   const cv::FileStorage chain((settings / "kalibr_imucam_chain.yaml").string(),
                               cv::FileStorage::READ);
   EXPECT_EQ(chain["cam1"]["T_cn_cnm1"].size(), 4u);
   EXPECT_NEAR(double(chain["cam1"]["T_cn_cnm1"][0][3]), -0.12, 1e-12);
   const YAML::Node stella = YAML::LoadFile((settings / "stella_vslam.yaml").string());
   EXPECT_NEAR(stella["Camera"]["focal_x_baseline"].as<double>(), 7.2, 1e-12);
+}
+
+// The velocities of the truth are those of its positions, between its lines and in the last one.
+TEST_F(RecordedFormatsTest, EurocsTrueVelocitiesIntegrateToItsPositions) {
+  record({"euroc"});
+  std::vector<std::vector<double>> rows;
+  for (const auto& line : lines_of(out() / "euroc/mav0/state_groundtruth_estimate0/data.csv")) {
+    if (!line.starts_with("#")) rows.push_back(numbers_of(line, ','));
+  }
+  double x = rows.front()[1];
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const double seconds = 1e-9 * (rows[i][0] - rows[i - 1][0]);
+    EXPECT_GT(seconds, 0);
+    x += seconds * (rows[i][8] + rows[i - 1][8]) / 2;
+  }
+  // At 2 m/s^2, the mean over 5 ms to either side errs by 10 mm/s for 5 ms at a jerk.
+  EXPECT_GT(rows.back()[1] - rows.front()[1], 0.05);
+  EXPECT_NEAR(x, rows.back()[1], 1e-4);
+  EXPECT_GT(rows.back()[8], 0.3);
+}
+
+TEST_F(RecordedFormatsTest, BasaltHasACalibrationOfEachPair) {
+  RecordingNotes notes;
+  notes.rig = YamlDocument::load(std::string(VINEBENCH_SOURCE_DIR) + "/models/csl-rover/rig.yaml")
+                  .read<RigConfig>();
+  std::map<std::string, nlohmann::json> files;
+  for (const SettingsFile& file : slam_settings(notes)) {
+    if (file.name.starts_with("basalt")) files[file.name] = nlohmann::json::parse(file.text);
+  }
+  ASSERT_EQ(files.size(), 2u);
+  const Rig rig = notes.rig.make();
+  for (const auto& [name, pair] :
+       {std::pair("basalt_calib.json", 0), std::pair("basalt_calib_back.json", 1)}) {
+    const auto& value = files.at(name)["value0"];
+    ASSERT_EQ(value["T_imu_cam"].size(), 2u) << name;
+    const StereoPair& cameras = rig.stereo_pairs[static_cast<std::size_t>(pair)];
+    for (const auto& [i, camera] : {std::pair(0, cameras.left), std::pair(1, cameras.right)}) {
+      EXPECT_EQ(value["T_imu_cam"][static_cast<std::size_t>(i)]["px"].get<double>(),
+                rig.cameras[static_cast<std::size_t>(camera)].T_body_cam.translation.x());
+    }
+  }
 }
 
 TEST_F(RecordedFormatsTest, Kitti) {
@@ -165,8 +224,9 @@ TEST_F(RecordedFormatsTest, DcVslam) {
   }
   // The side camera sees the tag; its middle is where the corners' diagonals meet.
   const auto tags = lines_of(out() / "dcvslam/tags.csv");
-  ASSERT_GT(tags.size(), 1u);
-  EXPECT_EQ(std::ranges::count(tags[1], ','), 20);
+  ASSERT_GT(tags.size(), 2u);
+  EXPECT_TRUE(tags[0].starts_with("# the truth, not detections"));
+  EXPECT_EQ(std::ranges::count(tags[2], ','), 20);
 }
 
 TEST_F(RecordedFormatsTest, EveryPoseGivesTheBodys) {
@@ -206,9 +266,10 @@ TEST_F(RecordedFormatsTest, AReplayGivesTheFramesOfTheRun) {
         EXPECT_EQ(cv::norm(grey, kitti[i].frame.images[camera], cv::NORM_INF), 0);
       }
     }
-    ASSERT_EQ(euroc[i].frame.imu.size(), run.imu.size());
+    const std::size_t before = i == 0 ? 1 : 0;  // a recording has a reading at the start
+    ASSERT_EQ(euroc[i].frame.imu.size(), run.imu.size() + before);
     for (std::size_t k = 0; k < run.imu.size(); ++k) {
-      EXPECT_EQ(euroc[i].frame.imu[k].specific_force, run.imu[k].specific_force);
+      EXPECT_EQ(euroc[i].frame.imu[k + before].specific_force, run.imu[k].specific_force);
     }
   }
   const Rig rig = open_recording(out() / "kitti").rig;

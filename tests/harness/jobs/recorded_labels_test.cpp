@@ -11,8 +11,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <regex>
 
 #include "core/trajectory.h"
+#include "harness/datasets/coco/coco_check.h"
+#include "harness/datasets/coco/coco_file.h"
 #include "harness/datasets/dataset_check.h"
 #include "harness/datasets/format/calibration_file.h"
 #include "harness/datasets/labels/label_table.h"
@@ -134,7 +137,11 @@ TEST_F(RecordedLabelsTest, CocoCountsEveryPixelOnce) {
   record({"coco", "semantic", "instances"});
   const Json root = Json::parse(read_file(request_.out / "coco/instances.json"));
   std::map<std::int64_t, Json> images;
-  for (const Json& image : root["images"]) images[image["id"]] = image;
+  for (const Json& image : root["images"]) {
+    images[image["id"]] = image;
+    // A name is relative to the folder of the images, as COCO's readers expect it.
+    EXPECT_TRUE(std::filesystem::exists(request_.out / "coco/images" / image["file_name"]));
+  }
   ASSERT_EQ(images.size(), 18u);
   std::map<std::int64_t, std::map<int, std::int64_t>> areas;  // by image and category
   int bunches = 0;
@@ -179,6 +186,30 @@ TEST_F(RecordedLabelsTest, CocoCountsEveryPixelOnce) {
     }
     EXPECT_EQ(areas[id], pixels) << image.dump();
   }
+}
+
+// Up to version 0.2.0 the names of a COCO file began with the folder.
+TEST_F(RecordedLabelsTest, NamesOfImagesWithTheirFolderAreStillRead) {
+  record({"coco"});
+  std::map<std::string, std::string> merged;
+  for (const std::string form : {"new", "old"}) {
+    for (const char* name : {"instances.json", "panoptic.json"}) {
+      const std::filesystem::path file = request_.out / "coco" / name;
+      std::string text = read_file(file);
+      if (form == "old") {
+        const std::size_t begin = text.find("\"images\": [");
+        const std::size_t end = text.find("\n]", begin);
+        const std::string images = std::regex_replace(
+            text.substr(begin, end - begin), std::regex("(\"file_name\":\")"), "$1images/");
+        write_file_atomically(file, text.replace(begin, end - begin, images));
+      }
+    }
+    EXPECT_TRUE(check_coco(request_.out / "coco").empty()) << form;
+    merge_coco(request_.out, {"coco"}, {});
+    merged[form] = read_file(request_.out / "instances.json");
+  }
+  EXPECT_EQ(merged["old"], merged["new"]);
+  EXPECT_NE(merged["new"].find("\"file_name\":\"coco/images/left_000000.png\""), std::string::npos);
 }
 
 TEST_F(RecordedLabelsTest, AllOfThemPassTheCheck) {

@@ -37,6 +37,19 @@ TEST_F(DiagnosisTest, AGoodRunHasNothingToExplain) {
   EXPECT_TRUE(diagnose({}, {}, trial_).empty());
 }
 
+TEST_F(DiagnosisTest, AnEstimateThatNeverBeganIsNotCalledGood) {
+  for (Tick& tick : record_.ticks) {
+    tick.estimate.status = TrackingStatus::kInitializing;
+    tick.estimate.T_map_body.reset();
+  }
+  EXPECT_THAT(format_diagnosis(record_, found()), HasSubstr("there was never a pose"));
+}
+
+TEST_F(DiagnosisTest, WithoutTruthNothingIsKnown) {
+  for (Tick& tick : record_.ticks) tick.truth.known = false;
+  EXPECT_THAT(format_diagnosis(record_, found()), HasSubstr("the truth is not known"));
+}
+
 TEST_F(DiagnosisTest, WeakTrackingBehindACartonIsOcclusion) {
   meanwhile([](Tick& tick) {
     weaken(tick);

@@ -112,6 +112,49 @@ TEST(CompareTest, RunsArePairedByScenarioAndSeed) {
               HasSubstr("is not a metrics.json of a run"));
 }
 
+TEST(CompareTest, RunsOfDifferentLengthsAreNoPair) {
+  const test::TestFolder folder;
+  const auto write = [&](const std::string& place, int seed, int frames) {
+    std::filesystem::create_directories(folder / place);
+    Json json = run(seed, 0.01).json;
+    json["frames"] = frames;
+    folder.write(place + "/metrics.json", json.dump());
+  };
+  write("a/1", 1, 150);
+  write("b/1", 1, 22);
+  EXPECT_THAT(test::error_of([&] { pair_runs(folder / "a", folder / "b"); }),
+              AllOf(HasSubstr("no two runs are of the same length"),
+                    HasSubstr("row, seed 1 (A has 150 frames, B has 22)")));
+  write("a/2", 2, 150);
+  write("b/2", 2, 150);
+  const PairedRuns runs = pair_runs(folder / "a", folder / "b");
+  EXPECT_EQ(runs.pairs.size(), 1u);
+  EXPECT_THAT(format_comparison(runs),
+              HasSubstr("not compared: row, seed 1 (A has 150 frames, B has 22)"));
+}
+
+// What a comparison is about, files in other folders and keys of one side alone are no difference.
+TEST(CompareTest, AnotherExperimentIsAWarning) {
+  const test::TestFolder folder;
+  const auto write = [&](const std::string& place, const std::string& settings) {
+    std::filesystem::create_directories(folder / place);
+    folder.write(place + "/metrics.json", run(1, 0.01).json.dump());
+    folder.write(place + "/scenario.resolved.yaml", settings);
+  };
+  write("a", "slam: {cameras: [front]}\nrover: {model: /x/rover.xml}\nworld: {sun: 20, rows: [1]}");
+  write("b",
+        "slam: {cameras: [back]}\nrover: {model: /y/rover.xml}\nworld: {sun: 20, rows: [1], "
+        "wind: 2}");
+  EXPECT_TRUE(pair_runs(folder / "a", folder / "b").differing.empty());
+  write("b", "world: {sun: 30, rows: [1, 2]}");
+  const PairedRuns runs = pair_runs(folder / "a", folder / "b");
+  EXPECT_THAT(runs.differing, testing::ElementsAre("row, seed 1: world.sun, world.rows"));
+  EXPECT_THAT(format_comparison(runs), HasSubstr("not the same experiment: row, seed 1"));
+  write("b", "world: [");
+  EXPECT_THAT(test::error_of([&] { pair_runs(folder / "a", folder / "b"); }),
+              HasSubstr("scenario.resolved.yaml: is not valid YAML"));
+}
+
 // Reference values of the distribution's 97.5 % quantile: 2.0395 (31), 1.9840 (100), 1.9600 (inf).
 TEST(StudentTest, JoinsItsTableAndTheNormalDistribution) {
   EXPECT_EQ(student_t_95(4), 2.776);

@@ -134,6 +134,19 @@ TEST(RunFolderTest, ALinkInTheImagesPlaceIsAnErrorAndNothingIsRemovedBehindIt) {
   EXPECT_TRUE(fs::exists(tests / "theirs/000000_front_left.png"));
 }
 
+// Each line of estimate.tum has its status on the same line of the companion, after the header.
+TEST(RunFolderTest, DeadReckonedPosesAreToldFromTrackedOnes) {
+  const test::TestFolder folder;
+  RunRecord record = test::record_of();
+  record.ticks[3].estimate.status = TrackingStatus::kDeadReckoning;
+  record.summary.trajectory = {record.summary.trajectory[2], record.summary.trajectory[3]};
+  record.summary.trajectory.push_back({stamp_of_frame(9, test::kFakeRate) + 1, {}});
+  write_run_files(folder.path(), test::fake_trial(), record, judge(record, test::fake_trial()));
+  EXPECT_EQ(read_file(folder / "estimate_status.csv"),
+            "#timestamp [s],status\n0.200000000,tracked\n0.300000000,dead_reckoning\n"
+            "0.900000001,unknown\n");
+}
+
 // Cartons cover 95 % of the front pair; the events' threshold is that of the expectation.
 TEST(RunFolderTest, EventsUseTheShareOfTheExpectation) {
   const test::TestFolder folder;

@@ -57,6 +57,24 @@ TEST_F(DrivenRoverTest, TheTruthToldGoesTheSameWay) {
   EXPECT_NEAR(end.y(), 0, 0.01);
 }
 
+// Handing out the path at 15 Hz gives every pose once: 4 s at 200 Hz are 800, and the start's.
+TEST_F(DrivenRoverTest, ThePathHasThePosesOfTheInertialInstants) {
+  DrivenRover rover(rover_, world_, route_, 1);
+  Trajectory path;
+  for (std::int64_t i = 0; i <= 60; ++i) {
+    rover.advance_to(stamp_of_frame(i, 15));
+    rover.hand_out_path(stamp_of_frame(i, 15), path);
+    if (path.back().stamp != stamp_of_frame(i, 15)) continue;  // every third frame
+    EXPECT_EQ(path.back().pose.translation, rover.T_world_body(path.back().stamp).translation);
+  }
+  ASSERT_EQ(path.size(), 801u);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    EXPECT_EQ(path[i].stamp, static_cast<Stamp>(i) * kNanosecondsPerSecond / 200);
+  }
+  EXPECT_EQ(rover.first_reading().stamp, 0);
+  EXPECT_NEAR(rover.first_reading().specific_force.z(), 9.81, 0.01);  // at rest
+}
+
 // With an estimate 0.1 m too far forward and 0.05 m too far left, it stops that much short and
 // right.
 TEST_F(DrivenRoverTest, AWrongPoseToldIsDrivenInto) {

@@ -36,6 +36,22 @@ double allan_deviation(const std::vector<double>& values, double seconds) {
   return std::sqrt(0.5 * sum / static_cast<double>(means.size() - 1));
 }
 
+TEST(InertialSensorTest, AReadingAtTheStartChangesNoOther) {
+  InertialAxesConfig config;
+  config.noise_density = 2e-3;
+  config.bias_random_walk = 1e-3;
+  config.initial_bias = 0.5;
+  InertialAxes axes(config, "test", kRate, 1);
+  const double start = axes.measure_at_start(Eigen::Vector3d::Zero()).x();
+  const std::vector<double> others = readings(config, 3);
+  for (const double other : others) {
+    EXPECT_EQ(axes.measure(Eigen::Vector3d::Zero()).x(), other);
+  }
+  // It has the bias, and white noise of its own: N / sqrt(10 ms) is 0.02; five of those.
+  EXPECT_NE(start, others[0]);
+  EXPECT_NEAR(start, others[0], 0.1);
+}
+
 TEST(InertialSensorTest, WhiteNoiseHasItsAllanDeviation) {
   InertialAxesConfig config;
   config.noise_density = 2e-3;

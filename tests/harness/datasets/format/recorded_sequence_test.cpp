@@ -30,6 +30,18 @@ TEST(RecordedSequenceTest, AListHasALineForEachFrame) {
   EXPECT_EQ(problems(sequence, 5).size(), 1u);
 }
 
+TEST(RecordedSequenceTest, ALineThatWasCutOffIsOfAnInterruptionOnly) {
+  const test::TestFolder folder;
+  folder.write("list.csv", "#a,b\n1,2\n3,4\n5");
+  RecordedSequence sequence;
+  sequence.folder = folder.path();
+  EXPECT_EQ(sequence.read("list.csv").size(), 3u);
+  sequence.complete = false;
+  EXPECT_EQ(sequence.read("list.csv").size(), 2u);
+  folder.write("list.csv", "5");
+  EXPECT_TRUE(sequence.read("list.csv").empty());
+}
+
 TEST(RecordedSequenceTest, KnowsWhatItHas) {
   const test::TestFolder folder;
   folder.write("frames.csv", "");
