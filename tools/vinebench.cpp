@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/util/error.h"
+#include "harness/systems/plugin_process.h"
 #include "tools/arguments/command_line.h"
 #include "tools/arguments/completion.h"
 #include "tools/commands/commands.h"
@@ -34,8 +35,10 @@ int print_completions(const Command& program, std::vector<std::string> words,
 }
 
 int main(const std::vector<std::string>& arguments) {
-  const Surroundings surroundings{harness::Catalogue(harness::data_folders(program_file())),
-                                  harness::machine_of_environment()};
+  Surroundings surroundings{harness::Catalogue(harness::data_folders(program_file())),
+                            harness::machine_of_environment()};
+  surroundings.data_folders = harness::program_data_folders(program_file());
+  surroundings.machine.plugin_host = harness::find_plugin_host(program_file());
   const Command commands = program(surroundings);
   if (!arguments.empty() && arguments.front() == kCompleteCommand) {
     return print_completions(commands, arguments, surroundings.catalogue);

@@ -12,6 +12,7 @@
 #include "harness/run/prefetch.h"
 #include "harness/systems/external_slam.h"
 #include "harness/systems/plugin_slam.h"
+#include "harness/systems/process_group.h"
 #include "sim/world/world_layout.h"
 
 namespace vinebench::harness {
@@ -46,13 +47,13 @@ class ScratchFolder {
 };
 
 /// With a SLAM system that is not ours.
-RunOutcome run_other_system(const ScenarioConfig& scenario, FrameSource& source, int threads,
-                            const RunOptions& options) {
+RunOutcome run_other_system(const ScenarioConfig& scenario, FrameSource& source,
+                            const Machine& machine, int threads, const RunOptions& options) {
   const SlamChoice& choice = scenario.slam;
   if (choice.plugin) {
-    const auto slam = load_plugin_slam(*choice.plugin, source.rig(),
-                                       sim::registered_tags(scenario.simulation.world),
-                                       choice.dead_reckoning.wheels, threads);
+    const auto slam = load_plugin_slam(
+        *choice.plugin, source.rig(), sim::registered_tags(scenario.simulation.world),
+        choice.dead_reckoning.wheels, threads, {machine.plugin_host, options.stopped});
     return run_lockstep_and_judge(trial_of(scenario), source, *slam, options);
   }
   const ScratchFolder folder(options.folder);
@@ -72,6 +73,7 @@ RunOutcome run_scenario(const ScenarioConfig& scenario, const Machine& machine, 
   check_map_folders(options.maps);  // before the vineyard is generated
   const bool ours = !scenario.slam.external && !scenario.slam.plugin;
   if (!ours) expect_no_maps(options.maps);
+  if (scenario.slam.external) check_executable(scenario.slam.external->program);
   if (recording) claim_folder(recording->folder);
   // Separate pools, because rendering and estimation run concurrently.
   WorkerPool drawing(threads);
@@ -94,7 +96,7 @@ RunOutcome run_scenario(const ScenarioConfig& scenario, const Machine& machine, 
                    source.size());
     with_writer.sinks.push_back(&*writer);
   }
-  if (!ours) return run_other_system(scenario, source, threads, with_writer);
+  if (!ours) return run_other_system(scenario, source, machine, threads, with_writer);
   const auto slam = slam::make_slam(scenario.slam, source.rig(),
                                     sim::registered_tags(scenario.simulation.world), estimating);
   return run_mapping_system(trial_of(scenario), source, *slam, with_writer);

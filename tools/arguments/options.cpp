@@ -29,6 +29,14 @@ int default_threads() {
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
+Option untrusted_option(bool& untrusted) {
+  return {.name = "--untrusted",
+          .target = &untrusted,
+          .help =
+              "Refuse a scenario that executes programs, loads code or names files outside of "
+              "its own folder and the program's data"};
+}
+
 Option json_option(std::string& file) {
   return {.name = "--json",
           .target = &file,

@@ -24,6 +24,9 @@ std::vector<Override> parse_overrides(const std::vector<std::string>& texts);
 Option threads_option(int& threads);
 int default_threads();
 
+/// --untrusted.
+Option untrusted_option(bool& untrusted);
+
 /// --json, of a benchmark.
 Option json_option(std::string& file);
 

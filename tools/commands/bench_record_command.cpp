@@ -8,6 +8,7 @@
 
 #include "core/util/files.h"
 #include "harness/benchmarks/record_benchmark.h"
+#include "harness/experiment/trust.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 
@@ -23,14 +24,18 @@ struct BenchRecordArguments {
   std::vector<std::string> overrides;
   int threads = default_threads();
   std::int64_t frames = 60;
+  bool untrusted = false;
 };
 
 int bench_record(const BenchRecordArguments& arguments, const Surroundings& surroundings) {
   const std::string scenario = arguments.scenario.empty() ? kRecordedByDefault : arguments.scenario;
   harness::RecordBenchmark benchmark;
-  benchmark.scenario =
-      harness::load_scenario(surroundings.catalogue.find(harness::DataKind::kScenario, scenario),
-                             parse_overrides(arguments.overrides));
+  const std::filesystem::path file =
+      surroundings.catalogue.find(harness::DataKind::kScenario, scenario);
+  benchmark.scenario = harness::load_scenario(file, parse_overrides(arguments.overrides));
+  if (arguments.untrusted) {
+    harness::check_untrusted(benchmark.scenario, file, {surroundings.data_folders});
+  }
   sim::choose_backend(benchmark.scenario.simulation.renderer, surroundings.machine.gl_platform);
   benchmark.plant_cache = surroundings.machine.plant_cache;
   benchmark.frames = arguments.frames;
@@ -65,6 +70,7 @@ Command bench_record_command(const Surroundings& surroundings) {
                        .existing = Existing::kFolder},
                       overrides_option(arguments->overrides, "Set a key of the scenario"),
                       threads_option(arguments->threads),
+                      untrusted_option(arguments->untrusted),
                       {.name = "--frames",
                        .target = &arguments->frames,
                        .help = "Frames of the run",

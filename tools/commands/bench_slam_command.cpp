@@ -25,6 +25,7 @@ struct BenchSlamArguments {
   std::vector<std::string> overrides;
   int threads = default_threads();
   int frames = 150;
+  bool untrusted = false;
 };
 
 void load_recording(const BenchSlamArguments& arguments, harness::SlamBenchmark& benchmark) {
@@ -43,9 +44,11 @@ int bench_slam(const BenchSlamArguments& arguments, const Surroundings& surround
   benchmark.threads = arguments.threads;
   if (arguments.dataset.empty()) {
     const std::string scenario = arguments.scenario.empty() ? kRunByDefault : arguments.scenario;
-    simulate_frames({surroundings.catalogue.find(harness::DataKind::kScenario, scenario),
-                     parse_overrides(arguments.overrides), arguments.frames, surroundings.machine},
-                    benchmark);
+    SimulatedFrames wanted{surroundings.catalogue.find(harness::DataKind::kScenario, scenario),
+                           parse_overrides(arguments.overrides), arguments.frames,
+                           surroundings.machine};
+    if (arguments.untrusted) wanted.data_folders = surroundings.data_folders;
+    simulate_frames(wanted, benchmark);
   } else {
     load_recording(arguments, benchmark);
   }
@@ -75,6 +78,7 @@ Command bench_slam_command(const Surroundings& surroundings) {
                       overrides_option(arguments->overrides,
                                        "Set a key, e.g. slam.features.features=1200"),
                       threads_option(arguments->threads),
+                      untrusted_option(arguments->untrusted),
                       {.name = "--frames",
                        .target = &arguments->frames,
                        .help = "Frames at most; they are kept in memory",
