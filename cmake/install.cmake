@@ -50,6 +50,7 @@ list(REMOVE_ITEM harness_headers ${slam_headers})
 vinebench_install_headers(harness ${harness_headers})
 
 install(TARGETS vinebench RUNTIME COMPONENT program)
+install(TARGETS vinebench_plugin_host RUNTIME DESTINATION libexec/vinebench COMPONENT program)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios ${PROJECT_SOURCE_DIR}/worlds ${PROJECT_SOURCE_DIR}/models
         ${PROJECT_SOURCE_DIR}/cultivars COMPONENT program DESTINATION ${CMAKE_INSTALL_DATADIR}/vinebench)
 install(FILES ${PROJECT_SOURCE_DIR}/tools/completion/vinebench.bash COMPONENT program RENAME vinebench

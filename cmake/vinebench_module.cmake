@@ -58,11 +58,11 @@ function(vinebench_unity target)
 endfunction()
 
 # vinebench_module(NAME PUBLIC dependencies... PRIVATE dependencies...): one static library of every source in this folder and those
-# below it, but for folders that are libraries of their own, and for files that match
+# below it, but for folders that are libraries of their own, for programs (*_main.cpp), and for files that match
 # vinebench_without_NAME, a regular expression.
 function(vinebench_module name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
-  list(FILTER sources EXCLUDE REGEX "/rosbag/")
+  list(FILTER sources EXCLUDE REGEX "/rosbag/|_main\\.cpp$")
   if(vinebench_without_${name})
     list(FILTER sources EXCLUDE REGEX "${vinebench_without_${name}}")
   endif()

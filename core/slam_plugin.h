@@ -6,7 +6,8 @@
  *
  * The shared object exports vinebench_slam(), which returns a table of functions. For a run the
  * bench calls create once, process for each frame in order of the stamps, finish once and destroy
- * once, all on one thread. Frames contain sensor data only, no ground truth.
+ * once, all on one thread. Frames contain sensor data only, no ground truth. The shared object is
+ * loaded into a process of its own, which the bench ends at a limit of time or memory.
  *
  * Metres, radians, seconds; stamps are integer nanoseconds. T_a_b takes coordinates in b to
  * coordinates in a. body: x forward, y left, z up; cam: x right, y down, z into the scene; map: the
@@ -157,7 +158,7 @@ typedef struct vinebench_slam_functions {
   const char* name;
   /* A system, or NULL and a message. */
   void* (*create)(const vinebench_setup* setup, vinebench_message message);
-  /* 0, or another number and a message, which ends the run. */
+  /* 0, or another number and a message, which ends the run with that as its verdict. */
   int (*process)(void* system, const vinebench_frame* frame, vinebench_estimate* estimate,
                  vinebench_message message);
   int (*finish)(void* system, vinebench_summary* summary, vinebench_message message);

@@ -13,6 +13,7 @@ namespace vinebench::harness {
 struct Machine {
   std::string gl_platform;  ///< where a scenario leaves it open; automatic if empty
   CacheFolder plant_cache;
+  std::filesystem::path plugin_host{};  ///< find_plugin_host(); set by programs
 };
 
 /// $VINEBENCH_GL, and $VINEBENCH_CACHE, else $XDG_CACHE_HOME/vinebench, else ~/.cache/vinebench,

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/util/warning.h"
+#include "harness/systems/plugin_process.h"
 #include "tools/arguments/command_line.h"
 #include "tools/arguments/completion.h"
 #include "tools/commands/commands.h"
@@ -47,6 +48,8 @@ int main(const std::vector<std::string>& arguments) {
   Surroundings surroundings{harness::Catalogue(harness::data_folders(program_file())),
                             harness::machine_of_environment()};
   surroundings.machine.plant_cache.notice = print_notice;
+  surroundings.data_folders = harness::program_data_folders(program_file());
+  surroundings.machine.plugin_host = harness::find_plugin_host(program_file());
   const Command commands = program(surroundings);
   if (!arguments.empty() && arguments.front() == kCompleteCommand) {
     return print_completions(commands, arguments, surroundings.catalogue);

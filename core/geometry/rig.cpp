@@ -41,6 +41,10 @@ Rig RigConfig::make() const {
   rig.name = name;
   rig.rate_hz = rate_hz;
   for (const Camera& c : cameras) {
+    if (c.name.starts_with('.') || c.name.find('/') != std::string::npos) {
+      fail("rig '{}': camera '{}': expected a name without '/' that begins with no '.'", name,
+           c.name);  // files and folders are named after it
+    }
     PinholeCamera model{c.width, c.height, c.fx, c.fy, 0, 0, c.distortion};
     model.cx = c.cx.value_or((c.width - 1) / 2.0);
     model.cy = c.cy.value_or((c.height - 1) / 2.0);

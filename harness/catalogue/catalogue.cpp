@@ -128,8 +128,14 @@ std::vector<DataEntry> Catalogue::list(DataKind kind) const {
 }
 
 std::vector<fs::path> data_folders(const fs::path& program) {
+  std::vector<fs::path> folders = program_data_folders(program);
+  folders.insert(folders.begin(), ".");
+  return folders;
+}
+
+std::vector<fs::path> program_data_folders(const fs::path& program) {
   const fs::path folder = program.parent_path();
-  std::vector<fs::path> folders{".", folder / "../share/vinebench"};
+  std::vector<fs::path> folders{folder / "../share/vinebench"};
   if (is_file(folder / "data_folder.txt")) {
     InputStream note(folder / "data_folder.txt", FileKind::kTable);
     if (std::string line; std::getline(note, line)) folders.emplace_back(line);

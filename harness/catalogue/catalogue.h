@@ -45,6 +45,9 @@ class Catalogue {
 /// (as built).
 std::vector<std::filesystem::path> data_folders(const std::filesystem::path& program);
 
+/// The same without the working directory.
+std::vector<std::filesystem::path> program_data_folders(const std::filesystem::path& program);
+
 /// The value of a file's `description:`, else the first sentence of its first comment that is not
 /// the licence; empty where it has neither.
 std::string describe_file(const std::filesystem::path& file);

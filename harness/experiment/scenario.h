@@ -42,6 +42,7 @@ struct ScenarioConfig {
     archive("expectations", expectations);
     archive.require(!name.empty(), "name", "expected a name");
     archive.require(name.find('/') == std::string::npos, "name", "expected a name without '/'");
+    archive.require(!name.starts_with('.'), "name", "expected a name that begins with no '.'");
   }
 };
 

@@ -28,6 +28,7 @@ std::string name_of_sequence(std::int64_t seed) {
 ScenarioConfig scenario_of(const RecordRequest& request, std::optional<std::int64_t> seed) {
   ScenarioConfig scenario =
       load_drawn_scenario(request.scenario, request.overrides, request.randomisation, seed);
+  if (request.untrusted) check_untrusted(scenario, request.scenario, *request.untrusted);
   sim::choose_backend(scenario.simulation.renderer, request.machine.gl_platform);
   return scenario;
 }

@@ -10,6 +10,7 @@
 
 #include "harness/datasets/format/record_options.h"
 #include "harness/experiment/scenario.h"
+#include "harness/experiment/trust.h"
 #include "harness/machine.h"
 
 namespace vinebench::harness {
@@ -25,6 +26,7 @@ struct RecordRequest {
   /// absent, `out` is the single sequence of the scenario's own seed.
   std::optional<std::pair<std::int64_t, std::int64_t>> seeds;
   RecordOptions options;
+  std::optional<Untrusted> untrusted{};  ///< check_untrusted() applies to the scenario
   bool resume = false;  ///< `out` may hold an interrupted recording of the same request
 };
 

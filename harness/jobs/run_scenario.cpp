@@ -10,6 +10,7 @@
 #include "harness/run/prefetch.h"
 #include "harness/systems/external_slam.h"
 #include "harness/systems/plugin_slam.h"
+#include "harness/systems/process_group.h"
 #include "sim/world/world_layout.h"
 
 namespace vinebench::harness {
@@ -23,12 +24,13 @@ void expect_no_maps(const MapFiles& maps) {
 
 /// With a SLAM system that is not ours.
 RunOutcome run_other_system(const ScenarioConfig& scenario, const RecordingNotes& notes,
-                            FrameSource& source, int threads, const RunOptions& options) {
+                            FrameSource& source, const Machine& machine, int threads,
+                            const RunOptions& options) {
   const SlamChoice& choice = scenario.slam;
   if (choice.plugin) {
-    const auto slam = load_plugin_slam(*choice.plugin, source.rig(),
-                                       sim::registered_tags(scenario.simulation.world),
-                                       choice.dead_reckoning.wheels, threads);
+    const auto slam = load_plugin_slam(
+        *choice.plugin, source.rig(), sim::registered_tags(scenario.simulation.world),
+        choice.dead_reckoning.wheels, threads, {machine.plugin_host, options.stopped});
     return run_lockstep_and_judge(trial_of(scenario), source, *slam, options);
   }
   std::optional<TemporaryFolder> temporary;
@@ -51,6 +53,7 @@ RunOutcome run_scenario(const ScenarioConfig& scenario, const Machine& machine, 
   check_map_folders(options.maps);  // before the vineyard is generated
   const bool ours = !scenario.slam.external && !scenario.slam.plugin;
   if (!ours) expect_no_maps(options.maps);
+  if (scenario.slam.external) check_executable(scenario.slam.external->program);
   std::optional<FolderLock> lock;
   if (recording) {
     lock.emplace(lock_recording(recording->folder));
@@ -80,7 +83,7 @@ RunOutcome run_scenario(const ScenarioConfig& scenario, const Machine& machine, 
   if (!ours) {
     RecordingNotes notes = notes_of(scenario);
     notes.first_reading = simulation->first_reading();
-    return run_other_system(scenario, notes, source, threads, with_writer);
+    return run_other_system(scenario, notes, source, machine, threads, with_writer);
   }
   const auto slam = slam::make_slam(scenario.slam, source.rig(),
                                     sim::registered_tags(scenario.simulation.world), estimating);

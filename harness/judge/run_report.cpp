@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/judge/run_report.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <iterator>
 
 #include "harness/judge/diagnosis.h"
 
@@ -43,6 +46,12 @@ std::vector<FaultCount> count_faults(const RunRecord& record) {
   return faults;
 }
 
+Check check_of(const SlamFailure& failure) {
+  const std::string place =
+      failure.frame ? fmt::format("frame {}", *failure.frame) : "after the last frame";
+  return {"SLAM system", fmt::format("{} ({})", failure.cause, place), "no failure", false};
+}
+
 }  // namespace
 
 RunReport judge(const RunRecord& record, const Trial& trial) {
@@ -58,7 +67,10 @@ RunReport judge(const RunRecord& record, const Trial& trial) {
   }
   report.input_faults = count_faults(record);
   report.diagnosis = diagnose(record, report.results, trial);
-  report.checks = check_expectations(trial.expectations, report.results);
+  report.failure = record.failure;
+  if (report.failure) report.checks.push_back(check_of(*report.failure));
+  std::ranges::move(check_expectations(trial.expectations, report.results),
+                    std::back_inserter(report.checks));
   return report;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,8 @@ struct RunReport {
   std::vector<CameraReport> cameras;     ///< of the rig, in its order
   std::vector<FaultCount> input_faults;  ///< in order of the first of each kind
   std::vector<DegradedSegment> diagnosis;
-  std::vector<Check> checks;  ///< of the scenario's expectations
+  std::optional<SlamFailure> failure;  ///< of the system under test
+  std::vector<Check> checks;  ///< of the scenario's expectations, and of no failure if there is one
   RunCost cost;               ///< filled by the run loop, as the hash
   std::string hash;  ///< of inputs, estimates and results; empty if the run was interrupted
 };

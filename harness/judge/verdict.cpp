@@ -51,9 +51,14 @@ void check_blind(Checks& checks, const Expectations& asked, const RunResults& re
                           blind ? blind->inliers_drop() : std::nullopt);
 }
 
+constexpr std::size_t kWidestColumn = 40;  // longer texts stand out
+
 std::size_t widest(const std::vector<Check>& checks, std::string Check::*column) {
   std::size_t width = 0;
-  for (const Check& check : checks) width = std::max(width, (check.*column).size());
+  for (const Check& check : checks) {
+    const std::size_t size = (check.*column).size();
+    if (size <= kWidestColumn) width = std::max(width, size);
+  }
   return width;
 }
 

@@ -60,8 +60,13 @@ void add_cost(const RunCost& cost, Json& metrics) {
   metrics["peak_rss_mib"] = cost.peak_rss_mib;
 }
 
+Json failure_json(const SlamFailure& failure) {
+  return {{"cause", failure.cause}, {"frame", or_null(failure.frame)}};
+}
+
 void add_unhashed(const RunReport& report, Json& metrics) {
   const RunResults& results = report.results;
+  if (report.failure) metrics["failure"] = failure_json(*report.failure);
   if (Json shares = occlusion_json(report); !shares.empty()) metrics["occlusion"] = shares;
   if (results.blind) metrics["blind"]["occluder"] = name_of(results.blind->occluder);
   if (results.consistency) metrics["nees_left_out"] = results.consistency->not_invertible;

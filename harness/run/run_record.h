@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/truth/site.h"
@@ -25,6 +26,7 @@ struct RunRecord {
   std::vector<WorldTag> tags;  ///< of the world, in its order
   std::vector<Tick> ticks;
   SlamSummary summary;
+  std::optional<SlamFailure> failure{};  ///< of the system under test
 };
 
 /// Whether this frame has a pose supported by the cameras.
@@ -49,6 +51,7 @@ class RunRecorder : public Sink {
  public:
   RunRecorder(Rig rig, std::vector<WorldTag> tags);
   void on_tick(const Sample& sample, const Estimate& estimate) override;
+  void on_failure(const SlamFailure& failure) override { record_.failure = failure; }
   void on_finish(const SlamSummary& summary) override;
   const RunRecord& record() const { return record_; }
 

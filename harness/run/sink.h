@@ -4,6 +4,7 @@
 
 #include "core/slam_system.h"
 #include "core/truth/frame_source.h"
+#include "harness/run/system_failure.h"
 
 namespace vinebench::harness {
 
@@ -12,6 +13,8 @@ class Sink {
  public:
   virtual ~Sink() = default;
   virtual void on_tick(const Sample& sample, const Estimate& estimate) = 0;
+  /// Before on_finish(), whose summary is empty then.
+  virtual void on_failure(const SlamFailure&) {}
   virtual void on_finish(const SlamSummary&) {}
 };
 

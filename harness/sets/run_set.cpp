@@ -53,8 +53,12 @@ std::string run_planned(const PlannedRun& run, const SetOptions& options, int th
   run_options.title = name_of(run);
   run_options.stopped = options.stopped;
   const std::string fingerprint = fingerprint_of_inputs(run.scenario);
-  if (options.run(run.scenario, threads, run_options).interrupted) return "interrupted";
-  write_file_atomically(run.folder / kInputsFile, fingerprint + "\n");
+  const RunOutcome outcome = options.run(run.scenario, threads, run_options);
+  if (outcome.interrupted) return "interrupted";
+  // A system that failed may have failed by chance: it runs again the next time.
+  if (!outcome.report.failure) {
+    write_file_atomically(run.folder / kInputsFile, fingerprint + "\n");
+  }
   return "";
 }
 

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/systems/external_slam.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "core/util/error.h"
 #include "core/util/output_folder.h"
+#include "harness/run/system_failure.h"
 #include "harness/systems/foreign_trajectory.h"
+#include "harness/systems/process_group.h"
 #include "harness/systems/program.h"
 
 namespace vinebench::harness {
@@ -21,6 +24,15 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
        at = text.find(what, at + by.size())) {
     text.replace(at, what.size(), by);
   }
+}
+
+/// Throws Error unless the path lies in the folder, by links too.
+void check_inside(const fs::path& path, const fs::path& folder) {
+  std::error_code error;
+  const fs::path inside = fs::weakly_canonical(folder.parent_path(), error) / folder.filename();
+  const fs::path real = fs::weakly_canonical(path, error);
+  if (!error && std::ranges::mismatch(inside, real).in1 == inside.end()) return;
+  fail("slam.external.trajectory: {} leads out of {}", path.string(), folder.string());
 }
 
 /// Removes the files of an earlier run only.
@@ -42,10 +54,13 @@ class ExternalSlam : public SlamSystem {
         output_(fs::absolute(folder / "external")),
         stopped_(std::move(stopped)) {
     check_external_slam(config, rig_);
+    check_executable(config.program);
     create_inner_folder(output_);
     create_inner_folder(recording_);
+    const fs::path file = output_ / config.trajectory;
+    check_inside(file.parent_path(), output_);
     std::error_code ignored;
-    fs::remove(output_ / config.trajectory, ignored);  // of an earlier run
+    fs::remove(file, ignored);  // of an earlier run
     writer_.emplace(recording_, notes);
   }
 
@@ -65,8 +80,12 @@ class ExternalSlam : public SlamSystem {
     writer_.reset();
     std::error_code ignored;
     fs::remove_all(recording_ / "mav0/state_groundtruth_estimate0", ignored);  // empty
-    if (!run()) return summary;
-    summary.trajectory = read_trajectory();
+    try {
+      if (!run()) return summary;
+      summary.trajectory = read_trajectory();
+    } catch (const Error& error) {
+      throw SystemFailure(error.what());
+    }
     if (!config_.keep_recording) fs::remove_all(recording_, ignored);
     return summary;
   }
@@ -84,6 +103,7 @@ class ExternalSlam : public SlamSystem {
                     .folder = output_,
                     .log = output_ / "log.txt",
                     .timeout = config_.timeout,
+                    .memory_mib = config_.memory_mib,
                     .stopped = stopped_};
     for (std::string& argument : program.arguments) {
       replace_all(argument, "{recording}", recording_.string());
@@ -99,6 +119,7 @@ class ExternalSlam : public SlamSystem {
       fail("{}: wrote no trajectory; expected {}; its messages are in {}", config_.program.string(),
            file.string(), (output_ / "log.txt").string());
     }
+    check_inside(file, output_);
     Pose T_sensor_body;
     if (config_.poses_of != kBody) {
       const auto camera = static_cast<std::size_t>(rig_.find_camera(config_.poses_of));

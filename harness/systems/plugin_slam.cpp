@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/systems/plugin_slam.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "core/slam_plugin.h"
-#include "core/util/error.h"
+#include "harness/run/system_failure.h"
+#include "harness/systems/host/loaded_plugin.h"
+#include "harness/systems/plugin_process.h"
 
 namespace vinebench::harness {
 namespace {
@@ -120,37 +118,28 @@ class FrameView {
   vinebench_frame frame_{};
 };
 
+/// A plug-in that its own setup outlives.
+struct StartedPlugin {
+  std::unique_ptr<Setup> setup;
+  std::unique_ptr<PluginLink> link;  // last member: it is destroyed first
+};
+
 class PluginSlam : public SlamSystem {
  public:
-  PluginSlam(const PluginSlamConfig& config, const Rig& rig, const std::vector<RegisteredTag>& tags,
-             const std::optional<slam::MecanumWheels>& wheels, int threads)
-      : file_(std::filesystem::absolute(config.library).string()),
-        functions_(load(file_)),
-        setup_(config, rig, tags, wheels, threads) {
-    system_ = functions_.create(&setup_.get(), message());
-    if (system_ == nullptr) fail_with("create");
-  }
-  PluginSlam(const PluginSlam&) = delete;
-  PluginSlam& operator=(const PluginSlam&) = delete;
-  /// The shared object stays loaded: its libraries may have threads and exit handlers.
-  ~PluginSlam() override { functions_.destroy(system_); }
+  PluginSlam(std::string file, StartedPlugin plugin)
+      : file_(std::move(file)), plugin_(std::move(plugin)) {}
 
   Estimate process(const Frame& frame) override {
-    const ScopedTimer timer(times_, functions_.name);
-    std::vector<vinebench_counts> counts(setup_.get().camera_count);
-    vinebench_estimate answer{};
-    answer.counts = counts.data();
+    const ScopedTimer timer(times_, plugin_.link->name());
     const FrameView view(frame);
-    if (functions_.process(system_, &view.get(), &answer, message()) != 0) fail_with("process");
-    return estimate_of(frame.stamp, answer, counts);
+    return estimate_of(frame.stamp, plugin_.link->process(view.get()));
   }
 
   SlamSummary finish() override {
-    vinebench_summary answer{};
-    if (functions_.finish(system_, &answer, message()) != 0) fail_with("finish");
+    const PluginSummary answer = plugin_.link->finish();
     SlamSummary summary;
-    summary.trajectory = trajectory_of(answer.trajectory, answer.trajectory_count);
-    summary.keyframes = trajectory_of(answer.keyframes, answer.keyframe_count);
+    summary.trajectory = trajectory_of(answer.trajectory);
+    summary.keyframes = trajectory_of(answer.keyframes);
     summary.landmarks = static_cast<std::size_t>(std::max<std::int64_t>(0, answer.landmarks));
     return summary;
   }
@@ -158,56 +147,33 @@ class PluginSlam : public SlamSystem {
   const StageTimes& times() const override { return times_; }
 
  private:
-  static vinebench_slam_functions load(const std::string& file) {
-    void* object = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (object == nullptr) fail("slam.plugin.library: {}", dlerror());
-    using Entry = const vinebench_slam_functions* (*)();
-    const auto entry = reinterpret_cast<Entry>(dlsym(object, "vinebench_slam"));
-    if (entry == nullptr) {
-      fail("slam.plugin.library: {}: exports no vinebench_slam (core/slam_plugin.h)", file);
-    }
-    const vinebench_slam_functions* functions = entry();
-    if (functions == nullptr || functions->version != VINEBENCH_SLAM_PLUGIN_VERSION) {
-      fail("slam.plugin.library: {}: expected version {} of core/slam_plugin.h, found {}", file,
-           VINEBENCH_SLAM_PLUGIN_VERSION, functions == nullptr ? 0 : functions->version);
-    }
-    return *functions;
-  }
-
-  vinebench_message message() {
-    message_.fill('\0');
-    return {message_.data(), message_.size()};
-  }
-
-  [[noreturn]] void fail_with(const char* function) const {
-    const std::string text(message_.begin(), std::ranges::find(message_, '\0'));
-    fail("{}: {}: {}", file_, function, text.empty() ? "failed without a message" : text);
-  }
-
   Pose pose_of(const vinebench_pose& pose) const {
     const double* q = pose.quaternion;
     const double* p = pose.position;
     const Pose result{Eigen::Quaterniond(q[3], q[0], q[1], q[2]), {p[0], p[1], p[2]}};
     if (!result.translation.allFinite() ||
         !(std::abs(result.rotation.norm() - 1) <= kNormTolerance)) {
-      fail("{}: invalid pose: position {} {} {}, quaternion {} {} {} {}", file_, p[0], p[1], p[2],
-           q[0], q[1], q[2], q[3]);
+      fail_system("{}: invalid pose: position {} {} {}, quaternion {} {} {} {}", file_, p[0], p[1],
+                  p[2], q[0], q[1], q[2], q[3]);
     }
     return result;
   }
 
-  Estimate estimate_of(Stamp stamp, const vinebench_estimate& answer,
-                       const std::vector<vinebench_counts>& counts) const {
+  Estimate estimate_of(Stamp stamp, const PluginEstimate& given) const {
+    const vinebench_estimate& answer = given.estimate;
     if (answer.status < VINEBENCH_INITIALIZING || answer.status > VINEBENCH_LOST) {
-      fail("{}: process: expected a status from 0 to 3, found {}", file_, answer.status);
+      fail_system("{}: process: expected a status from 0 to 3, found {}", file_, answer.status);
     }
     Estimate estimate;
     estimate.stamp = stamp;
     estimate.status = static_cast<TrackingStatus>(answer.status);
     if (answer.has_pose != 0) estimate.T_map_body = pose_of(answer.T_map_body);
     estimate.covariance = Eigen::Map<const Matrix6d>(answer.covariance);
+    if (!estimate.covariance.allFinite()) {
+      fail_system("{}: process: expected a finite covariance", file_);
+    }
     estimate.keyframe = answer.keyframe != 0;
-    for (const vinebench_counts& c : counts) {
+    for (const vinebench_counts& c : given.counts) {
       estimate.cameras.push_back({c.features, c.stereo, c.matches, c.inliers});
     }
     if (answer.has_loop_closure != 0) {
@@ -218,12 +184,12 @@ class PluginSlam : public SlamSystem {
     return estimate;
   }
 
-  Trajectory trajectory_of(const vinebench_stamped_pose* poses, std::size_t count) const {
+  Trajectory trajectory_of(const std::vector<vinebench_stamped_pose>& poses) const {
     Trajectory trajectory;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < poses.size(); ++i) {
       if (i > 0 && poses[i].stamp <= poses[i - 1].stamp) {
-        fail("{}: finish: expected ascending stamps, found {} after {}", file_, poses[i].stamp,
-             poses[i - 1].stamp);
+        fail_system("{}: finish: expected ascending stamps, found {} after {}", file_,
+                    poses[i].stamp, poses[i - 1].stamp);
       }
       trajectory.push_back({poses[i].stamp, pose_of(poses[i].T_map_body)});
     }
@@ -231,20 +197,49 @@ class PluginSlam : public SlamSystem {
   }
 
   std::string file_;
-  vinebench_slam_functions functions_;
-  Setup setup_;
-  std::array<char, 1024> message_{};
-  void* system_ = nullptr;
+  StartedPlugin plugin_;
   StageTimes times_;
 };
+
+/// A plug-in that failed while it was created: so says its first frame, and the run has a verdict.
+class FailedPlugin : public SlamSystem {
+ public:
+  explicit FailedPlugin(SystemFailure failure) : failure_(std::move(failure)) {}
+  Estimate process(const Frame&) override { throw SystemFailure(failure_); }
+  SlamSummary finish() override { throw SystemFailure(failure_); }
+  const StageTimes& times() const override { return times_; }
+
+ private:
+  SystemFailure failure_;
+  StageTimes times_;
+};
+
+std::unique_ptr<PluginLink> start_plugin(const PluginSlamConfig& config, const Setup& setup,
+                                         const std::string& file,
+                                         const PluginSurroundings& around) {
+  if (config.in_process) return std::make_unique<LoadedPlugin>(file, setup.get());
+  if (around.host.empty()) {
+    fail(
+        "slam.plugin: vinebench_plugin_host is neither beside the program nor in "
+        "../libexec/vinebench; with slam.plugin.in_process the plug-in runs without it");
+  }
+  return start_plugin_process(around.host, config, setup.get(), around.stopped);
+}
 
 }  // namespace
 
 std::unique_ptr<SlamSystem> load_plugin_slam(const PluginSlamConfig& config, const Rig& rig,
                                              const std::vector<RegisteredTag>& tags,
                                              const std::optional<slam::MecanumWheels>& wheels,
-                                             int threads) {
-  return std::make_unique<PluginSlam>(config, rig, tags, wheels, threads);
+                                             int threads, const PluginSurroundings& around) {
+  const std::string file = std::filesystem::absolute(config.library).string();
+  StartedPlugin plugin{std::make_unique<Setup>(config, rig, tags, wheels, threads), nullptr};
+  try {
+    plugin.link = start_plugin(config, *plugin.setup, file, around);
+  } catch (const SystemFailure& failure) {
+    return std::make_unique<FailedPlugin>(failure);
+  }
+  return std::make_unique<PluginSlam>(file, std::move(plugin));
 }
 
 }  // namespace vinebench::harness

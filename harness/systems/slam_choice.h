@@ -19,6 +19,7 @@ struct ExternalSlamConfig {
   std::string trajectory = "trajectory.txt";  ///< file that it writes, in its output folder
   std::string poses_of = "body";              ///< frame of its poses: "body", or a camera
   double timeout = 3600;                      ///< s, of wall time
+  double memory_mib = 8192;                   ///< resident memory of all its processes, MiB
   bool keep_recording = false;
   template <class Archive>
   void serialize(Archive& archive) {
@@ -27,20 +28,39 @@ struct ExternalSlamConfig {
     archive("trajectory", trajectory);
     archive("poses_of", poses_of);
     archive("timeout", timeout, Range::positive());
+    archive("memory_mib", memory_mib, Range::positive());
     archive("keep_recording", keep_recording);
     archive.require(!program.empty(), "program", "expected an executable file");
-    archive.require(!trajectory.empty(), "trajectory", "expected a file name");
+    archive.require(is_below(trajectory), "trajectory",
+                    "expected a file in the program's output folder: a relative path without '..'");
+  }
+
+ private:
+  static bool is_below(const std::filesystem::path& file) {
+    if (!file.has_filename() || file.is_absolute()) return false;
+    for (const std::filesystem::path& part : file) {
+      if (part == "..") return false;
+    }
+    return file.filename() != ".";
   }
 };
 
 /// A SLAM system in a shared object, as of core/slam_plugin.h.
 struct PluginSlamConfig {
   std::filesystem::path library;
-  std::optional<std::filesystem::path> settings;  ///< passed on to it
+  std::optional<std::filesystem::path> settings{};  ///< passed on to it
+  bool in_process = false;    ///< in the bench's process, without limits, instead of its own
+  double frame_timeout = 60;  ///< s, of wall time, for each frame
+  double timeout = 600;       ///< s, likewise, to create it, and for the final result
+  double memory_mib = 8192;   ///< resident memory of its process, MiB
   template <class Archive>
   void serialize(Archive& archive) {
     archive("library", library);
     archive("settings", settings);
+    archive("in_process", in_process);
+    archive("frame_timeout", frame_timeout, Range::positive());
+    archive("timeout", timeout, Range::positive());
+    archive("memory_mib", memory_mib, Range::positive());
     archive.require(!library.empty(), "library", "expected a shared object");
   }
 };

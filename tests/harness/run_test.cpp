@@ -12,6 +12,7 @@
 #include "core/util/files.h"
 #include "harness/report/report_json.h"
 #include "harness/report/run_folder.h"
+#include "harness/run/system_failure.h"
 #include "tests/support/fakes.h"
 #include "tests/support/test_folder.h"
 
@@ -118,6 +119,35 @@ TEST_F(RunTest, AnInterruptedRunKeepsWhatItHas) {
   EXPECT_EQ(outcome.report.frames, 20);
   EXPECT_EQ(read_tum(folder_ / "groundtruth.tum").size(), 20u);
   EXPECT_FALSE(fs::exists(folder_ / "metrics.json"));  // also removed from an earlier run
+}
+
+// Up to the frame before it, of which nothing is lost.
+TEST_F(RunTest, AFailureOfTheSystemIsAVerdict) {
+  test::prepare_fake_folder(folder_);
+  const auto fail_at_5_s = [](Estimate& estimate) {
+    if (estimate.stamp == test::seconds(5)) fail_system("out of ideas");
+  };
+  const RunOutcome outcome = run(fail_at_5_s);
+  EXPECT_FALSE(outcome.interrupted);
+  EXPECT_EQ(outcome.report.frames, 50);
+  EXPECT_EQ(outcome.report.failure.value().cause, "out of ideas");
+  EXPECT_EQ(outcome.report.failure->frame, 50);
+  EXPECT_EQ(read_tum(folder_ / "estimate_live.tum").size(), 50u);
+  EXPECT_EQ(Json::parse(text_of("metrics.json")), to_json(outcome.report));
+}
+
+// As by ^C, which may be what ended the system.
+TEST_F(RunTest, AFailureWhileItIsStoppedIsAnInterruption) {
+  bool stop = false;
+  stopped_ = [&] { return stop; };
+  const RunOutcome outcome = run([&](Estimate& estimate) {
+    if (estimate.stamp == test::seconds(5)) {
+      stop = true;
+      fail_system("out of ideas");
+    }
+  });
+  EXPECT_TRUE(outcome.interrupted);
+  EXPECT_FALSE(outcome.report.failure);
 }
 
 TEST_F(RunTest, ARunWithoutAnyPoseIsJudged) {

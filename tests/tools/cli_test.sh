@@ -200,6 +200,38 @@ expect 0 "completion of scenarios" "occluded-camera" -- __complete -- run oc
 
 # Runs without OpenGL and plants: the fake renderer draws a walled court.
 court=(--set renderer.engine=fake --set duration=1)
+
+# Other SLAM systems, and scenarios that are not trusted.
+printf '#!/bin/sh\n[ "$(wc -l <"$1/frames.csv")" -gt 1 ] && kill -SEGV $$\n' >crashes.sh
+chmod +x crashes.sh
+expect 1 "crash of a program" -- run quick-loop "${court[@]}" --out crashed \
+  --set slam.external.program=crashes.sh
+grep -q 'FAILED' "$work/stdout" || report "crash of a program: no verdict"
+grep -q 'crashes.sh: ended by signal 11' crashed/metrics.json || report "crash of a program: no cause"
+chmod -x crashes.sh
+expect 2 "program that is not executable" "crashes.sh: cannot be started: Permission denied" -- \
+  run quick-loop "${court[@]}" --out crashed --set slam.external.program=crashes.sh
+expect 2 "trajectory elsewhere" "slam.external.trajectory: expected a file in" -- \
+  run quick-loop "${court[@]}" --out crashed --set slam.external.program=crashes.sh \
+  --set slam.external.trajectory=/tmp/poses.txt
+expect 2 "no plug-in" "slam.plugin.library: " "crashes.sh" -- \
+  run quick-loop "${court[@]}" --out crashed --set slam.plugin.library=crashes.sh
+for command in "run quick-loop --out untrusted" "run quick-loop --seeds 1..2 --out untrusted" \
+  "record quick-loop --format rgb --out untrusted" "bench record --scenario quick-loop" \
+  "bench slam --scenario quick-loop"; do
+  # shellcheck disable=SC2086
+  expect 2 "untrusted plug-in, $command" "slam.plugin: is code" -- $command "${court[@]}" \
+    --untrusted --set slam.plugin.library=crashes.sh
+  # shellcheck disable=SC2086
+  expect 2 "untrusted program, $command" "slam.external: is a program" -- $command "${court[@]}" \
+    --untrusted --set slam.external.program=crashes.sh
+  # shellcheck disable=SC2086
+  expect 2 "untrusted file, $command" "names /etc/passwd" -- $command "${court[@]}" \
+    --untrusted --set world.vines.cultivar=/etc/passwd
+done
+[[ ! -e untrusted ]] || report "untrusted scenarios: leave a folder"
+expect 0 "untrusted record" "3 frames" -- record quick-loop --format rgb --out untrusted \
+  "${court[@]}" --frames 0..2 --untrusted
 expect 0 "record" "15 frames" -- record quick-loop --format euroc,rgb --out recorded "${court[@]}" \
   --frames 0..14
 expect 0 "check" "SOUND" -- check recorded
@@ -208,7 +240,7 @@ rm interrupted/frames.csv
 sed -i 's/^complete: true/complete: false/' interrupted/dataset.yaml
 expect 0 "check of an interrupted data set" "INTERRUPTED, 0 of 15 frames: no frame to check" -- \
   check interrupted
-expect 0 "replay" "frames" "results: " -- replay recorded --out replayed
+expect 0 "replay" "frames" "results: " -- replay recorded --out replayed --untrusted
 expect 0 "bench slam" "% tracked" -- bench slam recorded --frames 12 --json slam.json
 expect 0 "bench record" "pictures/hour" -- bench record --scenario quick-loop "${court[@]}" --frames 3
 "$vinebench" run quick-loop "${court[@]}" --seeds 1..2 --jobs 2 --junit verdicts.xml --out set \

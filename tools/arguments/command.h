@@ -61,6 +61,8 @@ struct Command {
 struct Surroundings {
   harness::Catalogue catalogue;
   harness::Machine machine;
+  /// The program's own data, without the working directory's.
+  std::vector<std::filesystem::path> data_folders{};
 };
 
 }  // namespace vinebench::tools

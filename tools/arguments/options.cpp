@@ -43,6 +43,14 @@ harness::Machine with_cache(harness::Machine machine, const std::filesystem::pat
   return machine;
 }
 
+Option untrusted_option(bool& untrusted) {
+  return {.name = "--untrusted",
+          .target = &untrusted,
+          .help =
+              "Refuse a scenario that executes programs, loads code or names files outside of "
+              "its own folder and the program's data"};
+}
+
 Option json_option(std::string& file) {
   return {.name = "--json",
           .target = &file,

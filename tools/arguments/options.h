@@ -28,6 +28,9 @@ int default_threads();
 Option cache_option(std::filesystem::path& folder);
 harness::Machine with_cache(harness::Machine machine, const std::filesystem::path& folder);
 
+/// --untrusted.
+Option untrusted_option(bool& untrusted);
+
 /// --json, of a benchmark.
 Option json_option(std::string& file);
 

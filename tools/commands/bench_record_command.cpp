@@ -9,6 +9,7 @@
 #include "core/util/output_folder.h"
 #include "harness/benchmarks/record_benchmark.h"
 #include "harness/datasets/files/json_file.h"
+#include "harness/experiment/trust.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 
@@ -25,14 +26,18 @@ struct BenchRecordArguments {
   std::vector<std::string> overrides;
   int threads = default_threads();
   std::int64_t frames = 60;
+  bool untrusted = false;
 };
 
 int bench_record(const BenchRecordArguments& arguments, const Surroundings& surroundings) {
   const std::string scenario = arguments.scenario.empty() ? kRecordedByDefault : arguments.scenario;
   harness::RecordBenchmark benchmark;
-  benchmark.scenario =
-      harness::load_scenario(surroundings.catalogue.find(harness::DataKind::kScenario, scenario),
-                             parse_overrides(arguments.overrides));
+  const std::filesystem::path file =
+      surroundings.catalogue.find(harness::DataKind::kScenario, scenario);
+  benchmark.scenario = harness::load_scenario(file, parse_overrides(arguments.overrides));
+  if (arguments.untrusted) {
+    harness::check_untrusted(benchmark.scenario, file, {surroundings.data_folders});
+  }
   sim::choose_backend(benchmark.scenario.simulation.renderer, surroundings.machine.gl_platform);
   benchmark.plant_cache = with_cache(surroundings.machine, arguments.cache).plant_cache;
   benchmark.frames = arguments.frames;
@@ -65,6 +70,7 @@ Command bench_record_command(const Surroundings& surroundings) {
                       overrides_option(arguments->overrides, "Set a key of the scenario"),
                       threads_option(arguments->threads),
                       cache_option(arguments->cache),
+                      untrusted_option(arguments->untrusted),
                       {.name = "--frames",
                        .target = &arguments->frames,
                        .help = "Frames of the run",

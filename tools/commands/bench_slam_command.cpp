@@ -27,6 +27,7 @@ struct BenchSlamArguments {
   int threads = default_threads();
   int frames = 150;
   std::filesystem::path cache;
+  bool untrusted = false;
 };
 
 void load_recording(const BenchSlamArguments& arguments, harness::SlamBenchmark& benchmark) {
@@ -45,10 +46,11 @@ int bench_slam(const BenchSlamArguments& arguments, const Surroundings& surround
   benchmark.threads = arguments.threads;
   if (arguments.dataset.empty()) {
     const std::string scenario = arguments.scenario.empty() ? kRunByDefault : arguments.scenario;
-    simulate_frames({surroundings.catalogue.find(harness::DataKind::kScenario, scenario),
-                     parse_overrides(arguments.overrides), arguments.frames,
-                     with_cache(surroundings.machine, arguments.cache)},
-                    benchmark);
+    SimulatedFrames wanted{surroundings.catalogue.find(harness::DataKind::kScenario, scenario),
+                           parse_overrides(arguments.overrides), arguments.frames,
+                           with_cache(surroundings.machine, arguments.cache)};
+    if (arguments.untrusted) wanted.data_folders = surroundings.data_folders;
+    simulate_frames(wanted, benchmark);
   } else {
     load_recording(arguments, benchmark);
   }
@@ -80,6 +82,7 @@ Command bench_slam_command(const Surroundings& surroundings) {
                                        "Set a key, e.g. slam.features.features=1200"),
                       threads_option(arguments->threads),
                       cache_option(arguments->cache),
+                      untrusted_option(arguments->untrusted),
                       {.name = "--frames",
                        .target = &arguments->frames,
                        .help = "Frames at most; they are kept in memory",

@@ -24,12 +24,15 @@ struct RecordArguments {
   std::string frames;
   std::string images;
   std::filesystem::path cache;
+  bool untrusted = false;
+  std::vector<std::filesystem::path> data_folders;
 };
 
 harness::RecordRequest request_of(const RecordArguments& arguments) {
   harness::RecordRequest request = arguments.request;
   request.machine = with_cache(request.machine, arguments.cache);
   request.overrides = parse_overrides(arguments.overrides);
+  if (arguments.untrusted) request.untrusted = harness::Untrusted{arguments.data_folders};
   request.options.formats = harness::parse_formats(arguments.formats);
   request.options.categories = harness::parse_categories(arguments.labels);
   if (!arguments.seeds.empty()) request.seeds = harness::parse_span(arguments.seeds, "--seeds");
@@ -137,7 +140,8 @@ std::vector<Option> request_options(RecordArguments& arguments) {
           {.name = "--resume",
            .target = &request.resume,
            .help = "Go on with an interrupted recording: what is complete is kept"},
-          cache_option(arguments.cache)};
+          cache_option(arguments.cache),
+          untrusted_option(arguments.untrusted)};
 }
 
 }  // namespace
@@ -146,6 +150,7 @@ Command record_command(const Surroundings& surroundings) {
   const auto arguments = std::make_shared<RecordArguments>();
   arguments->request.options.threads = default_threads();
   arguments->request.machine = surroundings.machine;
+  arguments->data_folders = surroundings.data_folders;
   Command command{
       .name = "record",
       .description = "Simulate a scenario, without SLAM, into a data set",

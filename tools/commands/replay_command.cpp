@@ -21,6 +21,7 @@ struct ReplayArguments {
   std::vector<std::string> overrides;
   harness::MapFiles maps;
   int threads = default_threads();
+  bool untrusted = false;  // nothing of a recording is executed anyway
 };
 
 int replay(const ReplayArguments& arguments) {
@@ -74,7 +75,10 @@ Command replay_command(const Surroundings&) {
                    .help = "Folder for the results (default: out/<data set's name>)"},
                   overrides_option(arguments->overrides,
                                    "Set a key of the settings, e.g. slam.cameras=front"),
-                  threads_option(arguments->threads)},
+                  threads_option(arguments->threads),
+                  {.name = "--untrusted",
+                   .target = &arguments->untrusted,
+                   .help = "Changes nothing: a replay executes nothing and loads no code"}},
       .run = [arguments] { return replay(*arguments); }};
   append(command.options, map_options(arguments->maps));
   return command;

@@ -7,6 +7,7 @@
 
 #include "core/util/error.h"
 #include "harness/datasets/formats.h"
+#include "harness/experiment/trust.h"
 #include "harness/jobs/run_scenario.h"
 #include "harness/sets/seed_list.h"
 #include "tools/arguments/options.h"
@@ -33,6 +34,8 @@ struct RunArguments {
   harness::MapFiles maps;
   std::filesystem::path cache;
   harness::Machine machine;
+  bool untrusted = false;
+  std::vector<std::filesystem::path> data_folders;
 };
 
 std::vector<harness::ScenarioConfig> scenarios_of(const RunArguments& arguments) {
@@ -40,6 +43,9 @@ std::vector<harness::ScenarioConfig> scenarios_of(const RunArguments& arguments)
   std::vector<harness::ScenarioConfig> scenarios;
   for (const std::string& file : arguments.scenarios) {
     scenarios.push_back(harness::load_scenario(file, overrides));
+    if (arguments.untrusted) {
+      harness::check_untrusted(scenarios.back(), file, {arguments.data_folders});
+    }
     sim::choose_backend(scenarios.back().simulation.renderer, arguments.machine.gl_platform);
     if (arguments.seed) scenarios.back().seed = *arguments.seed;
   }
@@ -156,7 +162,8 @@ std::vector<Option> run_options(RunArguments& arguments) {
           overrides_option(arguments.overrides,
                            "Set a key of the scenario, e.g. world.sun.elevation_deg=20"),
           threads_option(arguments.threads),
-          cache_option(arguments.cache)};
+          cache_option(arguments.cache),
+          untrusted_option(arguments.untrusted)};
 }
 
 std::vector<Option> single_run_options(RunArguments& arguments) {
@@ -197,12 +204,14 @@ std::vector<Option> set_options(RunArguments& arguments) {
 Command run_command(const Surroundings& surroundings) {
   const auto arguments = std::make_shared<RunArguments>();
   arguments->machine = surroundings.machine;
+  arguments->data_folders = surroundings.data_folders;
   Command command{.name = "run",
                   .description = "Run scenarios and judge them",
                   .options = run_options(*arguments),
                   .footer =
                       "Exit code: 0 when the scenario's expectations hold, 1 when they do "
-                      "not (or two runs differ), 2 for bad input, 130 when interrupted.",
+                      "not (or the SLAM system fails, or two runs differ), 2 for bad input, 130 "
+                      "when interrupted.",
                   .run = [arguments] { return tools::run(*arguments); }};
   append(command.options, set_options(*arguments));
   append(command.options, single_run_options(*arguments));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,8 @@ struct SimulatedFrames {
   std::vector<Override> overrides;
   int frames = 150;  ///< at most
   harness::Machine machine;
+  /// If given, the scenario is untrusted: check_untrusted() with these folders.
+  std::optional<std::vector<std::filesystem::path>> data_folders{};
 };
 
 /// Fills the benchmark with the first frames of a scenario, made with its number of threads. Throws

@@ -113,6 +113,16 @@ TEST(RigTest, UnknownNamesAreErrorsWithFileAndKey) {
   EXPECT_EQ(error_of(cameras), "");
 }
 
+// Images are written to files and folders of these names.
+TEST(RigTest, ACamerasNameIsNoPath) {
+  const test::TestFolder folder;
+  for (const char* name : {"../../front", "/tmp/front", "..", "front/left"}) {
+    const auto file = folder.write("rig_test.yaml", fmt::format("cameras: [{{name: {}}}]\n", name));
+    EXPECT_THAT(test::error_of([&] { load_rig(file); }),
+                testing::HasSubstr(fmt::format("camera '{}': expected a name without '/'", name)));
+  }
+}
+
 TEST(RigTest, AConfigMadeInCodeIsCheckedToo) {
   RigConfig config;
   config.name = "mine";

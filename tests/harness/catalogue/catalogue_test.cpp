@@ -110,6 +110,10 @@ TEST_F(CatalogueTest, DataIsFoundBesideAnInstalledAndAnUninstalledProgram) {
   EXPECT_EQ(installed.find(DataKind::kWorld, "hill").filename(), "hill.yaml");
   const Catalogue built(data_folders(folder_.path() / "build/vinebench"));
   EXPECT_EQ(built.find(DataKind::kWorld, "dale").filename(), "dale.yaml");
+  EXPECT_EQ(data_folders(folder_.path() / "build/vinebench").front(), ".");
+  EXPECT_THAT(
+      program_data_folders(folder_.path() / "build/vinebench"),
+      testing::ElementsAre(folder_.path() / "build/../share/vinebench", folder_.path() / "tree"));
 }
 
 }  // namespace

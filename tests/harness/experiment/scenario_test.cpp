@@ -164,6 +164,8 @@ expectations: {ate_rmse_max: 0.1, blind: {cameras: [side]}}
 TEST_F(ScenarioTest, ErrorsNameFileLineAndKey) {
   EXPECT_THAT(error_of("sede: 1\n"), testing::HasSubstr("scenario.yaml:5: sede: unknown key"));
   EXPECT_THAT(error_of("seed: -1\n"), testing::HasSubstr("scenario.yaml:5: seed: expected"));
+  EXPECT_THAT(error_of("", {{"name", ".."}}),
+              testing::HasSubstr("--set name=..: name: expected a name that begins with no '.'"));
   EXPECT_THAT(error_of("expectations: {coverage_min: 2}\n"),
               testing::HasSubstr("scenario.yaml:5: expectations.coverage_min: expected"));
   EXPECT_THAT(

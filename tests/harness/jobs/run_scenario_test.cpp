@@ -6,6 +6,7 @@
 
 #include "harness/datasets/format/dataset_card.h"
 #include "tests/support/court_scenario.h"
+#include "tests/support/plugins.h"
 
 namespace vinebench::harness {
 namespace {
@@ -42,6 +43,27 @@ TEST_F(RunScenarioTest, ARecordingInUseIsAnError) {
                 run_scenario(scenario(), machine(), 1, {}, RunRecording{folder_ / "data", {}});
               }),
               HasSubstr("another process is writing there"));
+}
+
+TEST_F(RunScenarioTest, APluginsFailureIsItsVerdict) {
+  ScenarioConfig plugged = scenario();
+  plugged.slam.plugin =
+      PluginSlamConfig{.library = test::beside_test("fake_plugin.so"), .settings = "exit.frame"};
+  Machine with_host = machine();
+  with_host.plugin_host = test::beside_test("vinebench_plugin_host");
+  const RunReport report = run_scenario(plugged, with_host, 2, {}).report;
+  EXPECT_EQ(report.frames, 3);
+  EXPECT_THAT(report.failure.value().cause, HasSubstr("its process ended: exit code 0"));
+  EXPECT_FALSE(all_hold(report.checks));
+}
+
+// The world's mesh is gone, which would be the first thing to be missed in a drive.
+TEST_F(RunScenarioTest, AProgramThatCannotBeExecutedIsFoundBeforeTheDrive) {
+  ScenarioConfig foreign = scenario();
+  foreign.slam.external.emplace().program = folder_.write("slam.sh", "#!/bin/sh\n");
+  foreign.simulation.world.vines.meshes = {folder_ / "gone.glb"};
+  EXPECT_THAT(test::error_of([&] { run_scenario(foreign, machine(), 1, {}); }),
+              HasSubstr("slam.sh: cannot be started: Permission denied"));
 }
 
 TEST_F(RunScenarioTest, MapsAreForTheBuiltInCore) {

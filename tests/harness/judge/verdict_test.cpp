@@ -48,6 +48,13 @@ TEST(VerdictTest, HoldsForGoodResults) {
   EXPECT_TRUE(all_hold(checks)) << format_checks(checks);
 }
 
+// "ok" stands in one column, though the first line is longer.
+TEST(VerdictTest, ALongTextWidensNoOtherLine) {
+  const std::string text = format_checks(
+      {{"SLAM system", std::string(60, 'x'), "no failure", false}, {"losses", "0", "<= 0", true}});
+  EXPECT_THAT(text, testing::EndsWith("\n  losses       0  <= 0        ok\n"));
+}
+
 TEST(VerdictTest, ABoundItselfHolds) {
   RunResults results = good();
   results.corrected->ate.rmse = 0.01;

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/util/error.h"
+#include "harness/run/system_failure.h"
 #include "tests/support/fake_scenario.h"
 #include "tests/support/test_folder.h"
 
@@ -48,6 +49,27 @@ class RunSetTest : public testing::Test {
   SetOutcome outcome_;
   std::string progress_;
 };
+
+/// Its fourth frame is too much for it.
+RunOutcome break_down(const ScenarioConfig& scenario, int, const RunOptions& options) {
+  test::FakeSource source;
+  test::FakeSlam slam([](Estimate& estimate) {
+    if (estimate.stamp == test::seconds(0.3)) fail_system("slam.so: process: crashed");
+  });
+  return run_lockstep_and_judge(trial_of(scenario), source, slam, options);
+}
+
+// It may have failed by chance.
+TEST_F(RunSetTest, AFailedSystemFailsItsRunAndRunsAgain) {
+  options_.run = break_down;
+  for (int time = 0; time < 2; ++time) {
+    const SetRun first = run({1}).at(0);
+    EXPECT_EQ(first.error, "");
+    EXPECT_FALSE(first.kept);
+    EXPECT_TRUE(first.failed());
+    EXPECT_EQ(first.result.value().checks.at(0).measured, "slam.so: process: crashed (frame 3)");
+  }
+}
 
 TEST_F(RunSetTest, PlansEachScenarioOverTheSeeds) {
   ScenarioConfig other = scenario_;

@@ -7,6 +7,7 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "core/config/validate.h"
 #include "core/util/files.h"
 #include "harness/report/run_folder.h"
 #include "harness/run.h"
@@ -48,8 +49,17 @@ class ExternalSlamTest : public testing::Test {
     options.stopped = stopped_;
     return run_lockstep_and_judge(test::fake_trial(), source, *slam, options);
   }
-  std::string error(const std::string& script) {
-    return test::error_of([&] { run(script); });
+  /// Why the run failed after its last frame.
+  std::string failure(const std::string& script) {
+    const RunReport report = run(script).report;
+    EXPECT_EQ(report.frames, 21);
+    EXPECT_FALSE(all_hold(report.checks));
+    EXPECT_FALSE(report.failure.value().frame);
+    return report.failure->cause;
+  }
+  /// Why there is no run.
+  std::string refusal() {
+    return test::error_of([&] { make_external_slam(config_, notes(), folder_.path(), {}); });
   }
 
   test::TestFolder folder_;
@@ -110,24 +120,66 @@ TEST_F(ExternalSlamTest, LinksInTheFoldersPlacesAreErrors) {
   }
 }
 
-TEST_F(ExternalSlamTest, SaysWhatWentWrong) {
+TEST_F(ExternalSlamTest, WhatGoesWrongInItIsTheVerdict) {
   EXPECT_THAT(
-      error("echo no vocabulary >&2; exit 3"),
+      failure("echo no vocabulary >&2; exit 3"),
       testing::AllOf(HasSubstr("slam.sh: exit code 3"), HasSubstr("log.txt: no vocabulary")));
-  EXPECT_THAT(error("kill -SEGV $$"), HasSubstr("slam.sh: ended by signal 11; it printed nothing"));
-  EXPECT_THAT(error(":"), HasSubstr("wrote no trajectory; expected "));
-  EXPECT_THAT(error("echo 1 2 3 >trajectory.txt"), HasSubstr("trajectory.txt:1: expected 8"));
-  config_.timeout = 0.1;
-  EXPECT_THAT(error("sleep 60"), HasSubstr("took more than 0.1 s"));
-  config_.poses_of = "top";
-  EXPECT_THAT(error(":"), HasSubstr("poses_of: expected 'body' or a camera of the rig"));
+  EXPECT_THAT(failure("kill -SEGV $$"),
+              HasSubstr("slam.sh: ended by signal 11 (Segmentation fault); it printed nothing"));
+  EXPECT_THAT(failure(":"), HasSubstr("wrote no trajectory; expected "));
+  EXPECT_THAT(failure("echo 1 2 3 >trajectory.txt"), HasSubstr("trajectory.txt:1: expected 8"));
+  EXPECT_TRUE(fs::exists(folder_ / "metrics.json"));
+  EXPECT_TRUE(fs::exists(folder_ / "recording/frames.csv"));  // to look for the cause
 }
 
-TEST_F(ExternalSlamTest, AProgramThatCannotBeRunIsAnError) {
+TEST_F(ExternalSlamTest, ItsLimitsAreThoseOfTheConfiguration) {
+  config_.memory_mib = 100;
+  EXPECT_THAT(failure("head -c 300M /dev/zero | tail -c 300M | sleep 60"),
+              HasSubstr("used more than 100 MiB of memory"));
+  config_.timeout = 0.1;
+  EXPECT_THAT(failure("sleep 60"), HasSubstr("took more than 0.1 s"));
+}
+
+// Before anything is recorded.
+TEST_F(ExternalSlamTest, AnUnusableConfigurationIsAnError) {
   config_.program = folder_.write("readme.txt", "not a program");
-  const auto slam = make_external_slam(config_, notes(), folder_.path(), {});
-  EXPECT_THAT(test::error_of([&] { slam->finish(); }),
-              HasSubstr("readme.txt: cannot be started: Permission denied"));
+  EXPECT_THAT(refusal(), HasSubstr("readme.txt: cannot be started: Permission denied"));
+  config_.poses_of = "top";
+  EXPECT_THAT(refusal(), HasSubstr("poses_of: expected 'body' or a camera of the rig"));
+  EXPECT_FALSE(fs::exists(folder_ / "recording"));
+}
+
+TEST_F(ExternalSlamTest, TheTrajectoryMustLieInTheOutputFolder) {
+  for (const char* outside :
+       {"/home/anne/poses.txt", "../poses.txt", "a/../../poses.txt", "..", ".", "a/"}) {
+    config_.trajectory = outside;
+    EXPECT_THAT(test::error_of([&] { validate(config_); }),
+                HasSubstr("trajectory: expected a file in the program's output folder"))
+        << outside;
+  }
+  config_.trajectory = "results/poses..txt";
+  config_.program = "slam.sh";
+  EXPECT_NO_THROW(validate(config_));
+}
+
+// A link that an earlier run left would otherwise lead to the file's removal.
+TEST_F(ExternalSlamTest, LinksMustNotLeadOutOfTheOutputFolder) {
+  config_.program = "/bin/sh";
+  const fs::path precious = folder_.write("poses.txt", "precious");
+  fs::create_directories(folder_ / "external");
+  fs::create_directory_symlink("..", folder_ / "external/results");
+  config_.trajectory = "results/poses.txt";
+  EXPECT_THAT(refusal(), HasSubstr("external/results leads out of "));
+  EXPECT_TRUE(fs::exists(precious));
+
+  fs::rename(folder_ / "external", folder_ / "other");
+  fs::create_directory_symlink("other", folder_ / "external");
+  config_.trajectory = "trajectory.txt";
+  EXPECT_THAT(refusal(), HasSubstr("leads out of "));
+
+  fs::remove(folder_ / "external");
+  EXPECT_THAT(failure("ln -s ../poses.txt trajectory.txt"),
+              HasSubstr("external/trajectory.txt leads out of "));
 }
 
 TEST_F(ExternalSlamTest, AStopEndsTheProgram) {

@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/run/system_failure.h"
 #include "tests/support/fakes.h"
+#include "tests/support/plugins.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::harness {
@@ -13,20 +15,27 @@ namespace {
 
 using testing::HasSubstr;
 
-/// tests/harness/systems/fake_plugin.c, beside this program.
-std::filesystem::path library(const char* name) {
-  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
-}
-
-class PluginSlamTest : public testing::Test {
+/// In the bench's own process, and in another one.
+class PluginSlamTest : public testing::TestWithParam<bool> {
  protected:
-  std::unique_ptr<SlamSystem> load(const std::string& settings = "") {
-    PluginSlamConfig config{library("fake_plugin.so"), std::nullopt};
+  std::unique_ptr<SlamSystem> load(const std::string& settings = "",
+                                   const char* library = "fake_plugin.so") const {
+    PluginSlamConfig config{.library = test::beside_test(library), .in_process = GetParam()};
     if (!settings.empty()) config.settings = settings;
-    return load_plugin_slam(config, test::fake_rig(), {}, std::nullopt, 1);
+    return load_plugin_slam(config, test::fake_rig(), {}, std::nullopt, 1,
+                            {test::beside_test("vinebench_plugin_host"), {}});
   }
-  std::string error(const std::string& settings) {
-    return test::error_of([&] {
+  template <class Action>
+  static std::string failure_of(const Action& action) {
+    try {
+      action();
+    } catch (const SystemFailure& failure) {
+      return failure.what();
+    }
+    return "";
+  }
+  std::string failure(const std::string& settings) const {
+    return failure_of([&] {
       const auto slam = load(settings);
       slam->process(frame());
       slam->finish();
@@ -41,7 +50,12 @@ class PluginSlamTest : public testing::Test {
   }
 };
 
-TEST_F(PluginSlamTest, AFrameGoesInAndAnEstimateComesOut) {
+INSTANTIATE_TEST_SUITE_P(InAProcess, PluginSlamTest, testing::Values(true, false),
+                         [](const auto& in_process) {
+                           return std::string(in_process.param ? "OfTheBench" : "OfItsOwn");
+                         });
+
+TEST_P(PluginSlamTest, AFrameGoesInAndAnEstimateComesOut) {
   const auto slam = load();
   const Estimate estimate = slam->process(frame());
   EXPECT_EQ(estimate.status, TrackingStatus::kTracking);
@@ -59,24 +73,48 @@ TEST_F(PluginSlamTest, AFrameGoesInAndAnEstimateComesOut) {
   EXPECT_EQ(slam->times().samples().at("fake").size(), 1u);
 }
 
-TEST_F(PluginSlamTest, WhatItSaysOfAFailureIsTheError) {
-  for (const char* function : {"create", "process", "finish"}) {
-    EXPECT_THAT(error(std::string("fail.") + function),
-                HasSubstr(std::string(function) + ": asked to fail in " + function));
+TEST_P(PluginSlamTest, WhatItSaysOfAFailureIsTheFailure) {
+  for (const char* function : {"process", "finish"}) {
+    EXPECT_THAT(failure(std::string("fail.") + function),
+                HasSubstr(std::string("fake_plugin.so: ") + function + ": asked to fail in "));
   }
-  EXPECT_THAT(error("bad.pose"), HasSubstr("fake_plugin.so: invalid pose"));
+  EXPECT_THAT(failure("bad.pose"), HasSubstr("fake_plugin.so: invalid pose"));
+  EXPECT_THAT(failure("bad.covariance"), HasSubstr("process: expected a finite covariance"));
 }
 
-TEST_F(PluginSlamTest, WhatIsNoPluginIsAnError) {
-  const auto error_with = [](const std::filesystem::path& file) {
-    return test::error_of([&] {
-      load_plugin_slam({file, std::nullopt}, test::fake_rig(), {}, std::nullopt, 1);
-    });
-  };
-  EXPECT_THAT(error_with("/nowhere.so"), HasSubstr("slam.plugin.library: /nowhere.so"));
-  EXPECT_THAT(error_with(library("empty_plugin.so")), HasSubstr("exports no vinebench_slam"));
-  EXPECT_THAT(error_with(library("future_plugin.so")),
+// Such as settings that it cannot read: no frame has been processed.
+TEST_P(PluginSlamTest, WhatItSaysThatItCannotCreateIsAnError) {
+  EXPECT_EQ(failure_of([&] { EXPECT_THROW(load("fail.create"), Error); }), "");
+  EXPECT_THAT(test::error_of([&] { load("fail.create"); }),
+              HasSubstr("create: asked to fail in create"));
+}
+
+TEST_P(PluginSlamTest, WhatIsNoPluginIsAnError) {
+  EXPECT_THAT(test::error_of([&] { load("", "nowhere.so"); }),
+              testing::AllOf(HasSubstr("slam.plugin.library: "), HasSubstr("nowhere.so")));
+  EXPECT_THAT(test::error_of([&] { load("", "empty_plugin.so"); }),
+              HasSubstr("exports no vinebench_slam"));
+  EXPECT_THAT(test::error_of([&] { load("", "future_plugin.so"); }),
               HasSubstr("expected version 1 of core/slam_plugin.h, found 99"));
+}
+
+TEST_P(PluginSlamTest, ItsExceptionsAreNamed) {
+  const auto in_create = load("settings", "throwing_plugin.so");
+  EXPECT_THAT(failure_of([&] { in_create->process(frame()); }),
+              HasSubstr("throwing_plugin.so: create: threw an exception: no such vocabulary"));
+  const auto slam = load("", "throwing_plugin.so");
+  EXPECT_THAT(failure_of([&] { slam->process(frame()); }),
+              HasSubstr("throwing_plugin.so: process: threw an exception: matrix is singular"));
+  EXPECT_THAT(failure_of([&] { slam->finish(); }),
+              HasSubstr("throwing_plugin.so: finish: threw what is no std::exception"));
+}
+
+TEST_P(PluginSlamTest, ANewProcessNeedsItsProgram) {
+  if (GetParam()) GTEST_SKIP() << "needs no program";
+  const PluginSlamConfig config{.library = test::beside_test("fake_plugin.so")};
+  EXPECT_THAT(
+      test::error_of([&] { load_plugin_slam(config, test::fake_rig(), {}, std::nullopt, 1, {}); }),
+      HasSubstr("vinebench_plugin_host is neither beside the program"));
 }
 
 }  // namespace

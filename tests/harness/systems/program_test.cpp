@@ -53,7 +53,7 @@ TEST_F(ProgramTest, AnExitCodeIsAnErrorWithTheLastLine) {
 
 TEST_F(ProgramTest, ASignalIsNamed) {
   EXPECT_THAT(test::error_of([&] { run_program(shell("kill -TERM $$")); }),
-              HasSubstr("ended by signal 15"));
+              HasSubstr("ended by signal 15 (Terminated)"));
 }
 
 TEST_F(ProgramTest, AMissingProgramIsNamed) {
@@ -67,6 +67,13 @@ TEST_F(ProgramTest, TheTimeoutEndsIt) {
   Program program = shell("sleep 60");
   program.timeout = 0.05;  // s
   EXPECT_THAT(test::error_of([&] { run_program(program); }), HasSubstr("took more than 0.05 s"));
+}
+
+TEST_F(ProgramTest, TooMuchMemoryEndsIt) {
+  Program program = shell("echo begun; head -c 300M /dev/zero | tail -c 300M | sleep 60");
+  program.memory_mib = 100;
+  EXPECT_THAT(test::error_of([&] { run_program(program); }),
+              AllOf(HasSubstr("used more than 100 MiB of memory"), HasSubstr("begun")));
 }
 
 TEST_F(ProgramTest, AStopEndsItWithItsChildren) {

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/slam_plugin.h"
+
+namespace vinebench::harness {
+
+/// What a plug-in answers to a frame.
+struct PluginEstimate {
+  vinebench_estimate estimate{};  ///< its pointer to the counts is not used
+  std::vector<vinebench_counts> counts;
+};
+
+/// What a plug-in answers in the end.
+struct PluginSummary {
+  std::vector<vinebench_stamped_pose> trajectory;
+  std::vector<vinebench_stamped_pose> keyframes;
+  std::int64_t landmarks = 0;
+};
+
+/// A system that a plug-in has created, in this process or in another one. Its answers are as the
+/// plug-in gave them, unchecked. process() and finish() throw SystemFailure.
+class PluginLink {
+ public:
+  virtual ~PluginLink() = default;
+  virtual const std::string& name() const = 0;
+  virtual PluginEstimate process(const vinebench_frame& frame) = 0;
+  virtual PluginSummary finish() = 0;
+};
+
+}  // namespace vinebench::harness
