@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 
 namespace vinebench {
 namespace {

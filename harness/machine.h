@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/util/cache_folder.h"
+#include "core/files/cache_folder.h"
 
 namespace vinebench::harness {
 

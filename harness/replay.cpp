@@ -4,8 +4,8 @@
 
 #include "core/config/yaml.h"
 #include "core/config/yaml_writer.h"
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "harness/datasets/reading/dataset_reader.h"
 #include "harness/report/run_folder.h"
 

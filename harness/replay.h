@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/config/override.h"
-#include "core/util/output_folder.h"
+#include "core/files/output_folder.h"
 #include "harness/datasets/open_recording.h"
 #include "harness/run.h"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <new>
 
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "core/util/suggestion.h"
 
 namespace vinebench {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <system_error>
 
+#include "core/files/input_file.h"
 #include "core/util/error.h"
-#include "core/util/input_file.h"
 #include "core/util/suggestion.h"
 
 namespace vinebench::harness {

@@ -10,8 +10,8 @@
 #include <system_error>
 
 #include "core/config/yaml.h"
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "harness/datasets/files/file_manifest.h"
 #include "harness/datasets/files/text_table.h"
 #include "harness/datasets/format/calibration_file.h"

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "harness/datasets/files/append_file.h"
 #include "harness/datasets/files/dataset_folder.h"
 #include "harness/datasets/format/calibration_file.h"

@@ -6,8 +6,8 @@
 
 #include <filesystem>
 
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "sim/config_files.h"
 #include "sim/world/world_layout.h"
 

@@ -6,8 +6,8 @@
 
 #include <system_error>
 
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "harness/datasets/dataset_writer.h"
 #include "harness/datasets/files/dataset_folder.h"
 #include "harness/datasets/formats.h"

@@ -35,9 +35,8 @@ RunOutcome run_other_system(const ScenarioConfig& scenario, const RecordingNotes
   }
   std::optional<TemporaryFolder> temporary;
   if (options.folder.empty()) temporary.emplace();
-  const auto slam =
-      make_external_slam(*choice.external, notes,
-                         temporary ? temporary->path() : options.folder, options.stopped);
+  const auto slam = make_external_slam(
+      *choice.external, notes, temporary ? temporary->path() : options.folder, options.stopped);
   return run_lockstep_and_judge(trial_of(scenario), source, *slam, options);
 }
 

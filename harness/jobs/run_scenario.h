@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "core/util/output_folder.h"
+#include "core/files/output_folder.h"
 #include "harness/datasets/format/record_options.h"
 #include "harness/experiment/scenario.h"
 #include "harness/machine.h"

@@ -12,8 +12,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 
 namespace vinebench::harness {
 namespace {

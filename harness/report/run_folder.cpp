@@ -9,8 +9,8 @@
 #include <system_error>
 
 #include "core/config/yaml_writer.h"
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "harness/datasets/files/json_file.h"
 #include "harness/judge/diagnosis.h"
 #include "harness/report/events.h"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/util/output_folder.h"
+#include "core/files/output_folder.h"
 #include "harness/judge/run_report.h"
 
 namespace vinebench::harness {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/report/stored_run.h"
 
-#include "core/util/files.h"
-#include "core/util/json_depth.h"
+#include "core/files/files.h"
+#include "core/files/json_depth.h"
 
 namespace vinebench::harness {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "core/util/files.h"
+#include "core/files/files.h"
 #include "harness/datasets/files/image_codec.h"
 
 namespace vinebench::harness {

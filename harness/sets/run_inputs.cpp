@@ -3,7 +3,7 @@
 #include "harness/sets/run_inputs.h"
 
 #include "core/config/yaml_writer.h"
-#include "core/util/files.h"
+#include "core/files/files.h"
 #include "harness/experiment/trust.h"
 #include "harness/run/run_hash.h"
 

@@ -10,10 +10,10 @@
 #include <iostream>
 #include <map>
 
+#include "core/files/files.h"
+#include "core/files/output_file.h"
+#include "core/files/output_folder.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
-#include "core/util/output_file.h"
-#include "core/util/output_folder.h"
 #include "harness/jobs/run_scenario.h"
 #include "harness/report/run_folder.h"
 #include "harness/sets/child_process.h"

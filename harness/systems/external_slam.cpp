@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/files/output_folder.h"
 #include "core/util/error.h"
-#include "core/util/output_folder.h"
 #include "harness/run/system_failure.h"
 #include "harness/systems/foreign_trajectory.h"
 #include "harness/systems/process_group.h"

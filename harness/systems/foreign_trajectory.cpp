@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "harness/datasets/files/text_table.h"
 #include "harness/judge/evaluation.h"
 

@@ -17,8 +17,8 @@
 #include <sstream>
 #include <thread>
 
+#include "core/files/output_file.h"
 #include "core/util/error.h"
-#include "core/util/output_file.h"
 
 namespace vinebench::harness {
 namespace {

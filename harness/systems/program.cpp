@@ -4,8 +4,8 @@
 
 #include <chrono>
 
+#include "core/files/input_file.h"
 #include "core/util/error.h"
-#include "core/util/input_file.h"
 #include "harness/systems/process_group.h"
 
 namespace vinebench::harness {

@@ -9,9 +9,9 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "core/files/files.h"
+#include "core/files/image_size.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
-#include "core/util/image_size.h"
 
 namespace vinebench::sim {
 namespace {
@@ -185,25 +185,6 @@ ImportedMesh load_mesh(const std::filesystem::path& file, Strictness strictness)
   }
   if (extension == ".obj" || extension == ".stl" || extension == ".dae") {
     return sound(import_mesh(file, strictness), file);
-  }
-  fail("{}: expected a mesh of .glb, .gltf, .obj, .stl or .dae", file.string());
-}
-
-}  // namespace
-
-Asset asset_of_glb(const std::string& bytes, const std::filesystem::path& file) {
-  return sound(read_gltf(bytes, file), file);
-}
-
-Asset load_asset(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return std::tolower(c); });
-  if (extension == ".glb" || extension == ".gltf") {
-    return sound(read_gltf(read_mesh_file(file), file), file);
-  }
-  if (extension == ".obj" || extension == ".stl" || extension == ".dae") {
-    return sound(import_mesh(file), file);
   }
   fail("{}: expected a mesh of .glb, .gltf, .obj, .stl or .dae", file.string());
 }

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/util/input_file.h"
+#include "core/files/input_file.h"
 #include "sim/assets/asset.h"
 #include "sim/assets/imported_mesh.h"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/files/json_depth.h"
 #include "core/util/error.h"
-#include "core/util/json_depth.h"
 #include "sim/assets/asset_file.h"
 
 namespace vinebench::sim {

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "core/util/files.h"
+#include "core/files/files.h"
 #include "sim/assets/obj_check.h"
 
 namespace vinebench::sim {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/util/cache_folder.h"
+#include "core/files/cache_folder.h"
 #include "sim/assets/asset.h"
 #include "sim/world/vines.h"
 

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <vector>
 
-#include "core/util/files.h"
+#include "core/files/files.h"
 
 namespace vinebench::sim {
 namespace {

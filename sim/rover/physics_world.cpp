@@ -11,8 +11,8 @@
 #include <mutex>
 #include <system_error>
 
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "core/util/xml_text.h"
 #include "sim/rover/mjcf_check.h"
 #include "sim/vineyard/occluders/occluder_shape.h"

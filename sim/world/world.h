@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/config/config_field.h"
-#include "core/util/cache_folder.h"
+#include "core/files/cache_folder.h"
 #include "sim/scene/scene.h"
 #include "sim/world/daylight.h"
 #include "sim/world/ground_config.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/util/files.h"
+#include "core/files/files.h"
 #include "core/util/library_errors.h"
 #include "slam/map/binary_archive.h"
 #include "slam/map/rig_fingerprint.h"

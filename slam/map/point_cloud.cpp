@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/map/point_cloud.h"
 
-#include "core/util/files.h"
+#include "core/files/files.h"
 #include "slam/map/binary_archive.h"
 
 namespace vinebench::slam {

@@ -8,8 +8,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "harness/report/report_json.h"
 #include "harness/report/run_folder.h"
 #include "harness/run/system_failure.h"

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/util/files.h"
+#include "core/files/files.h"
 #include "tests/support/synthetic_texture.h"
 #include "tests/support/test_folder.h"
 

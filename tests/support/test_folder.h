@@ -9,8 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 
 namespace vinebench::test {
 

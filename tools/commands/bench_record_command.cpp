@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "core/util/files.h"
-#include "core/util/output_folder.h"
+#include "core/files/files.h"
+#include "core/files/output_folder.h"
 #include "harness/benchmarks/record_benchmark.h"
 #include "harness/datasets/files/json_file.h"
 #include "harness/experiment/trust.h"

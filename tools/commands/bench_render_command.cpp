@@ -6,8 +6,8 @@
 #include <memory>
 #include <optional>
 
-#include "core/util/files.h"
-#include "core/util/output_folder.h"
+#include "core/files/files.h"
+#include "core/files/output_folder.h"
 #include "harness/benchmarks/measurement.h"
 #include "harness/benchmarks/render_benchmark.h"
 #include "harness/benchmarks/render_case.h"

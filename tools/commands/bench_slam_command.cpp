@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "core/util/files.h"
+#include "core/files/files.h"
 #include "harness/benchmarks/slam_benchmark.h"
 #include "harness/datasets/files/json_file.h"
 #include "harness/datasets/reading/dataset_reader.h"

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "core/util/files.h"
+#include "core/files/files.h"
 #include "harness/datasets/files/json_file.h"
 #include "harness/report/compare.h"
 #include "tools/commands/commands.h"

@@ -9,10 +9,10 @@
 #include <optional>
 #include <system_error>
 
-#include "core/util/cache_folder.h"
+#include "core/files/cache_folder.h"
+#include "core/files/files.h"
+#include "core/files/output_folder.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
-#include "core/util/output_folder.h"
 #include "harness/datasets/files/json_file.h"
 #include "harness/jobs/run_scenario.h"
 #include "harness/sets/junit.h"

@@ -10,8 +10,8 @@
 #include <set>
 #include <system_error>
 
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "harness/datasets/coco/coco_file.h"
 #include "harness/datasets/files/image_file.h"
 #include "harness/datasets/files/json_file.h"

@@ -10,9 +10,9 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "core/files/input_file.h"
+#include "core/files/output_file.h"
 #include "core/util/error.h"
-#include "core/util/input_file.h"
-#include "core/util/output_file.h"
 #include "harness/datasets/files/json_file.h"
 #include "vinebench/version.h"
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "core/util/files.h"
+#include "core/files/files.h"
 #include "harness/datasets/coco/coco_file.h"
 #include "harness/datasets/files/json_file.h"
 #include "harness/datasets/labels/instance_ids.h"

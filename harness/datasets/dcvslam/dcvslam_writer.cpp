@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "harness/datasets/dcvslam/tags_in_view.h"
 #include "harness/datasets/format/rectified.h"
 

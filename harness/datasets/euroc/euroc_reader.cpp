@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "core/files/input_file.h"
 #include "core/util/error.h"
-#include "core/util/input_file.h"
 #include "harness/datasets/euroc/sensor_file.h"
 #include "harness/datasets/euroc/tag_list.h"
 #include "harness/datasets/files/text_table.h"

@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "core/config/yaml_writer.h"
-#include "core/util/files.h"
+#include "core/files/files.h"
 #include "harness/datasets/euroc/slam_settings.h"
 #include "harness/datasets/euroc/tag_list.h"
 #include "harness/datasets/files/image_codec.h"

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 
 namespace vinebench::harness {
 namespace {

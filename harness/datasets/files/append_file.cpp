@@ -7,8 +7,8 @@
 #include <cstring>
 #include <tuple>
 
+#include "core/files/output_file.h"
 #include "core/util/error.h"
-#include "core/util/output_file.h"
 
 namespace vinebench::harness {
 

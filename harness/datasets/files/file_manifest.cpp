@@ -10,8 +10,8 @@
 #include <set>
 #include <system_error>
 
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 
 namespace vinebench::harness {
 namespace {

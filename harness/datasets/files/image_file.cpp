@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "core/files/files.h"
+#include "core/files/image_size.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
-#include "core/util/image_size.h"
 
 namespace vinebench::harness {
 namespace {

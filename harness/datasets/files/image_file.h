@@ -14,7 +14,7 @@ void write_image(const std::filesystem::path& file, const cv::Mat& image);
 
 /// Decodes an image file with OpenCV's flags (cv::IMREAD_*); empty if it is damaged. Throws Error
 /// for what is no file or no image (PNG, JPEG, TIFF, WebP, BMP, PNM), and for one that is too
-/// large: core/util/image_size.h.
+/// large: core/files/image_size.h.
 cv::Mat read_image(const std::filesystem::path& file, int flags);
 
 }  // namespace vinebench::harness

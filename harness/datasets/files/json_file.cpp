@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/datasets/files/json_file.h"
 
+#include "core/files/files.h"
+#include "core/files/json_depth.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
-#include "core/util/json_depth.h"
 
 namespace vinebench::harness {
 

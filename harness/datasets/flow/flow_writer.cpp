@@ -6,9 +6,9 @@
 
 #include <utility>
 
+#include "core/files/files.h"
 #include "core/truth/body_flow.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "harness/datasets/files/image_codec.h"
 #include "harness/datasets/format/image_writer.h"
 

@@ -6,7 +6,7 @@
 
 #include "core/config/yaml.h"
 #include "core/config/yaml_writer.h"
-#include "core/util/files.h"
+#include "core/files/files.h"
 
 namespace vinebench::harness {
 

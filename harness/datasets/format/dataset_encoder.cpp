@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "core/util/files.h"
+#include "core/files/files.h"
 
 namespace vinebench::harness {
 namespace {

@@ -6,8 +6,8 @@
 #include <array>
 #include <map>
 
+#include "core/files/input_file.h"
 #include "core/util/error.h"
-#include "core/util/input_file.h"
 #include "harness/datasets/files/text_table.h"
 #include "harness/datasets/reading/groundtruth.h"
 #include "harness/datasets/reading/recorded_images.h"

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "core/config/yaml_writer.h"
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "harness/datasets/format/rectified.h"
 
 namespace vinebench::harness {

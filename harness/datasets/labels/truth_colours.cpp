@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/util/files.h"
+#include "core/files/files.h"
 #include "core/util/random.h"
 #include "harness/datasets/files/image_codec.h"
 #include "harness/datasets/files/image_file.h"

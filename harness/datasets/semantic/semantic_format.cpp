@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/datasets/semantic/semantic_format.h"
 
-#include "core/util/files.h"
+#include "core/files/files.h"
 #include "harness/datasets/files/png_writer.h"
 #include "harness/datasets/format/image_writer.h"
 #include "harness/datasets/labels/label_table.h"

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "core/config/yaml_writer.h"
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::harness {

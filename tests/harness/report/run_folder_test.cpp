@@ -8,8 +8,8 @@
 #include <set>
 #include <tuple>
 
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "harness/run.h"
 #include "tests/support/fakes.h"
 #include "tests/support/test_folder.h"

@@ -8,7 +8,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "core/config/validate.h"
-#include "core/util/files.h"
+#include "core/files/files.h"
 #include "harness/report/run_folder.h"
 #include "harness/run.h"
 #include "tests/support/fakes.h"

@@ -13,7 +13,7 @@
 #include <iterator>
 #include <thread>
 
-#include "core/util/files.h"
+#include "core/files/files.h"
 #include "harness/report/report_json.h"
 #include "harness/run.h"
 #include "harness/systems/plugin_slam.h"

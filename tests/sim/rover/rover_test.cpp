@@ -8,9 +8,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/files/files.h"
 #include "core/geometry/rig.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "sim/config_files.h"
 #include "sim/rover/route.h"
 #include "sim/rover/wheel_controller.h"

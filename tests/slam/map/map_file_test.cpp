@@ -7,8 +7,8 @@
 
 #include <filesystem>
 
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "tests/support/aisle_map.h"
 #include "tests/support/special_files.h"
 #include "tests/support/test_folder.h"

@@ -22,8 +22,8 @@
 #include <set>
 #include <system_error>
 
+#include "core/files/output_file.h"
 #include "core/util/error.h"
-#include "core/util/output_file.h"
 
 namespace vinebench::harness {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/util/files.h"
+#include "core/files/files.h"
 #include "tests/support/broken_png.h"
 #include "tests/support/label_folder.h"
 

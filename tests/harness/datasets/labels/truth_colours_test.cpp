@@ -10,8 +10,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "core/files/files.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::harness {

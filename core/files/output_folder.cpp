@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/util/output_folder.h"
+#include "core/files/output_folder.h"
 
 #include <fcntl.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/util/input_file.h"
+#include "core/files/input_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-#include "core/util/files.h"
+#include "core/files/files.h"
 #include "tests/support/special_files.h"
 #include "tests/support/test_folder.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/util/descriptor.h"
+#include "core/files/descriptor.h"
 
 namespace vinebench {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/util/input_file.h"
+#include "core/files/input_file.h"
 
 namespace vinebench {
 

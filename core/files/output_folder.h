@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "core/util/descriptor.h"
+#include "core/files/descriptor.h"
 
 namespace vinebench {
 

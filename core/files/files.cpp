@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/util/files.h"
+#include "core/files/files.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -9,8 +9,8 @@
 #include <new>
 #include <system_error>
 
+#include "core/files/output_file.h"
 #include "core/util/error.h"
-#include "core/util/output_file.h"
 
 namespace vinebench {
 

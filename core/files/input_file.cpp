@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/util/input_file.h"
+#include "core/files/input_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/util/output_file.h"
+#include "core/files/output_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

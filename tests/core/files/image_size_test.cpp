@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/util/image_size.h"
+#include "core/files/image_size.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

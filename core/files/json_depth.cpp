@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/util/json_depth.h"
+#include "core/files/json_depth.h"
 
 #include "core/util/error.h"
 

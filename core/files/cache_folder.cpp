@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/util/cache_folder.h"
+#include "core/files/cache_folder.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -10,10 +10,10 @@
 #include <cstring>
 #include <system_error>
 
-#include "core/util/descriptor.h"
+#include "core/files/descriptor.h"
+#include "core/files/files.h"
+#include "core/files/output_file.h"
 #include "core/util/error.h"
-#include "core/util/files.h"
-#include "core/util/output_file.h"
 #include "core/util/random.h"
 
 namespace vinebench {
