@@ -190,6 +190,7 @@ bool ProcessGroup::has_ended() {
   siginfo_t end{};
   const int found = waitid(P_PID, static_cast<id_t>(process_), &end, WEXITED | WNOHANG | WNOWAIT);
   if (found == 0 && end.si_pid == process_) kill();
+  if (found != 0 && errno == ECHILD) ended_ = true;  // SIGCHLD is ignored: nobody knows how
   return ended_;
 }
 

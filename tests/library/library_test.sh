@@ -56,6 +56,7 @@ if [[ " $* " == *" program "* ]]; then
   grep -q "^  occluded-camera " "$work/said"
   "$prefix/bin/vinebench" __complete -- run occl >"$work/said"
   grep -qx occluded-camera "$work/said"
+  [[ -x $prefix/libexec/vinebench/vinebench_plugin_host ]]
   [[ -f $prefix/share/bash-completion/completions/vinebench ]]
   if "$prefix/bin/vinebench" run occluded-camera --set nonsense=1 2>"$work/said"; then exit 1; fi
   grep -q "nonsense: unknown key" "$work/said"

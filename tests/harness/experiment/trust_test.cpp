@@ -63,7 +63,7 @@ TEST_F(TrustTest, LinksAndNamesThatBeginLikeAFolderAreNotAllowed) {
   EXPECT_THAT(refusal(reading), HasSubstr("cultivar.yaml, which lies neither in"));
 
   for (const char* name : {"own", "data", "data-2"}) fs::create_directories(folder_ / name);
-  reading.simulation.rover = {};
+  reading = {};
   reading.simulation.world.vines.cultivar = folder_.write("data-2/cultivar.yaml", "name: red\n");
   EXPECT_THAT(test::error_of([&] {
                 check_untrusted(reading, folder_ / "own/court.yaml", {{folder_ / "data"}});

@@ -87,8 +87,8 @@ TEST_F(PluginProcessTest, ACrashNamesTheSignal) {
 }
 
 TEST_F(PluginProcessTest, AHangEndsAtTheLimit) {
-  config_.frame_timeout = 0.3;
-  EXPECT_THAT(cause("hang.frame"), HasSubstr("fake_plugin.so: process: took more than 0.3 s"));
+  config_.frame_timeout = 1;
+  EXPECT_THAT(cause("hang.frame"), HasSubstr("fake_plugin.so: process: took more than 1 s"));
 }
 
 // At 1 MiB each millisecond, of which the limit is looked at every 100 ms.
@@ -98,11 +98,11 @@ TEST_F(PluginProcessTest, MemoryHasALimit) {
 }
 
 TEST_F(PluginProcessTest, AFailureBeforeTheFirstFrameIsAVerdictToo) {
-  config_.timeout = 0.3;
   for (const auto& [settings, text] :
        {std::pair("exit.create", "create: its process ended: exit code 0"),
         std::pair("crash.create", "create: its process ended: ended by signal 11"),
-        std::pair("hang.create", "create: took more than 0.3 s")}) {
+        std::pair("hang.create", "create: took more than 1 s")}) {
+    config_.timeout = std::string(settings) == "hang.create" ? 1 : 30;
     const RunReport report = run(settings).report;
     EXPECT_EQ(report.frames, 0);
     EXPECT_EQ(report.failure.value().frame, 0);
@@ -123,12 +123,11 @@ TEST_F(PluginProcessTest, AFailureAfterTheLastFrameKeepsTheLiveEstimates) {
 
 // A second is left to it, of a limit of thirty.
 TEST_F(PluginProcessTest, AStopEndsAHang) {
+  const fs::path hangs = folder_ / "hang.frame";
+  stopped_ = [&] { return fs::exists(hangs); };
   const auto start = std::chrono::steady_clock::now();
-  stopped_ = [&] {
-    return std::chrono::steady_clock::now() - start > std::chrono::milliseconds(300);
-  };
-  const RunOutcome outcome = run("hang.frame");
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+  const RunOutcome outcome = run(hangs.string());
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
   EXPECT_TRUE(outcome.interrupted);
   EXPECT_FALSE(outcome.report.failure);
   EXPECT_EQ(outcome.report.frames, 3);
