@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 
 #include "core/util/error.h"
 #include "sim/assets/asset_file.h"
 #include "sim/assets/gltf.h"
 #include "sim/assets/gltf_accessor.h"
 #include "sim/assets/gltf_file.h"
+#include "sim/assets/gltf_materials.h"
 
 namespace vinebench::sim {
 namespace {
@@ -24,11 +23,6 @@ Eigen::Matrix4f z_up() {
   return m;
 }
 
-/// What the numbers stood for that files held before they held names.
-constexpr std::array<const char*, 13> kNumberedLabels{"sky",  "ground", "grass", "trunk", "cane",
-                                                      "leaf", "bunch",  "post",  "wire",  "tag",
-                                                      "box",  "rover",  "person"};
-
 class GltfReader {
  public:
   GltfReader(const std::string& bytes, const std::filesystem::path& file, Strictness strictness)
@@ -39,12 +33,8 @@ class GltfReader {
   }
 
   ImportedMesh read() {
-    textures_.assign(model_.textures.size(), kUnread);
-    for (std::size_t i = 0; i < textures_.size() && !lenient_; ++i) {
-      asset_.add(texture_of(model_.textures[i]));
-      textures_[i] = static_cast<int>(i);
-    }
-    for (const tinygltf::Material& material : model_.materials) add(material);
+    const Strictness strictness = lenient_ ? Strictness::kLenient : Strictness::kStrict;
+    read_gltf_materials(model_, file_, strictness, mesh_);
     asset_.model.name = std::filesystem::path(file_).stem().string();
     note_contents();
     add_levels();
@@ -52,86 +42,6 @@ class GltfReader {
   }
 
  private:
-  static constexpr int kUnread = -2;
-
-  /// The asset's texture of that number in the file; read when it is first asked for, so that
-  /// images that are not drawn take no memory. -1, and a note, if it cannot be read.
-  int texture(int index, const std::string& material) {
-    at(model_.textures, index, "texture");
-    int& known = textures_[static_cast<std::size_t>(index)];
-    if (known != kUnread) return known;
-    try {
-      return known = asset_.add(texture_of(model_.textures[static_cast<std::size_t>(index)]));
-    } catch (const Error& error) {
-      const std::string text = error.what();
-      mesh_.notes.add(fmt::format("material '{}' is drawn in its colour alone: {}", material,
-                                  text.substr(text.starts_with(file_) ? file_.size() + 2 : 0)));
-    }
-    return known = -1;
-  }
-
-  Texture texture_of(const tinygltf::Texture& from) const {
-    if (from.source < 0 && !from.extensions.empty()) {
-      fail("{}: expected an image (PNG, JPEG, TIFF), found only one by {}", file_,
-           from.extensions.begin()->first);
-    }
-    const tinygltf::Image& image = at(model_.images, from.source, "image");
-    Texture texture;
-    texture.name = image.name.empty() ? image.uri : image.name;
-    const std::string where = fmt::format("{}: image \"{}\"", file_, texture.name);
-    if (image.bufferView >= 0) {
-      texture.rgba = decode_image(gltf_view(model_, image.bufferView, file_), where);
-    } else if (image.image.empty()) {
-      fail("{}: the file {} cannot be read", where, image.uri);
-    } else {
-      const auto* bytes = reinterpret_cast<const char*>(image.image.data());
-      texture.rgba = decode_image({bytes, image.image.size()}, where);
-    }
-    if (from.sampler >= 0) {
-      const tinygltf::Sampler& sampler = at(model_.samplers, from.sampler, "sampler");
-      texture.repeat = sampler.wrapS != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
-    }
-    return texture;
-  }
-
-  void add(const tinygltf::Material& from) {
-    const tinygltf::PbrMetallicRoughness& look = from.pbrMetallicRoughness;
-    Material material = make_material(from.name, Label::kLeaf, -1);
-    if (look.baseColorTexture.index >= 0) {
-      material.texture = texture(look.baseColorTexture.index, from.name);
-    }
-    for (int i = 0; i < 3 && look.baseColorFactor.size() >= 3; ++i) {
-      material.colour[i] = static_cast<float>(look.baseColorFactor[static_cast<std::size_t>(i)]);
-    }
-    material.cutout = from.alphaMode != "OPAQUE";
-    material.double_sided = from.doubleSided;
-    if (from.extras.Has(kLabel)) {
-      material.label = label(from.extras.Get(kLabel));
-      mesh_.labelled.insert(static_cast<int>(asset_.materials.size()));
-    }
-    if (from.extras.Has(kTranslucency)) {
-      material.translucency =
-          static_cast<float>(number(from.extras.Get(kTranslucency), kTranslucency, 0, 1));
-    }
-    asset_.add(std::move(material));
-    note_looks(from);
-  }
-
-  /// What is not drawn of a material.
-  void note_looks(const tinygltf::Material& from) {
-    const auto note = [&](bool found, const char* what) {
-      if (found) mesh_.notes.add(fmt::format("material '{}': {}", from.name, what));
-    };
-    const tinygltf::PbrMetallicRoughness& look = from.pbrMetallicRoughness;
-    note(from.normalTexture.index >= 0, "its image of normals is left out");
-    note(from.emissiveTexture.index >= 0, "its image of emission is left out");
-    note(from.occlusionTexture.index >= 0, "its image of occlusion is left out");
-    note(look.metallicRoughnessTexture.index >= 0, "its image of roughness is left out");
-    note(look.baseColorTexture.extensions.contains("KHR_texture_transform"),
-         "the transform of its image is left out");
-    note(from.alphaMode == "BLEND", "it is cut out at half its opacity, not blended");
-  }
-
   /// What is not drawn of the file.
   void note_contents() {
     const auto note = [&](bool found, const char* what) {
@@ -148,7 +58,7 @@ class GltfReader {
     for (const int root : roots) add_node(root, z_up(), 0, -1, finest);
     asset_.model.levels.push_back(std::move(finest));
     if (roots.size() != 1) return;
-    const tinygltf::Node& node = at(model_.nodes, roots[0], "node");
+    const tinygltf::Node& node = gltf_item(model_.nodes, roots[0], "node", file_);
     asset_.model.name = node.name.empty() ? asset_.model.name : node.name;
     const Value until = node.extras.Has(kUntil) ? node.extras.Get(kUntil) : Value();
     const auto extension = node.extensions.find(kLevelsExtension);
@@ -160,46 +70,22 @@ class GltfReader {
     for (int i = 0; i < static_cast<int>(ids.ArrayLen()); ++i) {
       LevelOfDetail level{distance(until.Get(i + 1)), {}};
       const double last = static_cast<double>(model_.nodes.size()) - 1;
-      add_node(static_cast<int>(number(ids.Get(i), kLevelsExtension, 0, last)), z_up(), 0, -1,
-               level);
+      add_node(static_cast<int>(gltf_number(ids.Get(i), kLevelsExtension, 0, last, file_)), z_up(),
+               0, -1, level);
       asset_.model.levels.push_back(std::move(level));
     }
   }
 
-  Label label(const Value& value) const {
-    if (!value.IsString()) {
-      const double last = static_cast<double>(kNumberedLabels.size()) - 1;
-      return *label_named(
-          kNumberedLabels.at(static_cast<std::size_t>(number(value, kLabel, 0, last))));
-    }
-    const std::string& name = value.Get<std::string>();
-    const std::optional<Label> named = label_named(name);
-    if (!named) {
-      fail("{}: {}: expected a label's name, such as \"leaf\", found \"{}\"", file_, kLabel, name);
-    }
-    return *named;
-  }
-
-  /// A number within bounds; `what` names it.
-  double number(const Value& value, const char* what, double least, double most) const {
-    const double found = value.IsNumber() ? value.GetNumberAsDouble() : std::nan("");
-    if (!(found >= least && found <= most)) {
-      fail("{}: {}: expected a number from {} to {}, found {}", file_, what, least, most,
-           value.IsNumber() ? fmt::format("{}", found) : "none");
-    }
-    return found;
-  }
-
-  double distance(const Value& value) const { return number(value, kUntil, 0, 1e9); }
+  double distance(const Value& value) const { return gltf_number(value, kUntil, 0, 1e9, file_); }
 
   std::vector<int> scene_roots() const {
     if (!model_.scenes.empty()) {
-      return at(model_.scenes, std::max(0, model_.defaultScene), "scene").nodes;
+      return gltf_item(model_.scenes, std::max(0, model_.defaultScene), "scene", file_).nodes;
     }
     std::vector<bool> is_child(model_.nodes.size());
     for (const tinygltf::Node& node : model_.nodes) {
       for (const int child : node.children) {
-        at(model_.nodes, child, "node");
+        gltf_item(model_.nodes, child, "node", file_);
         is_child[static_cast<std::size_t>(child)] = true;
       }
     }
@@ -216,11 +102,11 @@ class GltfReader {
     constexpr int kDeepest = 64, kMost = 100000;
     if (depth > kDeepest) fail("{}: nodes lie more than {} deep in each other", file_, kDeepest);
     if (++visited_ > kMost) fail("{}: more than {} nodes", file_, kMost);
-    const tinygltf::Node& node = at(model_.nodes, index, "node");
+    const tinygltf::Node& node = gltf_item(model_.nodes, index, "node", file_);
     const Eigen::Matrix4f T_model_node = T_model_parent * matrix_of(node);
     const int own = mesh_.add_part(node.name, around);
     if (node.mesh >= 0) {
-      const tinygltf::Mesh& mesh = at(model_.meshes, node.mesh, "mesh");
+      const tinygltf::Mesh& mesh = gltf_item(model_.meshes, node.mesh, "mesh", file_);
       const int inner = mesh_.add_part(mesh.name, own);
       for (const tinygltf::Primitive& primitive : mesh.primitives) {
         if (lenient_ && !can_be_drawn(primitive, node, T_model_node)) continue;
@@ -278,7 +164,7 @@ class GltfReader {
     }
     Primitive primitive;
     primitive.material = from.material >= 0 ? from.material : default_material();
-    at(asset_.materials, primitive.material, "material");
+    gltf_item(asset_.materials, primitive.material, "material", file_);
     const bool has_normals = read_vertices(from, primitive);
     read_colours(from, primitive);
     read_indices(from, primitive);
@@ -333,7 +219,7 @@ class GltfReader {
   std::string uv_set_of(const tinygltf::Primitive& from) {
     int set = 0;
     if (from.material >= 0) {
-      set = at(model_.materials, from.material, "material")
+      set = gltf_item(model_.materials, from.material, "material", file_)
                 .pbrMetallicRoughness.baseColorTexture.texCoord;
     }
     std::string name = fmt::format("TEXCOORD_{}", set);
@@ -351,7 +237,7 @@ class GltfReader {
     }
     const auto found = from.attributes.find("COLOR_0");
     if (found == from.attributes.end()) return;
-    const int type = at(model_.accessors, found->second, "accessor").type;
+    const int type = gltf_item(model_.accessors, found->second, "accessor", file_).type;
     const bool with_alpha = type == TINYGLTF_TYPE_VEC4;
     const GltfNumbers numbers(model_, found->second,
                               with_alpha ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3, file_);
@@ -409,20 +295,11 @@ class GltfReader {
     return default_material_;
   }
 
-  template <class T>
-  const T& at(const std::vector<T>& items, int index, const char* what) const {
-    if (index < 0 || static_cast<std::size_t>(index) >= items.size()) {
-      fail("{}: names {} {} of {}", file_, what, index, items.size());
-    }
-    return items[static_cast<std::size_t>(index)];
-  }
-
   std::string file_;
   bool lenient_ = false;
   tinygltf::Model model_;
   ImportedMesh mesh_;
   Asset& asset_ = mesh_.asset;
-  std::vector<int> textures_;  ///< the asset's, by their number in the file
   int default_material_ = -1;
   int visited_ = 0;
   std::size_t taken_ = 0;  ///< bytes of memory used by the meshes so far

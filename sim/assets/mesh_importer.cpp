@@ -16,11 +16,11 @@
 #include "core/util/error.h"
 #include "sim/assets/asset_file.h"
 #include "sim/assets/collada_check.h"
+#include "sim/assets/geometry/smooth_normals.h"
+#include "sim/assets/geometry/weld_table.h"
 #include "sim/assets/mesh_files.h"
 #include "sim/assets/mesh_text.h"
 #include "sim/assets/obj_check.h"
-#include "sim/assets/smooth_normals.h"
-#include "sim/assets/weld_table.h"
 
 namespace vinebench::sim {
 namespace {

@@ -198,6 +198,22 @@ expect 2 "new world of no terrain" "expected one of" "found lunar" -- world othe
 expect 0 "completion of commands" "replay" -- __complete -- re
 expect 0 "completion of scenarios" "occluded-camera" -- __complete -- run oc
 
+# A mesh of another tool: what is not drawn of it is said once, however often it is read.
+printf '%s\n' "v 0 0 0" "v 0.1 0 0" "v 0 0 1" "usemtl Bark" "f 1 2 3" >"$work/vine.obj"
+meshes() {
+  world "vines: {meshes: [vine.obj, vine.obj], mesh_import: {labels: {$1}}}"
+}
+view=(render "$work/world.yaml" --camera 64x48@30 --pose 2,-2,1,90 --out "$work/view.png")
+meshes "Bark: trunk"
+expect 0 "render of a mesh" -- "${view[@]}"
+[[ $(grep -c "^vinebench: warning: $work/vine.obj: normals are computed" "$work/stderr") -eq 1 ]] ||
+  report "render of a mesh: expected one warning"
+meshes "Brak: trunk"
+expect 2 "mistyped material" "vines.mesh_import.labels.Brak" "did you mean 'Bark'?" -- "${view[@]}"
+meshes "Bark: trnk"
+expect 2 "mistyped label" "world.yaml:3: vines.mesh_import.labels.Bark" "did you mean 'trunk'?" -- \
+  "${view[@]}"
+
 # Runs without OpenGL and plants: the fake renderer draws a walled court.
 court=(--set renderer.engine=fake --set duration=1)
 

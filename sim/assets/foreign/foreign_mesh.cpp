@@ -169,7 +169,8 @@ void check_names(const MeshImport& import, const std::set<std::string>& names,
   }
 }
 
-void warn_of(const ImportedMesh& mesh, const std::string& file) {
+/// Empty where all of the file is drawn.
+std::string warning_of(const ImportedMesh& mesh, const std::string& file) {
   constexpr std::size_t kMost = 12;
   const std::vector<std::string>& notes = mesh.notes.all();
   std::string text;
@@ -177,7 +178,7 @@ void warn_of(const ImportedMesh& mesh, const std::string& file) {
     text += (i > 0 ? "; " : "") + notes[i];
   }
   if (notes.size() > kMost) text += fmt::format("; and {} more", notes.size() - kMost);
-  if (!text.empty()) warn(file + ": " + text);
+  return text.empty() ? "" : file + ": " + text;
 }
 
 }  // namespace
@@ -187,16 +188,20 @@ std::vector<Asset> load_foreign_meshes(const std::vector<std::filesystem::path>&
                                        const std::string& key) {
   std::vector<Asset> assets;
   std::set<std::string> names;
+  std::vector<std::string> warnings;
   for (const std::filesystem::path& file : files) {
     ImportedMesh mesh = load_mesh(file, Strictness::kLenient);
     names.merge(names_of(mesh));
     place(mesh, import, file.string());
     Labeller(mesh, import, label).run();
     for (LevelOfDetail& level : mesh.asset.model.levels) join(level);
-    warn_of(mesh, file.string());
+    warnings.push_back(warning_of(mesh, file.string()));
     assets.push_back(std::move(mesh.asset));
   }
   check_names(import, names, files, key);
+  for (const std::string& warning : warnings) {
+    if (!warning.empty()) warn(warning);
+  }
   return assets;
 }
 

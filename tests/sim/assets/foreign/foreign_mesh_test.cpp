@@ -263,6 +263,32 @@ TEST_F(ForeignMeshTest, ImagesAreUsedFromTheMeshsFolderWhateverTheirPath) {
   }
 }
 
+/// As Blender writes it: the image by way of a surface and a sampler.
+std::string textured_dae(std::string text) {
+  const std::string effects = "<library_effects>", technique = "<technique sid=\"common\">";
+  const std::string colour = "<color>0.4 0.3 0.2 1</color>";
+  text.replace(text.find(colour), colour.size(),
+               R"(<texture texture="skin-sampler" texcoord="UVMap"/>)");
+  text.insert(text.find(technique), R"(<newparam sid="skin-surface"><surface type="2D">
+<init_from>skin</init_from></surface></newparam><newparam sid="skin-sampler"><sampler2D>
+<source>skin-surface</source></sampler2D></newparam>)");
+  text.insert(text.find(effects), R"(<library_images><image id="skin" name="skin">
+<init_from>skin.png</init_from></image></library_images>)");
+  return text;
+}
+
+TEST_F(ForeignMeshTest, ADaeHasItsImageOrAWarning) {
+  const File file = folder_.write("skin.dae", textured_dae(read_file(write_dae_plant(folder_))));
+  EXPECT_THAT(warning_of(file), AllOf(HasSubstr("material 'Bark'"), HasSubstr("skin.png"),
+                                      HasSubstr("no such file")));
+  cv::imwrite((folder_ / "skin.png").string(), cv::Mat(2, 2, CV_8UC3, cv::Scalar(10, 20, 200)));
+  EXPECT_EQ(warning_of(file), "");
+  const Asset asset = load(file);
+  ASSERT_EQ(asset.textures.size(), 1u);
+  EXPECT_EQ(material(asset, primitives(asset)[0]).texture, 0);
+  EXPECT_EQ(material(asset, primitives(asset)[0]).colour, Vector3f(1, 1, 1));
+}
+
 TEST_F(ForeignMeshTest, AnImageThatIsMissingOrUnsupportedLeavesTheColour) {
   const auto expect_colour = [&](const char* image, const char* reason) {
     folder_.write("skin.mtl", fmt::format("newmtl Skin\nKd 1 0 0\nmap_Kd {}\n", image));
@@ -346,6 +372,11 @@ TEST_F(ForeignMeshTest, AGltfWithoutItsImageIsDrawnInItsColour) {
                                       HasSubstr("gone.png")));
   EXPECT_EQ(load(file).textures.size(), 0u);
   EXPECT_THAT(error_of([&] { load_asset(file); }), HasSubstr("gone.png"));  // as for our own
+  cv::imwrite((folder_ / "gone.png").string(), cv::Mat(2, 2, CV_8UC3, cv::Scalar(10, 20, 200)));
+  EXPECT_EQ(warning_of(file), "");
+  const Asset asset = load(file);
+  ASSERT_EQ(asset.textures.size(), 1u);
+  EXPECT_EQ(asset.textures[0].rgba.at<cv::Vec4b>(0, 0), cv::Vec4b(200, 20, 10, 255));
 }
 
 TEST_F(ForeignMeshTest, ExtensionsOfLooksAreLeftOutAndThoseOfGeometryAreErrors) {

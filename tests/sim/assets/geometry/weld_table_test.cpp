@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/assets/weld_table.h"
+#include "sim/assets/geometry/weld_table.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/assets/smooth_normals.h"
+#include "sim/assets/geometry/smooth_normals.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numeric>
 
-#include "sim/assets/weld_table.h"
+#include "sim/assets/geometry/weld_table.h"
 
 namespace vinebench::sim {
 namespace {
