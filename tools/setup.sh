@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Installs missing Debian packages for building Vinebench, as root or through sudo. No effect if all
-# are installed. Usage: setup.sh [--ros]; with --ros also those for recording ROS bags, and for the
-# tests that read them with Python: 135 packages, 322 MB.
+# are installed. Usage: setup.sh [--ros] [--fuzz]; with --ros also those for recording ROS bags, and
+# for the tests that read them with Python: 135 packages, 322 MB; with --fuzz also clang and its
+# libFuzzer.
 set -euo pipefail
 
 packages=(
@@ -22,19 +23,23 @@ packages=(
   libgtest-dev libgmock-dev
 )
 
-case ${1:-} in
-  "") ;;
-  --ros)
-    packages+=(
-      librosbag-storage-dev libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev libros-rosgraph-msgs-dev
-      python3-rosbag python3-opencv python3-yaml
-    )
-    ;;
-  *)
-    echo "setup.sh: $1 is no option; usage: setup.sh [--ros]" >&2
-    exit 2
-    ;;
-esac
+for option in "$@"; do
+  case $option in
+    --ros)
+      packages+=(
+        librosbag-storage-dev libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev libros-rosgraph-msgs-dev
+        python3-rosbag python3-opencv python3-yaml
+      )
+      ;;
+    --fuzz)
+      packages+=(clang libclang-rt-14-dev)
+      ;;
+    *)
+      echo "setup.sh: $option is no option; usage: setup.sh [--ros] [--fuzz]" >&2
+      exit 2
+      ;;
+  esac
+done
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "setup.sh: this system has no apt; install by its own means what these Debian packages hold:" >&2

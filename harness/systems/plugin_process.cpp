@@ -14,6 +14,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "core/files/descriptor.h"
 #include "harness/run/system_failure.h"
 #include "harness/systems/host/plugin_messages.h"
 #include "harness/systems/process_group.h"
@@ -29,26 +30,6 @@ constexpr std::chrono::seconds kAfterStop{1};
 constexpr std::chrono::seconds kToEnd{5};
 constexpr std::size_t kImageAlignment = 64;  // bytes
 
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number() const { return number_; }
-  void set(int number) {
-    close();
-    number_ = number;
-  }
-  void close() {
-    if (number_ >= 0) ::close(number_);
-    number_ = -1;
-  }
-
- private:
-  int number_;
-};
-
 /// Memory for the largest image of each camera. The other process cannot change its size.
 class SharedImages {
  public:
@@ -60,7 +41,7 @@ class SharedImages {
       size_ = (size_ + kImageAlignment - 1) / kImageAlignment * kImageAlignment;
     }
     offsets_.push_back(size_);
-    file_.set(memfd_create("vinebench images", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+    file_ = Descriptor(memfd_create("vinebench images", MFD_CLOEXEC | MFD_ALLOW_SEALING));
     const bool made =
         file_.number() >= 0 && ftruncate(file_.number(), static_cast<off_t>(size_)) == 0 &&
         fcntl(file_.number(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) == 0;
@@ -150,7 +131,7 @@ class PluginProcess : public PluginLink {
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
       fail("{}: no socket: {}", file_, std::strerror(errno));
     }
-    socket_.set(ends[0]);
+    socket_ = Descriptor(ends[0]);
     const Descriptor other(ends[1]);
     process_.emplace(ProcessStart{.file = host,
                                   .arguments = {std::to_string(getpid())},
