@@ -8,6 +8,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -115,9 +116,19 @@ struct RigConfig {
   Rig make() const;
 
  private:
+  static constexpr std::size_t kMostCameras = 64;
+
   template <class Archive>
   void check(Archive& archive) const {
     archive.require(!cameras.empty(), "cameras", "expected at least one camera");
+    archive.require(
+        cameras.size() <= kMostCameras, "cameras",
+        fmt::format("expected at most {} cameras, found {}", kMostCameras, cameras.size()));
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      archive.require(names.insert(cameras[i].name).second, fmt::format("cameras.{}", i),
+                      fmt::format("expected a name of its own, '{}' is taken", cameras[i].name));
+    }
     const auto known = [this](const std::string& camera) {
       for (const Camera& c : cameras) {
         if (c.name == camera) return true;

@@ -212,6 +212,7 @@ def in_lines(change):
         lines = data.split(b"\n")
         change(lines, rng)
         return b"\n".join(lines)
+    damage.__name__ = change.__name__
     return damage
 
 

@@ -110,6 +110,11 @@ TEST(RigTest, UnknownNamesAreErrorsWithFileAndKey) {
   EXPECT_THAT(error_of(cameras + "tag_cameras: [a, d]\n"),
               testing::AllOf(testing::HasSubstr("tag_cameras.1"), testing::HasSubstr("'d'")));
   EXPECT_THAT(error_of("name: empty\n"), testing::HasSubstr("expected at least one camera"));
+  EXPECT_THAT(error_of(cameras + "  - {name: a}\n"),
+              testing::AllOf(testing::HasSubstr("cameras.2"), testing::HasSubstr("'a' is taken")));
+  std::string many = "cameras:\n";
+  for (int i = 0; i < 65; ++i) many += fmt::format("  - {{name: c{}}}\n", i);
+  EXPECT_THAT(error_of(many), testing::HasSubstr("expected at most 64 cameras, found 65"));
   EXPECT_EQ(error_of(cameras), "");
 }
 

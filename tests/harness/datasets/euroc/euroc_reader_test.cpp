@@ -207,6 +207,7 @@ TEST_F(EurocReaderTest, ARigOfOnesOwnTakesTheCalibrationsPlace) {
   EXPECT_EQ(recording.rig.cameras[1].name, "right");
   EXPECT_NEAR(recording.rig.baseline(recording.rig.stereo_pairs[0]), 0.3, 1e-15);
   rig.cameras.push_back(rig.cameras[0]);
+  rig.cameras.back().name = "third";
   test::write_text(root_ / "own.yaml", format_yaml(rig));
   EXPECT_THAT(
       error_of([&] { open_recording(root_, {.rig = root_ / "own.yaml", .groundtruth = {}}); }),
