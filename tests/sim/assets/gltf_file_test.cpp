@@ -33,7 +33,7 @@ std::string glb(std::string json, std::uint32_t version = 2) {
 class GltfFileTest : public testing::Test {
  protected:
   tinygltf::Model parsed(const std::string& name, const std::string& content) const {
-    return parse_gltf(folder_.write(name, content));
+    return parse_gltf(content, folder_ / name);
   }
   /// The message for a file of that content, which must name it.
   std::string problem(const std::string& name, const std::string& content) const {

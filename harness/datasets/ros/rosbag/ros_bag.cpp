@@ -108,8 +108,8 @@ struct RosBag::Impl {
   bool begun = false;  ///< whether the current chunk has messages
 
   explicit Impl(const fs::path& name) : file(name), active(name.string() + ".active") {
-    create_file(active);  // the library would follow a link of this name
     expect_room(0);
+    create_file(active);  // the library would follow a link of this name
     attempt([&] {
       bag = std::make_unique<rosbag::Bag>();
       bag->open(active.string(), rosbag::bagmode::Write);
