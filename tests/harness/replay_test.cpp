@@ -107,7 +107,7 @@ TEST_F(ReplayTest, NamesThatAreNotUtf8LoseNoRun) {
   const slam::SlamConfig slam = replay_settings(recording, "", {});
   RunOptions options;
   options.folder = folder_ / "out\xff";
-  prepare_replay_folder(options.folder, slam);
+  const FolderLock lock = prepare_replay_folder(options.folder, slam);
   const RunOutcome outcome = run_replay(std::move(recording), slam, 2, options);
   EXPECT_EQ(outcome.report.hash.size(), 32u);
   const auto stored = read_stored_run(options.folder / "metrics.json");

@@ -111,10 +111,11 @@ TEST_F(ExternalSlamTest, PosesOfACameraAreJudgedAsTheBodys) {
 }
 
 TEST_F(ExternalSlamTest, LinksInTheFoldersPlacesAreErrors) {
+  config_.program = "/bin/sh";
   fs::create_directories(folder_ / "theirs");
   for (const char* name : {"external", "recording"}) {
     fs::create_directory_symlink(folder_ / "theirs", folder_ / name);
-    EXPECT_THAT(error(kStand), HasSubstr(std::string(name) + ": is a link"));
+    EXPECT_THAT(refusal(), HasSubstr(std::string(name) + ": is a link"));
     EXPECT_TRUE(fs::is_empty(folder_ / "theirs"));
     fs::remove(folder_ / name);
   }
@@ -175,7 +176,7 @@ TEST_F(ExternalSlamTest, LinksMustNotLeadOutOfTheOutputFolder) {
   fs::rename(folder_ / "external", folder_ / "other");
   fs::create_directory_symlink("other", folder_ / "external");
   config_.trajectory = "trajectory.txt";
-  EXPECT_THAT(refusal(), HasSubstr("leads out of "));
+  EXPECT_THAT(refusal(), HasSubstr("external: is a link"));
 
   fs::remove(folder_ / "external");
   EXPECT_THAT(failure("ln -s ../poses.txt trajectory.txt"),

@@ -174,8 +174,7 @@ TEST(PlantCacheTest, SeveralProcessesMayFillItAtOnce) {
 // cache shape nothing, nor do the meshes that stand in place of plants.
 bool shapes_no_plant(const std::string& path) {
   return path.starts_with("core/config/") || path.starts_with("core/util/error") ||
-         path.starts_with("core/files/files") || path.starts_with("core/files/cache_folder") ||
-         path.starts_with("sim/assets/foreign/");
+         path.starts_with("core/files/") || path.starts_with("sim/assets/foreign/");
 }
 
 /// The project's files that a source includes, and the .cpp beside each.
