@@ -8,7 +8,8 @@ Usage: mutate.py VINEBENCH ROOT [--cases N] [--first N] [--seed N] [--jobs N] [-
 The inputs (scenario, world, rover, rig, map, recordings, trajectories, metrics, meshes) are made
 with the program itself and damaged one file at a time: bits, bytes and lines, numbers, keys and
 types, invalid UTF-8, links, pipes, devices. Each case is a function of the seed and its number. A
-whole command then runs with 30 s and 2 GB of memory. Expected are the exit codes 0, 1 and 2;
+whole command then runs with 30 s of processor time, 300 s in all (a loaded machine must not look
+like a hang) and 2 GB of memory. Expected are the exit codes 0, 1 and 2;
 exit code 3, a signal or a hang is an offence: its inputs and command are kept, and the exit code of
 this tool is 1.
 """
@@ -30,7 +31,8 @@ import sys
 import tempfile
 import zlib
 
-SECONDS = 30
+PROCESSOR_SECONDS = 30
+SECONDS = 300
 MEMORY = 2 << 30
 LARGEST_OUTPUT = 1 << 30
 OFFENCES = ("3", "other code", "signal", "hang")
@@ -459,6 +461,7 @@ def link_tree(source, target):
 
 
 def limit():
+    resource.setrlimit(resource.RLIMIT_CPU, (PROCESSOR_SECONDS, PROCESSOR_SECONDS + 5))
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     resource.setrlimit(resource.RLIMIT_FSIZE, (LARGEST_OUTPUT, LARGEST_OUTPUT))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
@@ -476,7 +479,7 @@ def run_limited(command, folder):
             process.wait()
             code = None
     text = (folder / "stderr.txt").read_bytes()[-4000:].decode("utf-8", "replace")
-    if code is None:
+    if code is None or code == -signal.SIGXCPU:
         return "hang", text
     if code < 0:
         return "signal", f"signal {-code}\n{text}"
