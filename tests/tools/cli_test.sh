@@ -114,7 +114,7 @@ sed 's/^/10/' "$work/truth.tum" >"$work/later.tum"
 for command in "eval $work/truth.tum $work/same.tum" "list" "run --help" "--version"; do
   "$vinebench" $command >/dev/full 2>"$work/stderr"
   [[ $? -eq 2 ]] || report "$command on a full disk: expected exit code 2"
-  [[ $(<"$work/stderr") == "vinebench: standard output: cannot be written: No space left on device" ]] ||
+  [[ $(<"$work/stderr") == "vinebench: standard output: cannot be written"* ]] ||
     report "$command on a full disk: $(<"$work/stderr")"
 done
 expect 2 "eval of unrelated trajectories" "later.tum: fewer than three" -- \

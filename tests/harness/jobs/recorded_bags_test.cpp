@@ -67,7 +67,7 @@ TEST_F(RecordedBagsTest, ImagesAndColourAreThoseAskedFor) {
   const std::string compressed = read_file(bag());
   EXPECT_THAT(compressed, testing::Not(HasSubstr("mono8")));
   // The same bytes as the file, from one encoding.
-  const std::string png = read_file(request_.out / "euroc/mav0/cam2/data/0.png");
+  const std::string png = read_file(request_.out / "euroc/mav0/cam2/data/0000000000000000000.png");
   EXPECT_NE(compressed.find(png), std::string::npos);
   EXPECT_FALSE(fs::exists(request_.out / "ros/left"));
 }

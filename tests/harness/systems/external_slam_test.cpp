@@ -89,7 +89,7 @@ TEST_F(ExternalSlamTest, TheRecordingHasAllButTheTruth) {
   config_.trajectory = "out.txt";
   run("[ \"$1\" = \"--in=$VINEBENCH_RECORDING\" ] && [ \"$2\" = \"$VINEBENCH_OUTPUT/out.txt\" ] &&"
       "[ \"$PWD\" = \"$VINEBENCH_OUTPUT\" ] && : >out.txt");
-  EXPECT_TRUE(fs::exists(folder_ / "recording/mav0/cam2/data/2000000000.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "recording/mav0/cam2/data/0000000002000000000.png"));
   EXPECT_TRUE(fs::exists(folder_ / "recording/rig.yaml"));
   EXPECT_FALSE(fs::exists(folder_ / "recording/mav0/state_groundtruth_estimate0"));
   EXPECT_EQ(run(": >out.txt").report.results.coverage, 0);  // replaces the previous recording

@@ -160,8 +160,9 @@ TEST_F(EurocSinkTest, OthersReadItWithoutWhatIsOurs) {
       notes().rig.make().cameras[2].T_body_cam.inverse() * recording.rig.cameras[2].T_body_cam;
   EXPECT_LT((difference.matrix() - Eigen::Matrix4d::Identity()).norm(), 1e-12);
   const std::string list = read_file(root_ / "mav0/cam1/data.csv");
-  EXPECT_THAT(list,
-              testing::StartsWith("#timestamp [ns],filename\n0,0.png\n66666667,66666667.png\n"));
+  EXPECT_THAT(list, testing::StartsWith("#timestamp [ns],filename\n"
+                                        "0000000000000000000,0000000000000000000.png\n"
+                                        "0000000000066666667,0000000000066666667.png\n"));
   const std::string truth = read_file(root_ / "mav0/state_groundtruth_estimate0/data.csv");
   EXPECT_EQ(std::ranges::count(truth, '\n'), kFrames + 1);
   EXPECT_EQ(std::ranges::count(truth.substr(truth.rfind('\n', truth.size() - 2)), ','), 16);
