@@ -154,11 +154,13 @@ TEST_F(ForeignMeshTest, EachBunchHasANumberAndOtherPartsNone) {
   MeshImport import;
   import.labels = {{"Trunk", Label::kBunch}, { "Foliage", Label::kBunch }};
   std::set<int> numbers;
-  for (const Primitive& primitive : primitives(load(write_gltf_plant(folder_), import))) {
+  const Asset bunches = load(write_gltf_plant(folder_), import),
+              leaves = load(write_gltf_plant(folder_));
+  for (const Primitive& primitive : primitives(bunches)) {
     for (const Vertex& vertex : primitive.vertices) numbers.insert(vertex.part);
   }
   EXPECT_THAT(numbers, ElementsAre(1, 2));
-  for (const Primitive& primitive : primitives(load(write_gltf_plant(folder_)))) {
+  for (const Primitive& primitive : primitives(leaves)) {
     for (const Vertex& vertex : primitive.vertices) EXPECT_EQ(vertex.part, 0);
   }
 }
@@ -341,7 +343,8 @@ TEST_F(ForeignMeshTest, VertexColoursOfAGltfAreLinear) {
   // The normals of the first part, (0, 0, 1) in the file: blue.
   const File file = write_gltf_plant(folder_, ",\"COLOR_0\":1");
   EXPECT_EQ(warning_of(file), "");
-  for (const Primitive& primitive : primitives(load(file))) {
+  const Asset asset = load(file);
+  for (const Primitive& primitive : primitives(asset)) {
     for (const Vertex& vertex : primitive.vertices) {
       EXPECT_THAT(vertex.colour, ElementsAre(0, 0, 255));
     }
