@@ -70,7 +70,8 @@ TEST_F(MeshOccluderTest, IsTurnedBeforeItIsScaledToItsSize) {
   Occluder turned = occluder(kWedge, {2, 1, 3});
   turned.mesh_import = MeshImport{};
   turned.mesh_import->yaw_deg = 90;  // the slope, which faced +x and up, now faces +y and up
-  const OccluderModel model = mesh_model(turned, 1);
+  OccluderModel model = mesh_model(turned, 1);
+  model.asset.update_bounds();
   EXPECT_LT((model.asset.model.bounds.sizes() - Eigen::Vector3f(2, 1, 3)).norm(), 1e-5f);
   int on_slope = 0;
   for (const Vertex& vertex : model.asset.model.levels.at(0).primitives.at(0).vertices) {
