@@ -75,6 +75,12 @@ int main(int argc, char** argv) {
       [](const std::string& text) { fmt::print(stderr, "vinebench: warning: {}\n", text); });
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   return vinebench::tools::outcome_of(arguments, [&] {
-    return vinebench::tools::checked_output(vinebench::tools::main(arguments));
+    using vinebench::tools::checked_output;
+    try {
+      return checked_output(vinebench::tools::main(arguments));
+    } catch (const std::exception&) {
+      if (std::ferror(stdout) != 0) return checked_output(0);  // thrown while printing
+      throw;
+    }
   });
 }
