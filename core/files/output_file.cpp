@@ -10,6 +10,7 @@
 #include <cstring>
 #include <random>
 
+#include "core/files/files.h"
 #include "core/util/error.h"
 
 namespace vinebench {
@@ -31,7 +32,7 @@ int open_new(const std::filesystem::path& file) {
 std::filesystem::path temporary_name(const std::filesystem::path& file) {
   std::random_device random;
   std::filesystem::path name = file;
-  name += fmt::format(".{:08x}{:08x}.partial", random(), random());
+  name += fmt::format(".{:08x}{:08x}{}", random(), random(), kPartialEnding);
   return name;
 }
 
