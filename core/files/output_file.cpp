@@ -10,7 +10,6 @@
 #include <cstring>
 #include <random>
 
-#include "core/files/files.h"
 #include "core/util/error.h"
 
 namespace vinebench {
