@@ -64,7 +64,7 @@ void expect_folder(const std::filesystem::path& file) {
 
 RunOutcome run_lockstep_and_judge(const Trial& trial, FrameSource& source, SlamSystem& slam,
                                   const RunOptions& options) {
-  if (const auto& blind = trial.expectations.blind) find_cameras(source.rig(), blind->cameras);
+  if (const auto* blind = trial.blind()) find_cameras(source.rig(), blind->cameras);
   Sinks sinks(trial, source, options);
   std::vector<Sink*> all = sinks.list();
   all.insert(all.end(), options.sinks.begin(), options.sinks.end());

@@ -69,8 +69,7 @@ RunReport judge(const RunRecord& record, const Trial& trial) {
   report.diagnosis = diagnose(record, report.results, trial);
   report.failure = record.failure;
   if (report.failure) report.checks.push_back(check_of(*report.failure));
-  std::ranges::move(check_expectations(trial.expectations, report.results),
-                    std::back_inserter(report.checks));
+  std::ranges::move(check_trial(trial, report.results), std::back_inserter(report.checks));
   return report;
 }
 

@@ -69,8 +69,8 @@ class Drive {
     RunRecorder recorder(frames_.rig(), sim::world_tags(scenario_.simulation.world));
     run_lockstep(frames_, *slam, {&recorder});
     std::set<std::string> broken;
-    const RunResults results = measure(recorder.record(), trial_of(scenario_));
-    for (const Check& check : check_expectations(scenario_.expectations, results)) {
+    const Trial trial = trial_of(scenario_);
+    for (const Check& check : check_trial(trial, measure(recorder.record(), trial))) {
       if (!check.ok) broken.insert(check.what);
     }
     return broken;
