@@ -32,8 +32,8 @@ RunReport every_metric() {
   results.drift = Drift{.error = 0.14};
   results.end_error = 0.15;
   results.consistency = Consistency{.frames = 1, .nees_mean = 16};
-  results.loops.closures.resize(17);
-  for (std::size_t i = 0; i < 10; ++i) results.loops.closures[i].correct = true;
+  results.loops.closures.resize(37);
+  for (std::size_t i = 0; i < 17; ++i) results.loops.closures[i].correct = true;
   results.loops.missed.resize(18);
   return report;
 }
