@@ -51,11 +51,22 @@ class ClearView {
   std::vector<cv::Mat> labels_;  ///< all tag, of each tag camera
 };
 
+/// On the ground there, without the suspension of wheels on bumps.
+Pose standing_at(const Eigen::Vector3d& pose, const sim::Terrain& terrain) {
+  constexpr double kWheelReach = 0.2;  // m
+  const Eigen::Vector2d place = pose.head<2>();
+  const auto tilt = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(),
+                                                       terrain.normal(place, kWheelReach));
+  return {(tilt * from_roll_pitch_yaw({0, 0, pose.z()})).normalized(),
+          {place.x(), place.y(), terrain.height(place)}};
+}
+
 RunRecord planned_record(const ScenarioConfig& scenario) {
   const sim::SimulationConfig& simulation = scenario.simulation;
   RunRecord record;
   record.rig = load_rig(simulation.rover.rig);
   record.tags = sim::world_tags(simulation.world);
+  const sim::WorldLayout layout = sim::lay_out(simulation.world);
   const ClearView view(record.rig);
   const sim::Route route(simulation.route);
   const double seconds = to_seconds(route.duration());
@@ -65,7 +76,7 @@ RunRecord planned_record(const ScenarioConfig& scenario) {
     tick.index = i;
     tick.stamp = stamp_of_frame(i, record.rig.rate_hz);
     const Eigen::Vector3d at = route.at(tick.stamp).pose;
-    tick.truth.T_world_body = {from_roll_pitch_yaw({0, 0, at.z()}), {at.x(), at.y(), 0}};
+    tick.truth.T_world_body = standing_at(at, layout.terrain);
     tick.truth.visible_tags = view.of(record.tags, tick.truth.T_world_body);
     record.ticks.push_back(std::move(tick));
   }
