@@ -77,6 +77,9 @@ RunOutcome run_lockstep_and_judge(const Trial& trial, FrameSource& source, SlamS
   if (!options.folder.empty()) write_run_files(options.folder, trial, record, report);
   outcome.summary =
       format_diagnosis(record, report.diagnosis) + format_left_out(report.results.consistency);
+  if (report.checks.empty() || !all_hold(report.checks)) {
+    outcome.summary += format_patterns(report.patterns);
+  }
   // A system that runs after the last frame may be stopped there.
   const bool whole = report.frames == source.size() && !record.summary.trajectory.empty();
   outcome.interrupted = options.stopped && options.stopped() && !whole;

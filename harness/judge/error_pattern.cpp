@@ -217,4 +217,12 @@ std::string text_of(const ErrorPattern& pattern) {
   return "";
 }
 
+std::string format_patterns(const std::vector<ErrorPattern>& patterns) {
+  std::string line;
+  for (const ErrorPattern& pattern : patterns) {
+    line += (line.empty() ? "pattern of the error: " : ", ") + text_of(pattern);
+  }
+  return line.empty() ? "" : line + "\n";
+}
+
 }  // namespace vinebench::harness

@@ -47,4 +47,7 @@ std::vector<ErrorPattern> error_patterns(const RunRecord& record, const RunResul
 /// Such as "67 ms late (93 %)".
 std::string text_of(const ErrorPattern& pattern);
 
+/// One readable line of them all; empty without any.
+std::string format_patterns(const std::vector<ErrorPattern>& patterns);
+
 }  // namespace vinebench::harness

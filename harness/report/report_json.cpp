@@ -87,6 +87,16 @@ Json failure_json(const SlamFailure& failure) {
   return {{"cause", failure.cause}, {"frame", or_null(failure.frame)}};
 }
 
+Json patterns_json(const std::vector<ErrorPattern>& patterns) {
+  Json list = Json::array();
+  for (const ErrorPattern& pattern : patterns) {
+    Json json{{"pattern", name_of(pattern.kind)}, {"size", pattern.size}, {"share", pattern.share}};
+    if (pattern.kind == ErrorPatternKind::kStep) json["t"] = to_seconds(pattern.stamp);
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
 void add_unhashed(const RunReport& report, Json& metrics) {
   const RunResults& results = report.results;
   if (report.failure) metrics["failure"] = failure_json(*report.failure);
@@ -94,6 +104,7 @@ void add_unhashed(const RunReport& report, Json& metrics) {
   if (results.blind) metrics["blind"]["occluder"] = name_of(results.blind->occluder);
   if (results.consistency) metrics["nees_left_out"] = results.consistency->not_invertible;
   add_gate_metrics(results, metrics);
+  metrics["error_patterns"] = patterns_json(report.patterns);
 }
 
 }  // namespace

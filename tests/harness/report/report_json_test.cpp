@@ -35,6 +35,8 @@ RunReport whole() {
   results.loops.missed.resize(1);
   results.blind = OcclusionSegment{.seconds = 4, .inliers_clear = 160, .inliers_blind = 8};
   results.blind->occluder = OccluderClass::kPerson;
+  report.patterns = {{ErrorPatternKind::kLate, 0.1, 0.75},
+                     {ErrorPatternKind::kStep, 0.02, 1, kNanosecondsPerSecond}};
   report.keyframes = 7;
   report.cameras = {{"left", 500, 80, {}}, {"side", 0, 0, {}}};
   report.cameras[0].occlusion.share(OccluderClass::kCarton) = 0.125;
@@ -88,6 +90,7 @@ TEST(ReportJsonTest, HasEveryKeyInItsOrder) {
                                           "drift_m",
                                           "drift_percent",
                                           "loop_returns",
+                                          "error_patterns",
                                           "expectations"};
   EXPECT_EQ(keys_of(to_json(whole())), expected);
 }
@@ -106,6 +109,9 @@ TEST(ReportJsonTest, HasTheValues) {
   EXPECT_EQ(json["input_faults"], Json({{"unreadable", 2}}));
   EXPECT_EQ(json["blind"]["inliers_drop"], 0.95);  // 1 - 8 / 160
   EXPECT_EQ(json["blind"]["occluder"], "person");
+  EXPECT_EQ(json["error_patterns"],
+            Json({{{"pattern", "late"}, {"size", 0.1}, {"share", 0.75}},
+                  {{"pattern", "step"}, {"size", 0.02}, {"share", 1.0}, {"t", 1.0}}}));
   EXPECT_EQ(json["timing_ms"]["stereo"], Json({{"mean", 1.0}, {"p50", 2.0}, {"p95", 3.0}}));
   EXPECT_EQ(json["wall_seconds"], 2);
   EXPECT_EQ(json["occlusion"], Json({{"left", {{"carton", 0.125}}}}));  // no key for the clear one
@@ -143,6 +149,7 @@ TEST(ReportJsonTest, TheHashedPartDependsOnResultsAlone) {
   slower.results.consistency->not_invertible = 0;
   slower.results.corrected->world.reset();
   slower.results.drift.reset();
+  slower.patterns.clear();
   EXPECT_EQ(hashed_json(slower).dump(), hashed);
   RunReport other = whole();
   other.landmarks += 1;
