@@ -39,6 +39,13 @@ struct RunArguments {
   std::vector<std::filesystem::path> data_folders;
 };
 
+/// For a scenario as its file says: overrides change the drive and leave the bounds.
+void name_ineffective_bounds(const harness::ScenarioConfig& scenario, const std::string& file) {
+  for (const auto& bound : harness::ineffective_bounds(scenario)) {
+    fmt::print(stderr, "vinebench: {}: {}\n", file, bound.text());
+  }
+}
+
 std::vector<harness::ScenarioConfig> scenarios_of(const RunArguments& arguments) {
   const std::vector<Override> overrides = parse_overrides(arguments.overrides);
   std::vector<harness::ScenarioConfig> scenarios;
@@ -48,9 +55,7 @@ std::vector<harness::ScenarioConfig> scenarios_of(const RunArguments& arguments)
       harness::check_untrusted(scenarios.back(), file, {arguments.data_folders});
     }
     sim::choose_backend(scenarios.back().simulation.renderer, arguments.machine.gl_platform);
-    for (const auto& bound : harness::ineffective_bounds(scenarios.back())) {
-      fmt::print(stderr, "vinebench: {}: {}\n", file, bound.text());
-    }
+    if (overrides.empty()) name_ineffective_bounds(scenarios.back(), file);
     if (arguments.seed) scenarios.back().seed = *arguments.seed;
   }
   return scenarios;
