@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/geometry/angle.h"
 #include "core/util/percentile.h"
 #include "harness/judge/evaluation.h"
 
@@ -18,6 +18,7 @@ constexpr double kShareExplained = 0.6;  // of the squared error, at least
 constexpr double kVisible = 0.001;       // m RMS that a fit explains, at least
 constexpr double kLeastStep = 0.005;     // m
 constexpr double kTimesMedian = 10;      // the median change of the error
+constexpr double kLeastTurn = 0.5 * kRadiansPerDegree;
 constexpr double kInconsistent = 4;      // times the expected NEES
 constexpr double kDegreesOfFreedom = 6;  // of a pose
 
@@ -109,11 +110,11 @@ void add_step(const RunRecord& record, const RunResults& results,
   }
 }
 
-/// In the world, where the first poses would have to be moved to agree.
+/// In the world: what aligning the first poses takes away.
 void add_world(const std::vector<PosePair>& pairs, const std::optional<Pose>& T_world_map,
                std::vector<ErrorPattern>& patterns) {
   if (!T_world_map) return;
-  const double aligned = position_errors(pairs, align_se3(pairs)).rmse;
+  const double aligned = position_errors(pairs, align_first(pairs)).rmse;
   const double unaligned = position_errors(pairs, *T_world_map).rmse;
   const double share = 1 - std::pow(aligned / std::max(unaligned, 1e-12), 2);
   if (share < kShareExplained || unaligned < kVisible) return;
@@ -121,8 +122,7 @@ void add_world(const std::vector<PosePair>& pairs, const std::optional<Pose>& T_
   const Eigen::Vector3d& at = pairs.front().T_world_body.translation;
   patterns.push_back({ErrorPatternKind::kWorldOffset, (wrong * at - at).norm(), share});
   const double turn = Eigen::AngleAxisd(wrong.rotation).angle();
-  if (turn > std::numbers::pi / 360)
-    patterns.push_back({ErrorPatternKind::kWorldTurn, turn, share});
+  if (turn > kLeastTurn) patterns.push_back({ErrorPatternKind::kWorldTurn, turn, share});
 }
 
 void add_count(ErrorPatternKind kind, std::ptrdiff_t count, std::vector<ErrorPattern>& patterns) {
@@ -184,7 +184,6 @@ std::vector<ErrorPattern> error_patterns(const RunRecord& record, const RunResul
 }
 
 std::string text_of(const ErrorPattern& pattern) {
-  constexpr double kDegrees = 180 / std::numbers::pi;
   const double size = pattern.size;
   const std::string share = fmt::format(" ({:.0f} %)", 100 * pattern.share);
   switch (pattern.kind) {
@@ -194,7 +193,7 @@ std::string text_of(const ErrorPattern& pattern) {
     case ErrorPatternKind::kScale:
       return fmt::format("scale {:+.1f} %{}", 100 * size, share);
     case ErrorPatternKind::kTurned:
-      return fmt::format("path turned by {:+.2f} deg{}", kDegrees * size, share);
+      return fmt::format("path turned by {:+.2f} deg{}", size / kRadiansPerDegree, share);
     case ErrorPatternKind::kClimbing:
       return fmt::format("climbing {:+.1f} % of the path{}", 100 * size, share);
     case ErrorPatternKind::kStep:
@@ -202,7 +201,7 @@ std::string text_of(const ErrorPattern& pattern) {
     case ErrorPatternKind::kWorldOffset:
       return fmt::format("map {:.0f} mm off in the world{}", 1000 * size, share);
     case ErrorPatternKind::kWorldTurn:
-      return fmt::format("map turned by {:.1f} deg in the world", kDegrees * size);
+      return fmt::format("map turned by {:.1f} deg in the world", size / kRadiansPerDegree);
     case ErrorPatternKind::kOverconfident:
       return fmt::format("squared errors {:.0f} times what the covariances say", size);
     case ErrorPatternKind::kUnderconfident:

@@ -40,8 +40,8 @@ struct ErrorPattern {
 /// by itself, to the position errors aligned by the first pose: e = tau v, s d, a (z x d) and c l z
 /// with the true velocity v, displacement d and path length l. One is named if it explains 60 % and
 /// 1 mm (RMS), the one that explains most first. A step is ten times the median change and at least
-/// 5 mm; the map is off in the world if that explains 60 % of the error without alignment; the
-/// covariances are wrong if the mean NEES is four times too large or too small.
+/// 5 mm; the map is off in the world if aligning the first poses takes 60 % of the squared error
+/// there away; the covariances are wrong if the mean NEES is four times too large or too small.
 std::vector<ErrorPattern> error_patterns(const RunRecord& record, const RunResults& results);
 
 /// Such as "67 ms late (93 %)".

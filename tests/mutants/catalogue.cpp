@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
+#include "core/geometry/angle.h"
 #include "tests/mutants/mutant.h"
 
 namespace vinebench::mutants {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 using Names = std::vector<std::string>;
 const Names kFront{"front_left", "front_right"};
@@ -44,7 +42,8 @@ Mutant mount(std::string name, std::string text, const Names& names,
     middle /= static_cast<double>(names.size());
     const Pose about{Eigen::Quaterniond::Identity(), middle};
     const Pose moved = Pose{Eigen::Quaterniond::Identity(), shift} * about *
-                       Pose{exp_so3(kDegree * turn_deg), Eigen::Vector3d::Zero()} * about.inverse();
+                       Pose{exp_so3(kRadiansPerDegree * turn_deg), Eigen::Vector3d::Zero()} *
+                       about.inverse();
     for (const std::string& each : names) {
       Pose& T_body_cam = camera(rig, each).T_body_cam;
       T_body_cam = moved * T_body_cam;
@@ -83,7 +82,8 @@ Mutant tag_moved(std::string name, std::string text, const Eigen::Vector3d& shif
                  double turn_deg) {
   return survey(std::move(name), std::move(text), [=](RegisteredTag& tag) {
     tag.T_world_tag.translation += shift;
-    tag.T_world_tag.rotation = exp_so3({0, 0, kDegree * turn_deg}) * tag.T_world_tag.rotation;
+    tag.T_world_tag.rotation =
+        exp_so3({0, 0, kRadiansPerDegree * turn_deg}) * tag.T_world_tag.rotation;
   });
 }
 
@@ -190,8 +190,8 @@ void add_estimators(std::vector<Mutant>& list) {
   list.push_back(estimator("drift", "drift of 0.3 %, sideways", Fault::kDrift, 0.003));
   list.push_back(estimator("climb", "drift of 0.3 %, upwards", Fault::kClimb, 0.003));
   list.push_back(estimator("heading", "heading drifts by 0.3 degrees a metre", Fault::kHeadingDrift,
-                           0.3 * kDegree));
-  list.push_back(estimator("tilt", "rolled by 0.5 degrees", Fault::kTilt, 0.5 * kDegree));
+                           0.3 * kRadiansPerDegree));
+  list.push_back(estimator("tilt", "rolled by 0.5 degrees", Fault::kTilt, 0.5 * kRadiansPerDegree));
   list.push_back(estimator("frozen", "stands still for a second", Fault::kFrozen, 1));
   list.push_back(estimator("silent-loss", "lost silently for two seconds", Fault::kSilentLoss, 2));
   list.push_back(estimator("open-loss", "lost for half a second", Fault::kOpenLoss, 0.5));

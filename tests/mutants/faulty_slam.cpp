@@ -110,7 +110,7 @@ bool FaultySlam::is_in_window(Stamp stamp) const {
 void FaultySlam::close_falsely(Estimate& estimate) {
   constexpr Stamp kAgo = 4 * kNanosecondsPerSecond;
   if (!closed_ && estimate.stamp >= middle_ + kAgo / 2 && estimate.stamp >= kAgo) {
-    closed_ = true;
+    closed_ = estimate.stamp;
     const StampedPose& earlier = live_[index_at(live_, estimate.stamp - kAgo)];
     Pose T_earlier_later = earlier.pose.inverse() * live_.back().pose;
     T_earlier_later.translation.y() += fault_.size;
@@ -142,7 +142,9 @@ SlamSummary FaultySlam::finish() {
   SlamSummary summary = inner_.finish();
   const Trajectory honest = summary.trajectory;
   for (std::size_t i = 0; i < honest.size(); ++i) {
-    summary.trajectory[i].pose = misreported(honest, i, fault_, middle_);
+    Pose& pose = summary.trajectory[i].pose;
+    pose = misreported(honest, i, fault_, middle_);
+    if (closed_ && honest[i].stamp >= *closed_) pose.translation.y() += fault_.size;
   }
   if (fault_.fault == Fault::kWorld && summary.T_world_map) {
     summary.T_world_map->translation.x() += fault_.size;

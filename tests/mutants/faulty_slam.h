@@ -53,7 +53,7 @@ class FaultySlam : public SlamSystem {
   EstimatorFault fault_;
   Stamp middle_;
   Trajectory live_;
-  bool closed_ = false;
+  std::optional<Stamp> closed_;
 };
 
 }  // namespace vinebench::mutants

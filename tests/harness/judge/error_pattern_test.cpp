@@ -137,6 +137,18 @@ TEST_F(ErrorPatternTest, AMapThatIsElsewhereIsOffInTheWorld) {
   EXPECT_NEAR(found[1].size, 5 * std::numbers::pi / 180, 1e-12);
 }
 
+// The error is the same in the world as with the first poses aligned.
+TEST_F(ErrorPatternTest, AScaleIsNoOffsetInTheWorld) {
+  T_world_map_ = Pose{};
+  const auto found = patterns([](std::int64_t i) {
+    Pose pose = truth_at(i);
+    pose.translation *= 1.01;
+    return pose;
+  });
+  EXPECT_EQ(std::ranges::find(found, ErrorPatternKind::kWorldOffset, &ErrorPattern::kind),
+            found.end());
+}
+
 // A mean NEES of 24 is four times the six degrees of freedom.
 TEST_F(ErrorPatternTest, CovariancesThatDoNotFitTheErrorsAreNamed) {
   results_.consistency = Consistency{.frames = 91, .nees_mean = 24};
