@@ -72,7 +72,7 @@ NamedValues arithmetic_of_process() {
       {"libm", is_ours("sin") ? fmt::format("vinebench; other functions: {}", library)
                               : fmt::format("{} for {}", library, features())},
       {"opencv", cv::useOptimized() ? fmt::format("{} for {}", cv::getVersionString(), features())
-                                    : fmt::format("{}, baseline", cv::getVersionString())},
+                                    : fmt::format("{} baseline", cv::getVersionString())},
       {"shaders", is_ours("LLVMBuildCall2") ? "unfused" : fmt::format("for {}", features())},
       {"blas", blas.empty()     ? "none"
                : reference_blas ? blas

@@ -71,7 +71,7 @@ void print_verdict(const harness::ScenarioConfig& scenario, const harness::RunOu
 
 /// Runs once more, without files, and compares.
 int verify_determinism(const harness::ScenarioConfig& scenario, const RunArguments& arguments,
-                       const std::string& first) {
+                       const harness::RunReport& first) {
   harness::RunOptions options = interactive_options(scenario.name + " (again)");
   options.maps.load = arguments.maps.load;
   const harness::RunOutcome again =
@@ -80,11 +80,11 @@ int verify_determinism(const harness::ScenarioConfig& scenario, const RunArgumen
     fmt::print(stderr, "vinebench: stopped in the second run; determinism is not verified\n");
     return interruption_code();
   }
-  if (again.report.hash == first) {
-    fmt::print("determinism: both runs have hash {}\n", first);
+  if (again.report.hash == first.hash) {
+    fmt::print("determinism: both runs have hash {}\n", first.hash);
     return 0;
   }
-  fmt::print("determinism: FAILED, the first run has hash {}, the second {}\n", first,
+  fmt::print("determinism: FAILED, the first run has hash {}, the second {}\n", first.hash,
              again.report.hash);
   return kExpectationFailed;
 }
@@ -125,9 +125,8 @@ int run_one(const RunArguments& arguments) {
   if (outcome.interrupted) return report_interruption(outcome, folder);
   print_verdict(scenario, outcome, folder);
   std::fflush(stdout);
-  const int repeated = arguments.verify_determinism
-                           ? verify_determinism(scenario, arguments, outcome.report.hash)
-                           : 0;
+  const int repeated =
+      arguments.verify_determinism ? verify_determinism(scenario, arguments, outcome.report) : 0;
   return repeated != 0                              ? repeated
          : harness::all_hold(outcome.report.checks) ? 0
                                                     : kExpectationFailed;
