@@ -33,6 +33,14 @@ bool is_ours(const char* symbol) {
          dladdr(reinterpret_cast<void*>(&processor_text), &own) != 0 && own.dli_fbase == base;
 }
 
+/// Whether this BLAS chooses its code by the processor; the reference and ATLAS are built for one.
+bool dispatches(const std::string& blas) {
+  for (const char* name : {"openblas", "mkl", "blis"}) {
+    if (blas.find(name) != std::string::npos) return true;
+  }
+  return false;
+}
+
 std::string features() {
 #if defined(__x86_64__)
   std::string text;
@@ -67,16 +75,15 @@ std::string processor_line(const std::string& key) {
 NamedValues arithmetic_of_process() {
   const std::string library = fmt::format("glibc {}", gnu_get_libc_version());
   const std::string blas = file_of("dgemm_");
-  const bool reference_blas = blas.starts_with("libblas.so");
   return {
       {"libm", is_ours("sin") ? fmt::format("vinebench; other functions: {}", library)
                               : fmt::format("{} for {}", library, features())},
       {"opencv", cv::useOptimized() ? fmt::format("{} for {}", cv::getVersionString(), features())
                                     : fmt::format("{} baseline", cv::getVersionString())},
       {"shaders", is_ours("LLVMBuildCall2") ? "unfused" : fmt::format("for {}", features())},
-      {"blas", blas.empty()     ? "none"
-               : reference_blas ? blas
-                                : fmt::format("{} for {}", blas, features())}};
+      {"blas", blas.empty()       ? "none"
+               : dispatches(blas) ? fmt::format("{} for {}", blas, features())
+                                  : blas}};
 }
 
 std::string arithmetic_text() {

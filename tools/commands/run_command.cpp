@@ -9,6 +9,7 @@
 #include "harness/datasets/formats.h"
 #include "harness/experiment/trust.h"
 #include "harness/jobs/run_scenario.h"
+#include "harness/run/hash_environment.h"
 #include "harness/sets/seed_list.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
@@ -79,6 +80,13 @@ int verify_determinism(const harness::ScenarioConfig& scenario, const RunArgumen
   if (again.interrupted) {
     fmt::print(stderr, "vinebench: stopped in the second run; determinism is not verified\n");
     return interruption_code();
+  }
+  if (const std::string names =
+          harness::environment_differences(first.hash_environment, again.report.hash_environment);
+      !names.empty()) {
+    fmt::print("determinism: FAILED, the runs' hashes are not comparable, they differ in {}\n",
+               names);
+    return kExpectationFailed;
   }
   if (again.report.hash == first.hash) {
     fmt::print("determinism: both runs have hash {}\n", first.hash);
