@@ -118,11 +118,9 @@ function(vinebench_tests folder)
   endif()
   vinebench_precompile(${name}_test ${VINEBENCH_COMMON_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
   vinebench_unity(${name}_test ${sources})
-  if(VINEBENCH_SANITIZE AND VINEBENCH_SLAM_ONLY)
+  if(VINEBENCH_SANITIZE AND (VINEBENCH_SLAM_ONLY OR VINEBENCH_FUZZ))
     vinebench_shards(${name}_test)
   else()
-    # Complete drives are scenario tests: tests/CMakeLists.txt.
-    gtest_discover_tests(${name}_test TEST_FILTER -BrokenSlam* PROPERTIES LABELS unit
-                         DISCOVERY_TIMEOUT 60)
+    gtest_discover_tests(${name}_test PROPERTIES LABELS unit DISCOVERY_TIMEOUT 60)
   endif()
 endfunction()

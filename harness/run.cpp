@@ -65,7 +65,7 @@ void expect_folder(const std::filesystem::path& file) {
 
 RunOutcome run_lockstep_and_judge(const Trial& trial, FrameSource& source, SlamSystem& slam,
                                   const RunOptions& options) {
-  if (const auto& blind = trial.expectations.blind) find_cameras(source.rig(), blind->cameras);
+  if (const auto* blind = trial.blind()) find_cameras(source.rig(), blind->cameras);
   Sinks sinks(trial, source, options);
   std::vector<Sink*> all = sinks.list();
   all.insert(all.end(), options.sinks.begin(), options.sinks.end());
@@ -78,6 +78,9 @@ RunOutcome run_lockstep_and_judge(const Trial& trial, FrameSource& source, SlamS
   if (!options.folder.empty()) write_run_files(options.folder, trial, record, report);
   outcome.summary =
       format_diagnosis(record, report.diagnosis) + format_left_out(report.results.consistency);
+  if (report.checks.empty() || !all_hold(report.checks)) {
+    outcome.summary += format_patterns(report.patterns);
+  }
   // A system that runs after the last frame may be stopped there.
   const bool whole = report.frames == source.size() && !record.summary.trajectory.empty();
   outcome.interrupted = options.stopped && options.stopped() && !whole;

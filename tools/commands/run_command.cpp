@@ -7,6 +7,7 @@
 
 #include "core/util/error.h"
 #include "harness/datasets/formats.h"
+#include "harness/experiment/bound_check.h"
 #include "harness/experiment/trust.h"
 #include "harness/jobs/run_scenario.h"
 #include "harness/run/hash_environment.h"
@@ -48,6 +49,9 @@ std::vector<harness::ScenarioConfig> scenarios_of(const RunArguments& arguments)
       harness::check_untrusted(scenarios.back(), file, {arguments.data_folders});
     }
     sim::choose_backend(scenarios.back().simulation.renderer, arguments.machine.gl_platform);
+    for (const auto& bound : harness::ineffective_bounds(scenarios.back())) {
+      fmt::print(stderr, "vinebench: {}: {}\n", file, bound.text());
+    }
     if (arguments.seed) scenarios.back().seed = *arguments.seed;
   }
   return scenarios;
@@ -64,7 +68,7 @@ std::optional<harness::RunRecording> recording_of(const RunArguments& arguments)
 void print_verdict(const harness::ScenarioConfig& scenario, const harness::RunOutcome& outcome,
                    const std::filesystem::path& folder) {
   fmt::print("\n{}: {} ({} frames in {:.0f} s, hash {})\n{}{}results: {}\n", scenario.name,
-             harness::all_hold(outcome.report.checks) ? "PASSED" : "FAILED", outcome.report.frames,
+             harness::verdict_of(outcome.report.checks), outcome.report.frames,
              outcome.report.cost.wall_seconds, outcome.report.hash,
              harness::format_checks(outcome.report.checks), outcome.summary,
              std::filesystem::absolute(folder).string());
