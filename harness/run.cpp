@@ -8,6 +8,7 @@
 #include "harness/report/report_json.h"
 #include "harness/report/run_folder.h"
 #include "harness/run/frame_images.h"
+#include "harness/run/hash_environment.h"
 #include "harness/run/lockstep.h"
 #include "harness/run/progress.h"
 #include "harness/run/run_hash.h"
@@ -87,6 +88,7 @@ RunOutcome run_lockstep_and_judge(const Trial& trial, FrameSource& source, SlamS
 
   sinks.hash.add(json_text(hashed_json(report)));
   report.hash = sinks.hash.digits();
+  report.hash_environment = hash_environment(options.libraries);
   report.cost = cost_of(source, slam, report.frames, wall.count());
   if (!options.folder.empty()) write_metrics(options.folder, report);
   return outcome;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/util/arithmetic.h"
 #include "harness/judge/degraded_segments.h"
 #include "harness/judge/error_pattern.h"
 #include "harness/judge/verdict.h"
@@ -44,6 +45,7 @@ struct RunReport {
   std::vector<Check> checks;  ///< of the scenario's expectations, and of no failure if there is one
   RunCost cost;               ///< filled by the run loop, as the hash
   std::string hash;  ///< of inputs, estimates and results; empty if the run was interrupted
+  NamedValues hash_environment;  ///< of the hash (run/hash_environment.h)
 };
 
 /// All of the report that is a function of the record. Throws Error if an expectation names a

@@ -114,6 +114,9 @@ Json to_json(const RunReport& report) {
   metrics.update(hashed_json(report));
   add_cost(report.cost, metrics);
   metrics["hash"] = report.hash;
+  for (const auto& [name, value] : report.hash_environment) {
+    metrics["hash_environment"][name] = value;
+  }
   add_unhashed(report, metrics);
   metrics["expectations"] = checks_json(report.checks);
   return metrics;

@@ -10,6 +10,7 @@
 #include "harness/experiment/bound_check.h"
 #include "harness/experiment/trust.h"
 #include "harness/jobs/run_scenario.h"
+#include "harness/run/hash_environment.h"
 #include "harness/sets/seed_list.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
@@ -80,7 +81,7 @@ void print_verdict(const harness::ScenarioConfig& scenario, const harness::RunOu
 
 /// Runs once more, without files, and compares.
 int verify_determinism(const harness::ScenarioConfig& scenario, const RunArguments& arguments,
-                       const std::string& first) {
+                       const harness::RunReport& first) {
   harness::RunOptions options = interactive_options(scenario.name + " (again)");
   options.maps.load = arguments.maps.load;
   const harness::RunOutcome again =
@@ -89,11 +90,18 @@ int verify_determinism(const harness::ScenarioConfig& scenario, const RunArgumen
     fmt::print(stderr, "vinebench: stopped in the second run; determinism is not verified\n");
     return interruption_code();
   }
-  if (again.report.hash == first) {
-    fmt::print("determinism: both runs have hash {}\n", first);
+  if (const std::string names =
+          harness::environment_differences(first.hash_environment, again.report.hash_environment);
+      !names.empty()) {
+    fmt::print("determinism: FAILED, the runs' hashes are not comparable, they differ in {}\n",
+               names);
+    return kExpectationFailed;
+  }
+  if (again.report.hash == first.hash) {
+    fmt::print("determinism: both runs have hash {}\n", first.hash);
     return 0;
   }
-  fmt::print("determinism: FAILED, the first run has hash {}, the second {}\n", first,
+  fmt::print("determinism: FAILED, the first run has hash {}, the second {}\n", first.hash,
              again.report.hash);
   return kExpectationFailed;
 }
@@ -134,9 +142,8 @@ int run_one(const RunArguments& arguments) {
   if (outcome.interrupted) return report_interruption(outcome, folder);
   print_verdict(scenario, outcome, folder);
   std::fflush(stdout);
-  const int repeated = arguments.verify_determinism
-                           ? verify_determinism(scenario, arguments, outcome.report.hash)
-                           : 0;
+  const int repeated =
+      arguments.verify_determinism ? verify_determinism(scenario, arguments, outcome.report) : 0;
   return repeated != 0                              ? repeated
          : harness::all_hold(outcome.report.checks) ? 0
                                                     : kExpectationFailed;
