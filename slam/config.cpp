@@ -16,4 +16,16 @@ void paper_settings(SlamConfig& config) {
   config.loss = ResidualLoss::kHuber;
 }
 
+bool has_paper_setting(const SlamConfig& config) {
+  SlamConfig paper = config;
+  paper_settings(paper);
+  return config.stereo.search == paper.stereo.search || config.stereo.few == paper.stereo.few ||
+         config.stereo.self_calibration == paper.stereo.self_calibration ||
+         config.refinement.enabled == paper.refinement.enabled ||
+         config.keyframes.distance == paper.keyframes.distance ||
+         config.keyframes.angle_deg == paper.keyframes.angle_deg ||
+         config.tracking.min_inlier_share == paper.tracking.min_inlier_share ||
+         config.loss == paper.loss;
+}
+
 }  // namespace vinebench::slam

@@ -36,6 +36,9 @@ struct SlamConfig;
 /// corners in place of its pose in the global adjustment) is as in the default.
 void paper_settings(SlamConfig& config);
 
+/// Whether any of these settings is left.
+bool has_paper_setting(const SlamConfig& config);
+
 /// All settings of the SLAM core; each stage is given its own part.
 struct SlamConfig {
   Preset preset = Preset::kDefault;
@@ -69,6 +72,9 @@ struct SlamConfig {
     archive("tags", tags);
     archive("loop", loop);
     archive("loss", loss);
+    archive.require(preset == Preset::kDefault || has_paper_setting(*this), "preset",
+                    "expected some of the keys that it sets to be left to it; all are given, as in "
+                    "settings that a run has written out");
   }
 };
 

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/config.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/config/yaml.h"
 #include "core/config/yaml_writer.h"
+#include "core/util/error.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::slam {
@@ -30,6 +32,15 @@ TEST_F(SlamConfigTest, ThePapersSettingsAreDefaultsThatOtherKeysReplace) {
   EXPECT_EQ(mixed.loss, ResidualLoss::kCauchy);
   EXPECT_TRUE(mixed.stereo.self_calibration);
   EXPECT_EQ(mixed.stereo.search, StereoSearch::kFeatures);
+}
+
+TEST_F(SlamConfigTest, APresetOverSettingsThatAreWrittenOutIsAnError) {
+  SlamConfig config = read("preset: default\n");
+  std::string written = format_yaml(config);
+  const std::string preset = "preset: default";
+  written.replace(written.find(preset), preset.size(), "preset: paper");
+  EXPECT_THAT([&] { read(written); }, testing::ThrowsMessage<Error>(
+                                          testing::HasSubstr("preset: expected some of the keys")));
 }
 
 TEST_F(SlamConfigTest, WrittenOutAndReadAgainIsTheSame) {
