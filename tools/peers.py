@@ -4,10 +4,11 @@
 """Other SLAM systems beside ours on the same images (docs/peers.md): makes the runs that are not
 there yet and prints a table of medians over the seeds. From the environment:
   SCENARIOS="occluded-camera long-path many-rows csl-1 csl-2"  SEEDS=1..5  OUT=out/peers
-  VINEBENCH=build/vinebench  PYTHON=python3.11 (for the environment of the wheel)
+  VINEBENCH=build/vinebench  PYTHON=python3 (3.9 to 3.13, for the environment of the wheel)
   VOCABULARY=ORBvoc.txt (default: trained once on quick-loop, seed TRAINING_SEED=9)
+  AGAIN=1 (ORB-SLAM3 a second time on the first scenario and seed; 0: not)
   FRAMES=300 (on which our CPU time is measured, first seed of each scenario; 0: not measured)
-Exit code 1 if a run cannot be made, 2 for wrong settings. Needs a package index for pip.
+With --table nothing is run. Exit code 1 if a run cannot be made, 2 for wrong settings.
 """
 import json
 import math
@@ -46,7 +47,8 @@ class Settings:
         self.vinebench = Path(get("VINEBENCH", ROOT / "build/vinebench")).resolve()
         self.training_seed = int(get("TRAINING_SEED", "9"))
         self.vocabulary = get("VOCABULARY")
-        self.python = get("PYTHON", "python3.11")
+        self.python = get("PYTHON", "python3")
+        self.again = get("AGAIN", "1") != "0"
         self.frames = int(get("FRAMES", "300"))
         if not self.vinebench.is_file():
             stop(f"{self.vinebench}: is no program")
@@ -56,7 +58,10 @@ class Settings:
             stop(f"TRAINING_SEED: {self.training_seed} is one of SEEDS")
 
     def folder(self, scenario, seed, system):
-        return self.out / scenario / f"seed-{seed}" / system
+        return self.out / Path(scenario).stem / f"seed-{seed}" / system
+
+    def bench(self, scenario):
+        return self.out / Path(scenario).stem / "bench.json"
 
 
 def call(settings, *command, allowed=(0,)):
@@ -114,7 +119,7 @@ def run_ours(settings, folder, recording, truth, changes):
 def run_case(settings, scenario, seed, python, words):
     """All systems on one drive, which is rendered once."""
     folders = {system: settings.folder(scenario, seed, system) for system in (PEER, *OURS)}
-    bench = settings.out / scenario / "bench.json"
+    bench = settings.bench(scenario)
     with_bench = settings.frames > 0 and seed == settings.seeds[0] and not bench.is_file()
     if not with_bench and all((f / "metrics.json").is_file() for f in folders.values()):
         return
@@ -162,16 +167,17 @@ def measured(settings, scenario, seed, system):
            "coverage": scaled(metrics["coverage"], 100), "losses": metrics["losses"]}
     if system in OURS:
         loops = metrics["loop_closures"]
-        row |= {"right": loops["correct"], "wrong": loops["wrong"],
+        row |= {"tracked": row["coverage"], "right": loops["correct"], "wrong": loops["wrong"],
                 "memory": metrics["peak_rss_mib"], "step": largest_step(folder / "estimate_live.tum")}
-        bench = settings.out / scenario / "bench.json"
+        bench = settings.bench(scenario)
         if bench.is_file():
             rows = json.loads(bench.read_text())["runs"]
             row["cpu"] = rows[BENCHED[system]]["cpu_ms"]["mean"]
     elif (folder / "external/wheel.json").is_file():
         wheel = json.loads((folder / "external/wheel.json").read_text())
-        row |= {"changes": len(wheel["map_changes"]), "cpu": wheel["cpu_ms_a_frame"],
-                "memory": wheel["peak_rss_mib"], "step": largest_step(folder / "external/live.txt")}
+        row |= {"tracked": 100 * wheel["tracked"] / wheel["frames"], "cpu": wheel["cpu_ms_a_frame"],
+                "changes": len(wheel["map_changes"]), "memory": wheel["peak_rss_mib"],
+                "step": largest_step(folder / "external/live.txt")}
     row["step"] = scaled(row.get("step"), 1e3)
     return row
 
@@ -186,9 +192,9 @@ def median(rows, key, digits):
 
 
 COLUMNS = {"ATE origin, mm": ("origin", 1), "ATE, mm": ("ate", 1), "coverage, %": ("coverage", 1),
-           "losses": ("losses", 0), "largest live step, mm": ("step", 0), "loops right": ("right", 0),
-           "wrong": ("wrong", 0), "map changes": ("changes", 0), "CPU a frame, ms": ("cpu", 0),
-           "memory, MiB": ("memory", 0)}
+           "tracked, %": ("tracked", 1), "losses": ("losses", 0), "largest live step, mm": ("step", 0),
+           "loops right": ("right", 0), "loops wrong": ("wrong", 0), "map changes": ("changes", 0),
+           "CPU a frame, ms": ("cpu", 0), "memory, MiB": ("memory", 0)}
 
 
 def table(settings):
@@ -200,8 +206,8 @@ def table(settings):
                      if (row := measured(settings, scenario, seed, system))}
             if found:
                 cells = [median(found.values(), *column) for column in COLUMNS.values()]
-                lines.append("| " + " | ".join([f"`{scenario}`", name, " ".join(map(str, found)),
-                                                *cells]) + " |")
+                cells = [f"`{Path(scenario).stem}`", name, " ".join(map(str, found)), *cells]
+                lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines) + "\n"
 
 
@@ -214,7 +220,8 @@ def main():
         for scenario in settings.scenarios:
             for seed in settings.seeds:
                 run_case(settings, scenario, seed, python, words)
-        run_again(settings, python, words)
+        if settings.again:
+            run_again(settings, python, words)
     text = table(settings)
     (settings.out / "table.md").write_text(text)
     print(text, end="")
