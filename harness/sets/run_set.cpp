@@ -25,13 +25,30 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string name_of(const PlannedRun& run) {
-  return fmt::format("{}, seed {}", run.scenario.name, run.scenario.seed);
+  return fmt::format("{}, {}", run.scenario.name,
+                     seed_text(run.scenario.seed, run.repeat, run.repeats));
 }
 
 bool has_inputs(const fs::path& folder, const std::string& fingerprint) {
   std::error_code ignored;
   return fs::is_regular_file(folder / kInputsFile, ignored) &&
          read_file(folder / kInputsFile) == fingerprint + "\n";
+}
+
+/// Comparisons take all repeats of a seed as runs of one system.
+void remove_other_repeats(const PlannedRun& first, const std::string& fingerprint) {
+  std::error_code ignored;
+  for (const fs::path& folder : {first.folder, first.folder.parent_path()}) {
+    if (fs::is_symlink(folder, ignored)) return;
+  }
+  for (const auto& entry : fs::directory_iterator(first.folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(kRepeatFolder) || !entry.is_directory(ignored)) continue;
+    if (entry.is_symlink(ignored) || has_inputs(entry.path(), fingerprint)) continue;
+    for (const char* file : {"metrics.json", kInputsFile}) {
+      fs::remove(entry.path() / file, ignored);
+    }
+  }
 }
 
 /// Redirects the output of this process to the file.
@@ -43,6 +60,7 @@ void write_messages_to(const fs::path& file) {
 
 /// In a child process.
 std::string run_planned(const PlannedRun& run, const SetOptions& options, int threads) {
+  if (run.repeat > 1) create_inner_folder(run.folder.parent_path().parent_path());
   create_inner_folder(run.folder.parent_path());
   create_inner_folder(run.folder);
   const FolderLock lock = prepare_scenario_folder(run.folder, run.scenario);
@@ -68,8 +86,12 @@ class RunningSet {
       : plan_(plan), options_(options) {
     for (std::size_t i = 0; i < plan.size(); ++i) {
       const PlannedRun& run = plan[i];
-      outcome_.runs.push_back(
-          {.scenario = run.scenario.name, .seed = run.scenario.seed, .folder = run.folder});
+      outcome_.runs.push_back({.scenario = run.scenario.name,
+                               .seed = run.scenario.seed,
+                               .folder = run.folder,
+                               .repeat = run.repeat,
+                               .repeats = run.repeats});
+      if (run.repeat == 1) remove_other_repeats(run, fingerprint_of_inputs(run.scenario));
       if (!options.force && keep(outcome_.runs.back(), run)) {
         tell(outcome_.runs.back());
       } else {
@@ -123,8 +145,8 @@ class RunningSet {
   void tell(const SetRun& run) {
     ++done_;
     if (options_.progress == nullptr) return;
-    std::string text =
-        fmt::format("[{}/{}] {}, seed {}: ", done_, plan_.size(), run.scenario, run.seed);
+    std::string text = fmt::format("[{}/{}] {}, {}: ", done_, plan_.size(), run.scenario,
+                                   seed_text(run.seed, run.repeat, run.repeats));
     if (!run.error.empty()) {
       text += "ERROR, " + run.error;
     } else {
@@ -157,7 +179,8 @@ class RunningSet {
 }  // namespace
 
 std::vector<PlannedRun> plan_set(const std::vector<ScenarioConfig>& scenarios,
-                                 const std::vector<std::int64_t>& seeds, const fs::path& out) {
+                                 const std::vector<std::int64_t>& seeds, const fs::path& out,
+                                 int repeats) {
   std::vector<PlannedRun> plan;
   std::map<std::string, int> names;
   for (const ScenarioConfig& scenario : scenarios) {
@@ -166,12 +189,21 @@ std::vector<PlannedRun> plan_set(const std::vector<ScenarioConfig>& scenarios,
     }
     const std::vector<std::int64_t> own{scenario.seed};
     for (const std::int64_t seed : seeds.empty() ? own : seeds) {
-      PlannedRun run{scenario, out / scenario.name / fmt::format("seed-{}", seed)};
+      PlannedRun run{scenario, out / scenario.name / fmt::format("seed-{}", seed), 1, repeats};
       run.scenario.seed = seed;
-      plan.push_back(std::move(run));
+      plan.push_back(run);
+      for (run.repeat = 2; run.repeat <= repeats; ++run.repeat) {
+        plan.push_back(run);
+        plan.back().folder /= fmt::format("{}{}", kRepeatFolder, run.repeat);
+      }
     }
   }
   return plan;
+}
+
+std::string seed_text(std::int64_t seed, int repeat, int repeats) {
+  return repeats > 1 ? fmt::format("seed {}, repeat {}", seed, repeat)
+                     : fmt::format("seed {}", seed);
 }
 
 SetOutcome run_set(const std::vector<PlannedRun>& plan, const SetOptions& options) {

@@ -174,6 +174,8 @@ expect 0 "plan by two systems" "| ATE, mm |" -- \
 expect 2 "plan by one seed" "a: expected two seeds of a scenario" -- plan "$work/a" --detect 10%
 expect 2 "plan without a change" "--detect is required" -- plan "$work/a3"
 expect 2 "plan of nothing" "none: expected a folder of runs" -- plan "$work/none" --detect 10%
+expect 2 "repeats of a recording" "--record: is for one scenario" -- \
+  run "$root/scenarios/quick-loop.yaml" --repeats 2 --record "$work/set" --out "$work/out"
 sed -i 's/0.01}/0.01, "frames": 150}/' "$work/a/metrics.json"
 sed -i 's/0.02}/0.02, "frames": 22}/' "$work/b/metrics.json"
 expect 2 "comparison of other lengths" "A has 150 frames, B has 22" -- compare "$work/a" "$work/b"
@@ -283,6 +285,16 @@ expect 0 "bench record" "pictures/hour" -- bench record --scenario quick-loop "$
 [[ $? -eq 1 ]] || report "set of runs: expected exit code 1, for a drive that ends too early"
 grep -q '<testcase ' verdicts.xml || report "set of runs: verdicts.xml has no case"
 grep -q 'quick-loop' set/table.md || report "set of runs: table.md lacks the scenario"
+
+"$vinebench" run quick-loop "${court[@]}" --seeds 1..2 --repeats 2 --jobs 2 --junit verdicts.xml \
+  --out set >"$work/stdout" 2>"$work/stderr"
+[[ $? -eq 1 ]] || report "set with repeats: expected exit code 1"
+grep -q 'seed 1, repeat 1: FAILED (kept)' "$work/stderr" || report "set with repeats: a run is not kept"
+grep -q 'repeats of 2 seeds: repeats agree by hash' "$work/stdout" || report "set with repeats: no hash"
+grep -q 'seed 2: broken, 2 of 2 repeats fail' "$work/stdout" || report "set with repeats: not broken"
+grep -q 'name="seed-2/repeat-2"' verdicts.xml || report "set with repeats: verdicts.xml lacks a repeat"
+expect 0 "comparison of repeats" "all runs are the same to the byte" "A: quick-loop, repeats of 2" -- \
+  compare set set
 
 # Caches: those of other users and of nobody, and several processes that fill one at once.
 view=(render csl-vineyard --set vines.templates=1 --set vines.bbch=0 --camera 32x24@20 --pose 0,0,1,0)

@@ -56,8 +56,8 @@ int report(const ManyRuns& many, const std::vector<harness::SeedsSummary>& scena
   write_file_atomically(many.out / "summary.json",
                         harness::json_text(harness::summary_json(scenarios), 2) + "\n");
   if (!many.junit.empty()) write_file_atomically(many.junit, harness::format_junit(scenarios));
-  fmt::print("\n{}\n{}results: {}\n", table, harness::format_failures(scenarios),
-             fs::absolute(many.out).string());
+  fmt::print("\n{}\n{}{}results: {}\n", table, harness::format_failures(scenarios),
+             harness::format_repeats(scenarios), fs::absolute(many.out).string());
   const bool errors = std::ranges::any_of(scenarios, [](const harness::SeedsSummary& summary) {
     return std::ranges::any_of(summary.runs,
                                [](const harness::SetRun& run) { return !run.error.empty(); });
@@ -70,7 +70,7 @@ int report(const ManyRuns& many, const std::vector<harness::SeedsSummary>& scena
 
 int run_many(const ManyRuns& many) {
   const std::vector<harness::PlannedRun> plan =
-      harness::plan_set(many.scenarios, many.seeds, many.out);
+      harness::plan_set(many.scenarios, many.seeds, many.out, many.repeats);
   const FolderLock lock = prepare(many);
   const harness::Machine machine = checked_machine(many.machine);
   catch_interrupts();
