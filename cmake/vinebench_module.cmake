@@ -118,7 +118,7 @@ function(vinebench_tests folder)
   endif()
   vinebench_precompile(${name}_test ${VINEBENCH_COMMON_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
   vinebench_unity(${name}_test ${sources})
-  if(VINEBENCH_SANITIZE AND VINEBENCH_SLAM_ONLY)
+  if(VINEBENCH_SANITIZE AND (VINEBENCH_SLAM_ONLY OR VINEBENCH_FUZZ))
     vinebench_shards(${name}_test)
   else()
     # Complete drives are scenario tests: tests/CMakeLists.txt.

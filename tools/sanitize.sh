@@ -2,16 +2,20 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Builds the SLAM library and its tests with sanitizers, each in a separate build, and runs them,
-# from single functions to complete mapping runs on images. Usage: sanitize.sh [PRESET]..., by
-# default `address` (with undefined behaviour; without the long drives, and without the checks for
-# null and misaligned pointers and the sizes of objects, which address errors and Eigen's own
-# assertions tell of, and which take most of the time) and `thread` (what has threads). The preset
-# `sanitize` leaves nothing out; `fuzz` builds the fuzzers of all readers and runs each for 20 s.
+# Builds libraries and tests with sanitizers, each in a separate build, and runs them, from single
+# functions to complete mapping runs on images. Usage: sanitize.sh [PRESET]..., by default `fuzz` and
+# `thread`:
+#   fuzz     with clang: address and undefined behaviour, but for the checks for null and misaligned
+#            pointers and the sizes of objects, which address errors and Eigen's own assertions tell
+#            of, and which take most of the time; the tests of core and slam without the long drives,
+#            and the fuzzers of all readers, 20 s each
+#   thread   what has threads in slam
+#   address  the same tests as in `fuzz`, with the default compiler
+#   sanitize everything, with all checks
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 presets=("$@")
-[[ $# -gt 0 ]] || presets=(address thread)
+[[ $# -gt 0 ]] || presets=(fuzz thread)
 for preset in "${presets[@]}"; do
   echo "sanitizer: $preset"
   [[ $preset != fuzz ]] || tools/setup.sh --fuzz

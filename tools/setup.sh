@@ -4,7 +4,7 @@
 #
 # Installs missing Debian packages for building Vinebench, as root or through sudo. No effect if all
 # are installed. Usage: setup.sh [--ros] [--fuzz]; with --ros also those for recording ROS bags, and
-# for the tests that read them with Python: 135 packages, 322 MB; with --fuzz also clang and its
+# for the tests that read data sets with Python: 136 packages, 323 MB; with --fuzz also clang and its
 # libFuzzer.
 set -euo pipefail
 
@@ -30,7 +30,7 @@ for option in "$@"; do
     --ros)
       packages+=(
         librosbag-storage-dev libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev libros-rosgraph-msgs-dev
-        python3-rosbag python3-opencv python3-yaml
+        python3-rosbag python3-opencv python3-pil python3-yaml
       )
       ;;
     --fuzz)

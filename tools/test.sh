@@ -4,13 +4,13 @@
 #
 # Everything that must hold before a change is merged: sets up, builds (with warnings as errors where
 # CI is set), checks the format, runs all tests, and where CI is set a replay with a build without the
-# simulation, and the tests of the SLAM library with sanitizers. The outcome is in build/junit.xml
+# simulation, and fuzzers and tests with sanitizers (sanitize.sh). The outcome is in build/junit.xml
 # too. Further arguments go to ctest, e.g. -L unit.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
-tools/setup.sh
+tools/setup.sh ${CI:+--ros --fuzz}
 if [[ -n ${CI:-} ]]; then cmake --preset ci; else cmake --preset release; fi
 cmake --build build
 echo "checking the format"

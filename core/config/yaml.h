@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <type_traits>
@@ -114,68 +115,95 @@ class YamlReader {
   template <class T>
   void read(const YAML::Node& node, const std::string& key, T& value, const Range& range) {
     if constexpr (std::is_integral_v<T>) {
-      std::int64_t wide = static_cast<std::int64_t>(value);
-      read_integer(node, key, wide, range);
-      if (!std::in_range<T>(wide)) {
-        violation(key, node,
-                  fmt::format("expected a whole number from {} to {}",
-                              std::numeric_limits<T>::min(), std::numeric_limits<T>::max()));
-        return;
-      }
-      value = static_cast<T>(wide);
+      read_whole_number(node, key, value, range);
     } else if constexpr (std::is_enum_v<T>) {
       int index = static_cast<int>(value);
       read_name(node, key, yaml_names(T{}), index);
       value = static_cast<T>(index);
     } else if constexpr (field_types::IsOptional<T>::value) {
-      using Value = typename T::value_type;
-      if (node.IsNull()) {
-        value.reset();
-      } else if constexpr (field_types::IsEigen<Value>::value) {
-        read(node, key, value.emplace(), range);
-      } else {
-        // Not emplace(): to Clang a nested struct with defaults has no default constructor yet.
-        read(node, key, value.emplace(Value{}), range);
-      }
+      read_optional(node, key, value, range);
     } else if constexpr (field_types::IsVector<T>::value) {
-      value.clear();
-      if (node.IsScalar() && !std::is_class_v<typename T::value_type>) {
-        read(node, key, value.emplace_back(), range);  // a single number is a list of one
-      } else if (node.IsScalar() && std::is_same_v<typename T::value_type, std::string>) {
-        read(node, key, value.emplace_back(), range);  // a single name likewise
-      } else if (expect_sequence(node, key, node.size())) {
-        value.resize(node.size());
-        for (std::size_t i = 0; i < node.size(); ++i) {
-          read(node[i], fmt::format("{}.{}", key, i), value[i], range);
-        }
-      }
+      read_vector(node, key, value, range);
     } else if constexpr (field_types::IsArray<T>::value || field_types::IsEigen<T>::value) {
       const auto size = static_cast<std::size_t>(value.size());
-      if (!expect_sequence(node, key, size)) return;
-      for (std::size_t i = 0; i < size; ++i) {
-        read(node[i], fmt::format("{}.{}", key, i), value[i], range);
-      }
+      if (expect_sequence(node, key, size)) read_elements(node, key, value, range);
     } else if constexpr (field_types::IsMap<T>::value) {
-      value.clear();
-      if (!expect_map(node, key)) return;
-      for (const auto& item : node) {
-        const std::string name = item.first.Scalar();
-        const std::string dotted = key + "." + name;
-        if (value.contains(name)) {
-          violations_.push_back(
-              fmt::format("{}: {}: duplicate key", document_.place_of(dotted, item.first), dotted));
-        }
-        read(item.second, dotted, value[name], range);
-      }
+      read_map(node, key, value, range);
     } else {
-      if (!node.IsMap() && !node.IsNull()) {
-        violation(key, node, "expected a map of keys");
-        return;
-      }
-      YamlReader reader(document_, node, key, violations_);
-      value.serialize(reader);
-      reader.finish();
+      read_struct(node, key, value);
     }
+  }
+
+  template <class T>
+  void read_whole_number(const YAML::Node& node, const std::string& key, T& value,
+                         const Range& range) {
+    auto wide = static_cast<std::int64_t>(value);
+    read_integer(node, key, wide, range);
+    if (!std::in_range<T>(wide)) {
+      violation(key, node,
+                fmt::format("expected a whole number from {} to {}", std::numeric_limits<T>::min(),
+                            std::numeric_limits<T>::max()));
+      return;
+    }
+    value = static_cast<T>(wide);
+  }
+
+  template <class T>
+  void read_optional(const YAML::Node& node, const std::string& key, std::optional<T>& value,
+                     const Range& range) {
+    if (node.IsNull()) {
+      value.reset();
+    } else if constexpr (field_types::IsEigen<T>::value) {
+      read(node, key, value.emplace(), range);
+    } else {
+      // Not emplace(): to Clang a nested struct with defaults has no default constructor yet.
+      read(node, key, value.emplace(T{}), range);
+    }
+  }
+
+  template <class T>
+  void read_vector(const YAML::Node& node, const std::string& key, std::vector<T>& value,
+                   const Range& range) {
+    value.clear();
+    if (node.IsScalar() && (!std::is_class_v<T> || std::is_same_v<T, std::string>)) {
+      read(node, key, value.emplace_back(), range);  // a single number or name is a list of one
+    } else if (expect_sequence(node, key, node.size())) {
+      value.resize(node.size());
+      read_elements(node, key, value, range);
+    }
+  }
+
+  template <class T>
+  void read_elements(const YAML::Node& node, const std::string& key, T& value, const Range& range) {
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      read(node[i], fmt::format("{}.{}", key, i), value[i], range);
+    }
+  }
+
+  template <class T>
+  void read_map(const YAML::Node& node, const std::string& key, T& value, const Range& range) {
+    value.clear();
+    if (!expect_map(node, key)) return;
+    for (const auto& item : node) {
+      const std::string name = item.first.Scalar();
+      const std::string dotted = key + "." + name;
+      if (value.contains(name)) {
+        violations_.push_back(
+            fmt::format("{}: {}: duplicate key", document_.place_of(dotted, item.first), dotted));
+      }
+      read(item.second, dotted, value[name], range);
+    }
+  }
+
+  template <class T>
+  void read_struct(const YAML::Node& node, const std::string& key, T& value) {
+    if (!node.IsMap() && !node.IsNull()) {
+      violation(key, node, "expected a map of keys");
+      return;
+    }
+    YamlReader reader(document_, node, key, violations_);
+    value.serialize(reader);
+    reader.finish();
   }
 
   const YamlDocument& document_;

@@ -14,9 +14,6 @@ namespace vinebench {
 /// the size limit of its kind.
 std::string read_file(const std::filesystem::path& file, FileKind kind = FileKind::kOther);
 
-/// What write_file_atomically() adds to the name of a file that is not complete yet.
-inline constexpr const char* kPartialEnding = ".partial";
-
 /// Writes to a temporary file and renames it when complete, so that an interrupted run leaves no
 /// incomplete file. Throws Error with the system's reason (permission, disk full).
 void write_file_atomically(const std::filesystem::path& file, std::string_view content);

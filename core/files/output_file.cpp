@@ -31,7 +31,7 @@ int open_new(const std::filesystem::path& file) {
 std::filesystem::path temporary_name(const std::filesystem::path& file) {
   std::random_device random;
   std::filesystem::path name = file;
-  name += fmt::format(".{:08x}{:08x}.partial", random(), random());
+  name += fmt::format(".{:08x}{:08x}{}", random(), random(), kPartialEnding);
   return name;
 }
 

@@ -10,6 +10,9 @@
 
 namespace vinebench {
 
+/// The end of the name of a file that is not complete yet.
+inline constexpr const char* kPartialEnding = ".partial";
+
 // Every file that the program writes is made by one of these. Neither opens what has the file's
 // name already: a link in an output folder could lead anywhere.
 

@@ -11,6 +11,7 @@
 
 #include "core/config/yaml.h"
 #include "core/files/files.h"
+#include "core/files/output_file.h"
 #include "core/util/error.h"
 #include "harness/datasets/files/file_manifest.h"
 #include "harness/datasets/files/text_table.h"

@@ -84,39 +84,27 @@ class Setup {
   vinebench_setup setup_{};
 };
 
-/// A frame in the plug-in's interface; the images are not copied.
-class FrameView {
- public:
-  explicit FrameView(const Frame& frame) {
-    for (const cv::Mat& image : frame.images) {
-      images_.push_back({image.data, image.cols, image.rows, image.channels(),
-                         image.empty() ? 0 : image.step[0]});
-    }
-    for (const ImuSample& sample : frame.imu) {
-      vinebench_imu_sample& s = imu_.emplace_back();
-      s.stamp = sample.stamp;
-      copy_into(s.angular_velocity, sample.angular_velocity);
-      copy_into(s.specific_force, sample.specific_force);
-    }
-    for (const WheelSample& sample : frame.wheels) {
-      vinebench_wheel_sample& s = wheels_.emplace_back();
-      s.stamp = sample.stamp;
-      copy_into(s.angle, sample.angle);
-      copy_into(s.velocity, sample.velocity);
-    }
-    frame_ = {frame.index, frame.stamp,    images_.data(), imu_.data(),
-              imu_.size(), wheels_.data(), wheels_.size()};
+/// The images are not copied.
+PluginFrame plugin_frame(const Frame& frame) {
+  PluginFrame plugin{.index = frame.index, .stamp = frame.stamp};
+  for (const cv::Mat& image : frame.images) {
+    plugin.images.push_back(
+        {image.data, image.cols, image.rows, image.channels(), image.empty() ? 0 : image.step[0]});
   }
-  FrameView(const FrameView&) = delete;
-  FrameView& operator=(const FrameView&) = delete;
-  const vinebench_frame& get() const { return frame_; }
-
- private:
-  std::vector<vinebench_image> images_;
-  std::vector<vinebench_imu_sample> imu_;
-  std::vector<vinebench_wheel_sample> wheels_;
-  vinebench_frame frame_{};
-};
+  for (const ImuSample& sample : frame.imu) {
+    vinebench_imu_sample& s = plugin.imu.emplace_back();
+    s.stamp = sample.stamp;
+    copy_into(s.angular_velocity, sample.angular_velocity);
+    copy_into(s.specific_force, sample.specific_force);
+  }
+  for (const WheelSample& sample : frame.wheels) {
+    vinebench_wheel_sample& s = plugin.wheels.emplace_back();
+    s.stamp = sample.stamp;
+    copy_into(s.angle, sample.angle);
+    copy_into(s.velocity, sample.velocity);
+  }
+  return plugin;
+}
 
 /// A plug-in that its own setup outlives.
 struct StartedPlugin {
@@ -131,8 +119,8 @@ class PluginSlam : public SlamSystem {
 
   Estimate process(const Frame& frame) override {
     const ScopedTimer timer(times_, plugin_.link->name());
-    const FrameView view(frame);
-    return estimate_of(frame.stamp, plugin_.link->process(view.get()));
+    const PluginFrame plugin = plugin_frame(frame);
+    return estimate_of(frame.stamp, plugin_.link->process(plugin.view()));
   }
 
   SlamSummary finish() override {

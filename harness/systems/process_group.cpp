@@ -17,6 +17,7 @@
 #include <sstream>
 #include <thread>
 
+#include "core/files/input_file.h"
 #include "core/files/output_file.h"
 #include "core/util/error.h"
 
@@ -160,11 +161,9 @@ void check_program(const std::filesystem::path& file, const std::filesystem::pat
   if (access(file.c_str(), X_OK) != 0) {
     fail("{}: cannot be started: {}", name, std::strerror(errno));
   }
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return;              // a program may be executed though not read
-  std::string line(256, '\0');  // as much as the kernel reads
-  in.read(line.data(), static_cast<std::streamsize>(line.size()));
-  line.resize(static_cast<std::size_t>(in.gcount()));
+  if (access(file.c_str(), R_OK) != 0) return;  // a program may be executed though not read
+  std::string line(256, '\0');                  // as much as the kernel reads
+  line.resize(InputFile(file, FileKind::kOther).read(line.data(), line.size()));
   if (line.starts_with("\177ELF")) return;
   if (!line.starts_with("#!") || depth == kDeepestScript) {
     fail(

@@ -126,11 +126,13 @@ std::optional<PatchWindow> warp_patch(const Patch& patch, const Eigen::Matrix3d&
   PatchWindow window;
   std::size_t i = 0;
   for (std::size_t y = 1; y <= kSide; ++y) {
-    const float* row = bordered.data() + y * kBordered;
+    const float* above = bordered.data() + (y - 1) * kBordered;
+    const float* row = above + kBordered;
+    const float* below = row + kBordered;
     for (std::size_t x = 1; x <= kSide; ++x, ++i) {
       window.grey[i] = row[x];
       window.gradient_x[i] = 0.5F * (row[x + 1] - row[x - 1]);
-      window.gradient_y[i] = 0.5F * (row[x + kBordered] - row[x - kBordered]);
+      window.gradient_y[i] = 0.5F * (below[x] - above[x]);
     }
   }
   remove_mean(window.grey);

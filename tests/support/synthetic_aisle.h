@@ -27,8 +27,11 @@ class SyntheticAisle {
     RandomSequence random(RandomStream(seed, "aisle"));
     for (int i = 0; i < landmarks; ++i) {
       const double side = i % 2 == 0 ? 0.5 : -0.5;
-      points_.emplace_back(random.uniform(-4, 8), side + random.uniform(-0.1, 0.1),
-                           random.uniform(0.0, 1.4));
+      // One after the other: compilers differ in the order of arguments.
+      const double z = random.uniform(0.0, 1.4);
+      const double y = side + random.uniform(-0.1, 0.1);
+      const double x = random.uniform(-4, 8);
+      points_.emplace_back(x, y, z);
       slam::Descriptor descriptor;
       const RandomStream bits(seed, "descriptor", static_cast<std::uint64_t>(i));
       for (std::size_t w = 0; w < 4; ++w) descriptor[w] = bits.bits(w);

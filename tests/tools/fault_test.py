@@ -5,14 +5,13 @@ later ones (ENOSPC, a full disk). Expects exit code 2 with one message, and that
 final name is whole, or of a growing list a beginning.
 Usage: fault_test.py VINEBENCH SHIM ROOT [--every K]
   --every K  at every K-th file operation (default: 60)"""
-import argparse
 import json
 import pathlib
 import shutil
 import sys
 import tempfile
 
-from interruption import content, run, write_scenario
+from interruption import content, parse_arguments, run, write_scenario
 
 GROWING = (".csv", ".jsonl", ".xxh128", "times.txt", "poses.txt", "tum/body.txt", "tum/left.txt",
            "tum/right.txt", "tum/side.txt")
@@ -120,12 +119,6 @@ def main():
     return 1 if failures else 0
 
 
-parser = argparse.ArgumentParser()
-parser.add_argument("vinebench", type=pathlib.Path)
-parser.add_argument("shim", type=pathlib.Path)
-parser.add_argument("root", type=pathlib.Path)
-parser.add_argument("--every", type=int, default=60)
-arguments = parser.parse_args()
-vinebench, shim, root = (path.resolve() for path in
-                         (arguments.vinebench, arguments.shim, arguments.root))
+arguments = parse_arguments(every=60)
+vinebench, shim, root = arguments.vinebench, arguments.shim, arguments.root
 sys.exit(main())

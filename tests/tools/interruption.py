@@ -1,11 +1,22 @@
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
 """What kill_test.py and fault_test.py share: a small scenario and programs that end early."""
+import argparse
 import os
 import pathlib
 import subprocess
 
 LIMIT = 120  # s, beyond which a program hangs
+
+
+def parse_arguments(**numbers: int) -> argparse.Namespace:
+    """VINEBENCH SHIM ROOT and options that take a number, with their defaults."""
+    parser = argparse.ArgumentParser()
+    for name in ("vinebench", "shim", "root"):
+        parser.add_argument(name, type=lambda text: pathlib.Path(text).resolve())
+    for name, default in numbers.items():
+        parser.add_argument(f"--{name}", type=int, default=default)
+    return parser.parse_args()
 
 
 def write_scenario(folder: pathlib.Path, root: pathlib.Path) -> pathlib.Path:

@@ -6,7 +6,6 @@ Usage: kill_test.py VINEBENCH SHIM ROOT [--every K] [--times N] [--seed S]
   --every K  at every K-th file operation (default: 160)
   --times N  at N random times, half of them in a set (default: 6)
   --seed S   of these times (default: 1)"""
-import argparse
 import pathlib
 import random
 import re
@@ -16,7 +15,7 @@ import sys
 import tempfile
 import time
 
-from interruption import content, run, write_scenario
+from interruption import content, parse_arguments, run, write_scenario
 
 FORMATS = "euroc,kitti,tum,dcvslam,rgb,depth,coco"
 INTERRUPTED = re.compile(r"INTERRUPTED, \d+ of \d+ (frames|sequences)")
@@ -139,14 +138,6 @@ def main():
     return 1 if failures else 0
 
 
-parser = argparse.ArgumentParser()
-parser.add_argument("vinebench", type=pathlib.Path)
-parser.add_argument("shim", type=pathlib.Path)
-parser.add_argument("root", type=pathlib.Path)
-parser.add_argument("--every", type=int, default=160)
-parser.add_argument("--times", type=int, default=6)
-parser.add_argument("--seed", type=int, default=1)
-arguments = parser.parse_args()
-vinebench, shim, root = (path.resolve() for path in
-                         (arguments.vinebench, arguments.shim, arguments.root))
+arguments = parse_arguments(every=160, times=6, seed=1)
+vinebench, shim, root = arguments.vinebench, arguments.shim, arguments.root
 sys.exit(main())

@@ -108,7 +108,7 @@ except ImportError:
 body = np.loadtxt(root / "tum/body.txt")
 assert body.shape == (frames, 8)
 poses = np.loadtxt(root / "kitti/poses.txt").reshape(-1, 3, 4)
-assert poses.shape[0] == frames and np.allclose(poses[0], np.camera(4)[:3])
+assert poses.shape[0] == frames and np.allclose(poses[0], np.eye(4)[:3])
 truth = np.genfromtxt(root / "euroc/mav0/state_groundtruth_estimate0/data.csv", delimiter=",")
 truth = truth[~np.isnan(truth[:, 0])]  # the header
 assert truth.shape[1] == 17 and len(truth) > 10 * frames  # at the inertial unit's rate

@@ -38,7 +38,7 @@ def read(name):
 
 def matrix(translation, rotation):
     x, y, z, w = rotation.x, rotation.y, rotation.z, rotation.w
-    T = np.camera(4)
+    T = np.eye(4)
     T[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
                  [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
                  [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
@@ -69,12 +69,14 @@ def check_types(topics, images):
 
 def check_images(topics, images, stamps):
     for number, (camera, topic) in enumerate(images.items()):
-        sensor = yaml.safe_load((work / f"data/euroc/mav0/cam{number}/sensor.yaml").read_text())
+        euroc = work / f"data/euroc/mav0/cam{number}"
+        sensor = yaml.safe_load((euroc / "sensor.yaml").read_text())
+        files = {int(row[0]): row[1].strip() for row in rows(euroc / "data.csv")}
         fx, fy, cx, cy = sensor["intrinsics"]
         infos = topics[f"/{camera}/camera_info"]
         assert [t for t, _ in topics[topic]] == stamps == [t for t, _ in infos]
         for (stamp, image), (_, info) in zip(topics[topic], infos):
-            wanted = cv2.imread(str(work / f"data/euroc/mav0/cam{number}/data/{stamp}.png"), -1)
+            wanted = cv2.imread(str(euroc / "data" / files[stamp]), -1)
             got = np.frombuffer(image.data, np.uint8).reshape(image.height, image.step)
             assert image.encoding == "mono8" and image.step == image.width
             assert got.std() > 5 and np.array_equal(got, wanted), (camera, stamp)
@@ -132,7 +134,9 @@ def check_rig(topics, images):
     parents = {"ground_truth": "world"}
     for number, camera in enumerate(images):
         mount = static.transforms[number]
-        sensor = yaml.safe_load((work / f"data/euroc/mav0/cam{number}/sensor.yaml").read_text())
+        euroc = work / f"data/euroc/mav0/cam{number}"
+        sensor = yaml.safe_load((euroc / "sensor.yaml").read_text())
+        files = {int(row[0]): row[1].strip() for row in rows(euroc / "data.csv")}
         T_BS = np.reshape(sensor["T_BS"]["data"], (4, 4))
         assert np.allclose(matrix(mount.transform.translation, mount.transform.rotation), T_BS, 0,
                            1e-12)

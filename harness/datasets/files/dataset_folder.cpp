@@ -52,8 +52,11 @@ void clear_folder(const std::filesystem::path& folder, const std::string& last) 
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     entries.push_back(entry.path());
   }
-  std::ranges::stable_partition(
-      entries, [&](const std::filesystem::path& entry) { return entry.filename() != last; });
+  const auto not_last = [&](const std::filesystem::path& entry) {
+    return entry.filename() != last;
+  };
+  // Not std::ranges: clang 14 does not compile its subranges with libstdc++ 12.
+  std::stable_partition(entries.begin(), entries.end(), not_last);
   for (const std::filesystem::path& entry : entries) {
     if (!error) std::filesystem::remove_all(entry, error);
   }

@@ -7,6 +7,7 @@
 #include "core/config/yaml.h"
 #include "core/config/yaml_writer.h"
 #include "core/files/files.h"
+#include "core/files/output_file.h"
 
 namespace vinebench::harness {
 

@@ -113,6 +113,7 @@ void RosWriter::write_rig(Stamp stamp) {
 
 /// Sorted by stamp; an inertial reading comes before a wheel reading of the same stamp.
 void RosWriter::write_readings(const Frame& frame) {
+  if (const auto first = std::exchange(notes_.first_reading, std::nullopt)) write_imu(*first);
   auto wheel = frame.wheels.begin();
   for (const ImuSample& reading : frame.imu) {
     for (; wheel != frame.wheels.end() && wheel->stamp < reading.stamp; ++wheel) {

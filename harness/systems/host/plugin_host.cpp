@@ -54,8 +54,8 @@ class PluginHost {
         return MessageKind::kCreated;
       }
       case MessageKind::kProcess: {
-        const ReceivedFrame frame(reader, images_.data());
-        add_estimate(answer, plugin_->process(frame.get()));
+        const PluginFrame frame = read_frame(reader, images_.data());
+        add_estimate(answer, plugin_->process(frame.view()));
         return MessageKind::kEstimate;
       }
       case MessageKind::kFinish:

@@ -10,6 +10,20 @@
 
 namespace vinebench::harness {
 
+/// A frame for a plug-in with the memory of its lists; that of the images is somebody else's.
+struct PluginFrame {
+  std::int64_t index = 0;
+  std::int64_t stamp = 0;  ///< ns
+  std::vector<vinebench_image> images{};
+  std::vector<vinebench_imu_sample> imu{};
+  std::vector<vinebench_wheel_sample> wheels{};
+
+  /// Valid while this is unchanged.
+  vinebench_frame view() const {
+    return {index, stamp, images.data(), imu.data(), imu.size(), wheels.data(), wheels.size()};
+  }
+};
+
 /// What a plug-in answers to a frame.
 struct PluginEstimate {
   vinebench_estimate estimate{};  ///< its pointer to the counts is not used

@@ -56,20 +56,19 @@ void add_frame(MessageWriter& message, const vinebench_frame& frame,
   message.add_list(frame.wheels, frame.wheel_count);
 }
 
-ReceivedFrame::ReceivedFrame(MessageReader& message, const std::uint8_t* memory)
-    : frame_(message.read<vinebench_frame>()) {
+PluginFrame read_frame(MessageReader& message, const std::uint8_t* memory) {
+  const auto head = message.read<vinebench_frame>();
+  PluginFrame frame{.index = head.index, .stamp = head.stamp};
   for (const SharedImage& image : message.read_list<SharedImage>()) {
     const bool given = image.offset >= 0;
-    images_.push_back(
+    frame.images.push_back(
         {given ? memory + image.offset : nullptr, image.width, image.height, image.channels,
          given ? static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels)
                : 0});
   }
-  imu_ = message.read_list<vinebench_imu_sample>();
-  wheels_ = message.read_list<vinebench_wheel_sample>();
-  frame_.images = images_.data();
-  frame_.imu = imu_.data();
-  frame_.wheels = wheels_.data();
+  frame.imu = message.read_list<vinebench_imu_sample>();
+  frame.wheels = message.read_list<vinebench_wheel_sample>();
+  return frame;
 }
 
 void add_estimate(MessageWriter& message, const PluginEstimate& estimate) {

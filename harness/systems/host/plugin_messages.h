@@ -42,21 +42,8 @@ struct SharedImage {
 void add_frame(MessageWriter& message, const vinebench_frame& frame,
                const std::vector<SharedImage>& images);
 
-/// The frame of a message.
-class ReceivedFrame {
- public:
-  /// Its images are in `memory`.
-  ReceivedFrame(MessageReader& message, const std::uint8_t* memory);
-  ReceivedFrame(const ReceivedFrame&) = delete;
-  ReceivedFrame& operator=(const ReceivedFrame&) = delete;
-  const vinebench_frame& get() const { return frame_; }
-
- private:
-  std::vector<vinebench_image> images_;
-  std::vector<vinebench_imu_sample> imu_;
-  std::vector<vinebench_wheel_sample> wheels_;
-  vinebench_frame frame_{};
-};
+/// The frame of a message; its images are in `memory`.
+PluginFrame read_frame(MessageReader& message, const std::uint8_t* memory);
 
 /// Of kEstimate.
 void add_estimate(MessageWriter& message, const PluginEstimate& estimate);
