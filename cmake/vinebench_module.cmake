@@ -121,8 +121,6 @@ function(vinebench_tests folder)
   if(VINEBENCH_SANITIZE AND (VINEBENCH_SLAM_ONLY OR VINEBENCH_FUZZ))
     vinebench_shards(${name}_test)
   else()
-    # Complete drives are scenario tests: tests/CMakeLists.txt.
-    gtest_discover_tests(${name}_test TEST_FILTER -BrokenSlam* PROPERTIES LABELS unit
-                         DISCOVERY_TIMEOUT 60)
+    gtest_discover_tests(${name}_test PROPERTIES LABELS unit DISCOVERY_TIMEOUT 60)
   endif()
 endfunction()

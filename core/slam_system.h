@@ -73,6 +73,8 @@ struct LoopClosure {
   Pose T_earlier_later;   ///< body to body: measured with the tag; with two tags, from the adjusted
                           ///< map
   double correction = 0;  ///< how far this frame's body moved, m
+  /// Covariance of T_earlier_later in the later body's frame (m, then rad), if the system knows it.
+  std::optional<Matrix6d> covariance{};
 };
 
 /// The live estimate of a SLAM system at one frame.
@@ -99,6 +101,9 @@ struct SlamSummary {
   Trajectory trajectory;  ///< T_map_body of every frame that has a pose
   Trajectory keyframes;
   std::size_t landmarks = 0;
+  /// The system's own estimate of the map's pose in the world, from registered tags; absent if it
+  /// has none.
+  std::optional<Pose> T_world_map{};
 };
 
 /// The test bench's interface of a SLAM system. Its only input is frames: images, wheel and

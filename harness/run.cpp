@@ -8,6 +8,7 @@
 #include "harness/report/report_json.h"
 #include "harness/report/run_folder.h"
 #include "harness/run/frame_images.h"
+#include "harness/run/hash_environment.h"
 #include "harness/run/lockstep.h"
 #include "harness/run/progress.h"
 #include "harness/run/run_hash.h"
@@ -64,7 +65,7 @@ void expect_folder(const std::filesystem::path& file) {
 
 RunOutcome run_lockstep_and_judge(const Trial& trial, FrameSource& source, SlamSystem& slam,
                                   const RunOptions& options) {
-  if (const auto& blind = trial.expectations.blind) find_cameras(source.rig(), blind->cameras);
+  if (const auto* blind = trial.blind()) find_cameras(source.rig(), blind->cameras);
   Sinks sinks(trial, source, options);
   std::vector<Sink*> all = sinks.list();
   all.insert(all.end(), options.sinks.begin(), options.sinks.end());
@@ -77,6 +78,9 @@ RunOutcome run_lockstep_and_judge(const Trial& trial, FrameSource& source, SlamS
   if (!options.folder.empty()) write_run_files(options.folder, trial, record, report);
   outcome.summary =
       format_diagnosis(record, report.diagnosis) + format_left_out(report.results.consistency);
+  if (report.checks.empty() || !all_hold(report.checks)) {
+    outcome.summary += format_patterns(report.patterns);
+  }
   // A system that runs after the last frame may be stopped there.
   const bool whole = report.frames == source.size() && !record.summary.trajectory.empty();
   outcome.interrupted = options.stopped && options.stopped() && !whole;
@@ -84,6 +88,7 @@ RunOutcome run_lockstep_and_judge(const Trial& trial, FrameSource& source, SlamS
 
   sinks.hash.add(json_text(hashed_json(report)));
   report.hash = sinks.hash.digits();
+  report.hash_environment = hash_environment(options.libraries);
   report.cost = cost_of(source, slam, report.frames, wall.count());
   if (!options.folder.empty()) write_metrics(options.folder, report);
   return outcome;

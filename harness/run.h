@@ -29,6 +29,7 @@ struct RunOptions {
   std::string title = "run";         ///< of the progress line
   std::function<bool()> stopped;     ///< polled before each frame
   std::vector<Sink*> sinks;          ///< receive each tick after the run's own sinks
+  NamedValues libraries;             ///< that made the frames, and their versions
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
 };
 

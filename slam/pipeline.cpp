@@ -149,6 +149,7 @@ SlamSummary Pipeline::finish() {
     summary.keyframes.push_back({keyframe.frame->stamp, keyframe.T_map_body});
   }
   summary.landmarks = map_.count_landmarks(config_.mapping.min_observations);
+  summary.T_world_map = loop_closer_.T_world_map();
   return summary;
 }
 

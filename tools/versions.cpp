@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <opencv2/core/utility.hpp>
 
+#include "core/util/arithmetic.h"
 #include "tools/commands/simulation.h"
 #include "vinebench/version.h"
 
@@ -31,6 +32,10 @@ std::string versions_text(const harness::Machine& machine) {
       fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100));
   add("xxHash", fmt::format("{}.{}.{}", XXH_versionNumber() / 10000,
                             XXH_versionNumber() / 100 % 100, XXH_versionNumber() % 100));
+  for (const auto& [name, value] : arithmetic_of_process()) {
+    if (name != "opencv" || cv::useOptimized()) add(name.c_str(), value);
+  }
+  add("processor", processor_text());
   return text;
 }
 

@@ -15,6 +15,7 @@
 #include "harness/systems/plugin_process.h"
 #include "tools/arguments/command_line.h"
 #include "tools/arguments/completion.h"
+#include "tools/arithmetic.h"
 #include "tools/commands/commands.h"
 #include "tools/outcome.h"
 #include "tools/versions.h"
@@ -71,6 +72,7 @@ int checked_output(int code) {
 }  // namespace vinebench::tools
 
 int main(int argc, char** argv) {
+  vinebench::tools::pin_arithmetic();
   vinebench::set_warning_sink(
       [](const std::string& text) { fmt::print(stderr, "vinebench: warning: {}\n", text); });
   const std::vector<std::string> arguments(argv + 1, argv + argc);

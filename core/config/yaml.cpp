@@ -132,6 +132,7 @@ YamlDocument YamlDocument::load(const std::filesystem::path& file) {
 }
 
 void YamlDocument::inherit(const std::string& key, const std::vector<std::string>& parts,
+                           const std::vector<std::string>& own_keys,
                            std::vector<std::filesystem::path> derived) {
   const YAML::Node named = std::as_const(root_)[key];
   if (!named.IsDefined()) return;
@@ -152,7 +153,8 @@ void YamlDocument::inherit(const std::string& key, const std::vector<std::string
     fail("{}: {}: expected at most {} files in a row", place, key, kMostBases);
   }
   YamlDocument base = load(file);
-  base.inherit(key, parts, derived);
+  base.inherit(key, parts, own_keys, derived);
+  for (const std::string& own_key : own_keys) base.root_.remove(own_key);
   for (const std::string& part : parts) base.include(part);
   root_.remove(key);
   base.overlay(base.root_, root_, "", own);

@@ -41,10 +41,12 @@ class YamlDocument {
 
   /// Inherits keys from the file that the top-level scalar `key` names, relative to this file: maps
   /// are merged key by key, other values of this document replace those of the base. A base may
-  /// have a base; `parts` are included in it. No effect if the key is absent. Throws Error for a
-  /// missing file and for bases that go round in a circle.
-  void inherit(const std::string& key, const std::vector<std::string>& parts) {
-    inherit(key, parts, {});
+  /// have a base; `parts` are included in it, and top-level keys of `own` are not inherited. No
+  /// effect if the key is absent. Throws Error for a missing file and for bases that go round in a
+  /// circle.
+  void inherit(const std::string& key, const std::vector<std::string>& parts,
+               const std::vector<std::string>& own = {}) {
+    inherit(key, parts, own, {});
   }
 
   /// Sets a dotted key ("slam.tracking.radius", "route.2.speed") to the YAML value `value`. An
@@ -59,7 +61,7 @@ class YamlDocument {
  private:
   friend class YamlReader;
   void inherit(const std::string& key, const std::vector<std::string>& parts,
-               std::vector<std::filesystem::path> derived);
+               const std::vector<std::string>& own, std::vector<std::filesystem::path> derived);
   void overlay(YAML::Node target, const YAML::Node& source, const std::string& prefix,
                const std::filesystem::path& file);
   std::filesystem::path file_of(const std::string& key) const;

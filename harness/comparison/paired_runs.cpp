@@ -108,7 +108,7 @@ YAML::Node experiment_of(const fs::path& folder) {
   if (!fs::is_regular_file(file, ignored)) return {};
   try {
     YAML::Node experiment = YAML::Load(read_file(file));
-    for (const char* other : {"slam", "expectations", "description"}) {
+    for (const char* other : {"slam", "expectations", "goal", "guard", "description"}) {
       if (experiment.IsMap()) experiment.remove(other);
     }
     return experiment;

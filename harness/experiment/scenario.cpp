@@ -37,13 +37,29 @@ void furnish_world(ScenarioConfig& scenario) {
   sim::check_layout(world);
 }
 
+/// One occlusion is measured in a run.
+void check_occlusion(const ScenarioConfig& scenario, const Rig& rig,
+                     const std::filesystem::path& file) {
+  int asked = 0;
+  for (const Expectations* part : {&scenario.expectations, &scenario.goal}) {
+    if (!part->blind) continue;
+    find_cameras(rig, part->blind->cameras);
+    ++asked;
+  }
+  if (asked > 1)
+    fail("{}: blind: expected in expectations or in goal, found in both", file.string());
+  if (scenario.guard && scenario.guard->bounds.blind) {
+    fail("{}: guard.blind: expected in expectations or in goal", file.string());
+  }
+}
+
 }  // namespace
 
 ScenarioConfig load_scenario(const std::filesystem::path& file,
                              const std::vector<Override>& overrides) {
   YamlDocument document = YamlDocument::load(file);
   const std::vector<std::string> parts{"world", "rover"};
-  document.inherit("base", parts);
+  document.inherit("base", parts, {"guard"});
   const auto is_part = [&](const Override& o) { return std::ranges::count(parts, o.first) > 0; };
   for (const Override& o : overrides) {
     if (is_part(o)) document.set(o.first, part_value(o.second));
@@ -55,7 +71,7 @@ ScenarioConfig load_scenario(const std::filesystem::path& file,
   auto scenario = document.read<ScenarioConfig>();
   const Rig rig = load_rig(scenario.simulation.rover.rig);
   sim::check_sensors(scenario.simulation.sensors, rig);
-  if (const auto& blind = scenario.expectations.blind) find_cameras(rig, blind->cameras);
+  check_occlusion(scenario, rig, file);
   if (const auto& external = scenario.slam.external) {
     check_external_slam(*external, rig);
     if (scenario.simulation.route.steering == sim::Steering::kEstimate) {
@@ -76,6 +92,9 @@ Trial trial_of(const ScenarioConfig& scenario) {
   trial.name = scenario.name;
   trial.seed = scenario.seed;
   trial.expectations = scenario.expectations;
+  trial.goal = scenario.goal;
+  const bool ours = !scenario.slam.external && !scenario.slam.plugin;
+  if (scenario.guard && ours) trial.guard = scenario.guard->bounds;
   trial.site = sim::site_of(scenario.simulation.world);
   const auto& waypoints = scenario.simulation.route.waypoints;
   if (!waypoints.empty()) trial.route_end = waypoints.back().position;

@@ -20,6 +20,20 @@
 
 namespace vinebench::harness {
 
+/// What runs of this very scenario over several seeds measured, and some more. It is not inherited
+/// by scenarios that have this one as their base.
+struct Guard {
+  std::string seeds;    ///< of these runs
+  std::string version;  ///< of the program that made them
+  Expectations bounds;  ///< at the same level of the file
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("seeds", seeds);
+    archive("version", version);
+    bounds.serialize(archive);
+  }
+};
+
 /// One experiment: a world, a rover, its route, a SLAM system and what is expected of the run.
 struct ScenarioConfig {
   std::string name;
@@ -30,6 +44,8 @@ struct ScenarioConfig {
   std::vector<sim::WorldConfig::Tag> tags;  ///< likewise
   SlamChoice slam;
   Expectations expectations;
+  Expectations goal;           ///< what the scenario exists to show
+  std::optional<Guard> guard;  ///< written by `vinebench guard`
   template <class Archive>
   void serialize(Archive& archive) {
     archive("name", name);
@@ -40,6 +56,8 @@ struct ScenarioConfig {
     archive("tags", tags);
     archive("slam", slam);
     archive("expectations", expectations);
+    archive("goal", goal);
+    archive("guard", guard);
     archive.require(!name.empty(), "name", "expected a name");
     archive.require(name.find('/') == std::string::npos, "name", "expected a name without '/'");
     archive.require(!name.starts_with('.'), "name", "expected a name that begins with no '.'");
@@ -58,7 +76,8 @@ ScenarioConfig load_scenario(const std::filesystem::path& file,
 /// gives the same experiment.
 std::string resolved_settings(ScenarioConfig scenario);
 
-/// The context of a scenario's run for the evaluation.
+/// The context of a scenario's run for the evaluation. The guard, measured with the SLAM core, is
+/// left out for other systems.
 Trial trial_of(const ScenarioConfig& scenario);
 
 /// The notes of a scenario's run. Throws Error if the rig's file cannot be read.

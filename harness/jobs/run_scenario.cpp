@@ -6,6 +6,7 @@
 #include "harness/datasets/dataset_writer.h"
 #include "harness/datasets/files/dataset_folder.h"
 #include "harness/datasets/formats.h"
+#include "harness/jobs/simulation_versions.h"
 #include "harness/report/run_folder.h"
 #include "harness/run/prefetch.h"
 #include "harness/systems/external_slam.h"
@@ -73,6 +74,7 @@ RunOutcome run_scenario(const ScenarioConfig& scenario, const Machine& machine, 
   }
   FrameSource& source = ahead ? static_cast<FrameSource&>(*ahead) : *simulation;
   RunOptions with_writer = options;
+  with_writer.libraries = drawing_libraries(scenario.simulation.renderer);
   std::optional<DatasetWriter> writer;
   if (recording) {
     writer.emplace(recording->folder, notes_of(scenario), *simulation, recording->options,

@@ -5,14 +5,22 @@
 #include <mujoco/mujoco.h>
 
 #include "sim/render/gl/platform/gl_context.h"
-#include "sim/render/renderer_config.h"
 
 namespace vinebench::harness {
 
-std::vector<std::pair<std::string, std::string>> simulation_versions(const std::string& platform) {
+NamedValues simulation_versions(const std::string& platform) {
   sim::RendererConfig renderer;
   sim::choose_backend(renderer, platform);
   return {{"MuJoCo", mj_versionString()}, {"OpenGL", sim::gl_version(renderer.backend)}};
+}
+
+NamedValues drawing_libraries(const sim::RendererConfig& renderer) {
+  NamedValues libraries{{"mujoco", mj_versionString()}};
+  if (renderer.engine == sim::RenderEngineKind::kGl) {
+    libraries.emplace_back("opengl", sim::gl_version(renderer.backend));
+    libraries.emplace_back("renderer", sim::gl_renderer(renderer.backend));
+  }
+  return libraries;
 }
 
 }  // namespace vinebench::harness

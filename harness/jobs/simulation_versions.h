@@ -3,13 +3,18 @@
 #pragma once
 
 #include <string>
-#include <utility>
-#include <vector>
+
+#include "core/util/arithmetic.h"
+#include "sim/render/renderer_config.h"
 
 namespace vinebench::harness {
 
 /// Names and versions of the libraries that simulate and draw. Starts OpenGL on the platform of
 /// that name (as choose_backend()).
-std::vector<std::pair<std::string, std::string>> simulation_versions(const std::string& platform);
+NamedValues simulation_versions(const std::string& platform);
+
+/// The libraries that make a scenario's frames, for the environment of its hash. Starts OpenGL if
+/// it draws with it.
+NamedValues drawing_libraries(const sim::RendererConfig& renderer);
 
 }  // namespace vinebench::harness

@@ -153,7 +153,7 @@ class CauseFinder {
   /// A wrong loop closure takes precedence over rejected tags.
   double wrong_tags(const DegradedSegment& segment) const {
     const bool closed = std::ranges::any_of(results_.loops.closures, [&](const JudgedClosure& c) {
-      return c.judged && !c.correct && c.tick >= segment.first && c.tick <= segment.last;
+      return c.wrong() && c.tick >= segment.first && c.tick <= segment.last;
     });
     if (closed) return 1;
     return share_of(segment, [&](std::size_t i) {

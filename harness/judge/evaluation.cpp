@@ -31,6 +31,23 @@ std::vector<double> lengths_of(const std::vector<PosePair>& pairs) {
   return lengths;
 }
 
+double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// From one body's x axis to the other's, seen from above, -pi to pi.
+double heading_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
+  const Eigen::Vector3d a = from * Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d b = to * Eigen::Vector3d::UnitX();
+  return std::atan2(a.x() * b.y() - a.y() * b.x(), a.x() * b.x() + a.y() * b.y());
+}
+
+/// Its square to the sum in `rmse`.
+void add(double angle, AngleStatistics& statistics) {
+  statistics.rmse += angle * angle;
+  statistics.max = std::max(statistics.max, std::abs(angle));
+}
+
 double segment_error(const PosePair& from, const PosePair& to) {
   const Pose truth = from.T_world_body.inverse() * to.T_world_body;
   const Pose estimate = from.T_map_body.inverse() * to.T_map_body;
@@ -110,16 +127,59 @@ std::optional<double> relative_error_percent(const std::vector<PosePair>& pairs,
   return 100 * sum / (segments * delta);
 }
 
-std::optional<Evaluation> evaluate(const Trajectory& truth, const Trajectory& estimate) {
+OrientationErrors orientation_errors(const std::vector<PosePair>& pairs, const Pose& T_world_map) {
+  OrientationErrors errors;
+  for (const PosePair& pair : pairs) {
+    const Eigen::Quaterniond estimate = T_world_map.rotation * pair.T_map_body.rotation;
+    const Eigen::Quaterniond& truth = pair.T_world_body.rotation;
+    add(heading_between(truth, estimate), errors.heading);
+    add(angle_between(truth * Eigen::Vector3d::UnitZ(), estimate * Eigen::Vector3d::UnitZ()),
+        errors.tilt);
+  }
+  const double count = static_cast<double>(pairs.size());
+  for (AngleStatistics* of : {&errors.heading, &errors.tilt})
+    of->rmse = std::sqrt(of->rmse / count);
+  return errors;
+}
+
+WorstFrame worst_frame(const std::vector<PosePair>& pairs, const Pose& T_world_map) {
+  WorstFrame worst{.stamp = pairs.front().stamp};
+  for (const PosePair& pair : pairs) {
+    const double error =
+        (T_world_map * pair.T_map_body.translation - pair.T_world_body.translation).norm();
+    if (error > worst.error) worst = {pair.stamp, error};
+  }
+  return worst;
+}
+
+std::optional<Evaluation> evaluate(const Trajectory& truth, const Trajectory& estimate,
+                                   const std::optional<Pose>& T_world_map) {
   const std::vector<PosePair> pairs = associate(truth, estimate);
   if (pairs.size() < 3) return std::nullopt;
   Evaluation evaluation;
   evaluation.pairs = pairs.size();
   evaluation.T_world_map = align_se3(pairs);
   evaluation.ate = position_errors(pairs, evaluation.T_world_map);
-  evaluation.origin = position_errors(pairs, align_first(pairs));
+  const Pose by_first = align_first(pairs);
+  evaluation.origin = position_errors(pairs, by_first);
+  evaluation.orientation = orientation_errors(pairs, by_first);
+  evaluation.worst = worst_frame(pairs, by_first);
   evaluation.rpe_trans_percent = relative_error_percent(pairs);
+  if (T_world_map) {
+    evaluation.world = {position_errors(pairs, *T_world_map),
+                        orientation_errors(pairs, *T_world_map)};
+  }
   return evaluation;
+}
+
+std::optional<Drift> drift_before(Stamp until, const Trajectory& truth, const Trajectory& live) {
+  std::vector<PosePair> pairs = associate(truth, live);
+  std::erase_if(pairs, [&](const PosePair& pair) { return pair.stamp >= until; });
+  if (pairs.size() < 2) return std::nullopt;
+  Drift drift{.error = worst_frame(pairs, align_first(pairs)).error};
+  const double path = lengths_of(pairs).back();
+  if (path > 0) drift.percent = 100 * drift.error / path;
+  return drift;
 }
 
 }  // namespace vinebench::harness

@@ -47,16 +47,57 @@ ErrorStatistics position_errors(const std::vector<PosePair>& pairs, const Pose& 
 /// --pairs_from_reference`. Empty if the path is too short.
 std::optional<double> relative_error_percent(const std::vector<PosePair>& pairs, double delta = 1);
 
+/// Of angles, rad.
+struct AngleStatistics {
+  double rmse = 0;
+  double max = 0;
+};
+/// Errors of the body's orientation in the world: heading, by which the estimated and the true x
+/// axis differ seen from above, and tilt, the angle between the estimated and the true z axis.
+struct OrientationErrors {
+  AngleStatistics heading;
+  AngleStatistics tilt;
+};
+OrientationErrors orientation_errors(const std::vector<PosePair>& pairs, const Pose& T_world_map);
+
+/// The frame with the largest position error.
+struct WorstFrame {
+  Stamp stamp = 0;   ///< of the truth
+  double error = 0;  ///< m
+};
+/// The first one of several. Requires at least one pair.
+WorstFrame worst_frame(const std::vector<PosePair>& pairs, const Pose& T_world_map);
+
+/// Errors in the world as the system itself has placed its map there, without any alignment.
+struct WorldErrors {
+  ErrorStatistics position;
+  OrientationErrors orientation;
+};
+
 /// Absolute and relative errors of a trajectory.
 struct Evaluation {
   std::size_t pairs = 0;
-  Pose T_world_map;        ///< of the SE(3) alignment
-  ErrorStatistics ate;     ///< SE(3)-aligned
-  ErrorStatistics origin;  ///< aligned by the first pose only
+  Pose T_world_map;               ///< of the SE(3) alignment
+  ErrorStatistics ate;            ///< SE(3)-aligned
+  ErrorStatistics origin;         ///< aligned by the first pose only
+  OrientationErrors orientation;  ///< likewise
+  WorstFrame worst;               ///< likewise
   std::optional<double> rpe_trans_percent;
+  std::optional<WorldErrors> world;  ///< absent if the system gives no pose in the world
 };
 
-/// Empty if fewer than three poses are associated: the alignment would be undetermined.
-std::optional<Evaluation> evaluate(const Trajectory& truth, const Trajectory& estimate);
+/// `T_world_map` is the system's own estimate. Empty if fewer than three poses are associated: the
+/// alignment would be undetermined.
+std::optional<Evaluation> evaluate(const Trajectory& truth, const Trajectory& estimate,
+                                   const std::optional<Pose>& T_world_map = std::nullopt);
+
+/// How far an estimate drifts that no loop closure has corrected.
+struct Drift {
+  double error = 0;    ///< m, largest position error, aligned by the first pose only
+  double percent = 0;  ///< of the true path; 0 where there is none
+};
+
+/// Of the poses before `until`. Empty if there are fewer than two.
+std::optional<Drift> drift_before(Stamp until, const Trajectory& truth, const Trajectory& live);
 
 }  // namespace vinebench::harness

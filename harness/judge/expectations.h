@@ -45,7 +45,19 @@ struct Expectations {
   std::optional<int> losses_max;              ///< number of tracking losses
   std::optional<double> ate_rmse_max;         ///< m, SE(3)-aligned
   std::optional<double> ate_origin_rmse_max;  ///< m, aligned by the first pose
-  std::optional<double> end_error_max;        ///< m, from the route's end to the true position
+  std::optional<double> ate_world_rmse_max;   ///< m, in the world, not aligned
+  std::optional<double> rpe_trans_percent_max;
+  std::optional<double> worst_frame_max;             ///< m, aligned by the first pose
+  std::optional<double> drift_max;                   ///< m, before the first loop closure
+  std::optional<double> heading_rmse_max_deg;        ///< aligned by the first pose
+  std::optional<double> heading_error_max_deg;       ///< likewise, of any frame
+  std::optional<double> tilt_rmse_max_deg;           ///< aligned by the first pose
+  std::optional<double> tilt_error_max_deg;          ///< likewise, of any frame
+  std::optional<double> heading_world_rmse_max_deg;  ///< in the world, not aligned
+  std::optional<double> tilt_world_rmse_max_deg;     ///< likewise
+  std::optional<double> nees_mean_min;
+  std::optional<double> nees_mean_max;
+  std::optional<double> end_error_max;  ///< m, from the route's end to the true position
   std::optional<int> loop_closures_correct_min;
   std::optional<int> loop_closures_wrong_max;
   std::optional<int> loop_closures_missed_max;
@@ -57,6 +69,18 @@ struct Expectations {
     archive("losses_max", losses_max, Range::non_negative());
     archive("ate_rmse_max", ate_rmse_max, Range::positive());
     archive("ate_origin_rmse_max", ate_origin_rmse_max, Range::positive());
+    archive("ate_world_rmse_max", ate_world_rmse_max, Range::positive());
+    archive("rpe_trans_percent_max", rpe_trans_percent_max, Range::positive());
+    archive("worst_frame_max", worst_frame_max, Range::positive());
+    archive("drift_max", drift_max, Range::positive());
+    archive("heading_rmse_max_deg", heading_rmse_max_deg, Range::positive());
+    archive("heading_error_max_deg", heading_error_max_deg, Range::positive());
+    archive("tilt_rmse_max_deg", tilt_rmse_max_deg, Range::positive());
+    archive("tilt_error_max_deg", tilt_error_max_deg, Range::positive());
+    archive("heading_world_rmse_max_deg", heading_world_rmse_max_deg, Range::positive());
+    archive("tilt_world_rmse_max_deg", tilt_world_rmse_max_deg, Range::positive());
+    archive("nees_mean_min", nees_mean_min, Range::non_negative());
+    archive("nees_mean_max", nees_mean_max, Range::positive());
     archive("end_error_max", end_error_max, Range::positive());
     archive("loop_closures_correct_min", loop_closures_correct_min, Range::non_negative());
     archive("loop_closures_wrong_max", loop_closures_wrong_max, Range::non_negative());

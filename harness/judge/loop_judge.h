@@ -2,15 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "harness/run/run_record.h"
 
 namespace vinebench::harness {
 
-/// Tolerances of a correct closure.
+/// A correct closure is within these of the truth, whatever its covariance.
 inline constexpr double kLoopClosureMetres = 0.10;
 inline constexpr double kLoopClosureDegrees = 2.0;
+/// If the system gives its covariance, the error is also within the 99.9 % quantile of chi-square
+/// with six degrees of freedom, of this covariance and a floor: standard deviations, along and
+/// about each axis, of what no covariance of tag corners contains, such as the camera's mounting.
+inline constexpr double kClosureChiSquared = 22.458;
+inline constexpr double kClosureFloorMetres = 0.005;
+inline constexpr double kClosureFloorDegrees = 0.5;
 
 /// A tag is *revisited* after this time and distance without it, and, if it is registered, without
 /// any other registered one, because each of them gives the pose.
@@ -25,8 +32,13 @@ struct JudgedClosure {
   LoopClosure closure;
   double error_m = 0;  ///< of T_earlier_later
   double error_rad = 0;
+  std::optional<double> chi_squared{};  ///< of the error; absent without a covariance
   bool correct = false;
-  bool judged = true;  ///< false if the truth of either end is unknown
+  bool trivial = false;  ///< right, but of frames less than kVisitGap apart
+  bool judged = true;    ///< false if the truth of either end is unknown
+
+  /// Off the truth, or by a tag that cannot be seen at both ends.
+  bool wrong() const { return judged && !correct && !trivial; }
 };
 
 /// A time during which, according to the truth, a tag, or one of the registered tags, is in view,
@@ -40,7 +52,8 @@ struct TagVisit {
 
 struct LoopVerdict {
   std::vector<JudgedClosure> closures;
-  std::vector<TagVisit> missed;  ///< returns without a closure
+  std::vector<TagVisit> missed;  ///< returns without a correct closure
+  int returns = 0;               ///< to tags, that must lead to a closure
   int correct() const;
   int wrong() const;
 };

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/judge/results.h"
 
+#include <limits>
+
 namespace vinebench::harness {
 namespace {
 
@@ -20,6 +22,14 @@ void count_losses(const RunRecord& record, RunResults& results) {
   }
 }
 
+/// When the first loop closure is reported; after all frames if there is none.
+Stamp first_closure(const RunRecord& record) {
+  for (const Tick& tick : record.ticks) {
+    if (tick.estimate.loop_closure) return tick.stamp;
+  }
+  return std::numeric_limits<Stamp>::max();
+}
+
 std::optional<double> end_error(const RunRecord& record,
                                 const std::optional<Eigen::Vector2d>& route_end) {
   if (record.ticks.empty() || !record.ticks.back().truth.known) return std::nullopt;
@@ -34,12 +44,14 @@ RunResults measure(const RunRecord& record, const Trial& trial) {
   RunResults results;
   count_losses(record, results);
   const Trajectory truth = true_trajectory(record);
-  results.corrected = evaluate(truth, record.summary.trajectory);
-  results.live = evaluate(truth, live_trajectory(record));
+  const Trajectory live = live_trajectory(record);
+  results.corrected = evaluate(truth, record.summary.trajectory, record.summary.T_world_map);
+  results.live = evaluate(truth, live);
+  results.drift = drift_before(first_closure(record), truth, live);
   results.consistency = check_consistency(record);
   results.end_error = end_error(record, trial.route_end);
   results.loops = judge_loop_closures(record);
-  if (const auto& blind = trial.expectations.blind) {
+  if (const Expectations::Blind* blind = trial.blind()) {
     results.blind =
         longest_occlusion(record, find_cameras(record.rig, blind->cameras), blind->box_share);
   }

@@ -20,6 +20,7 @@ struct RunResults {
   int losses = 0;                       ///< how often tracking went from a pose to none
   std::optional<Evaluation> corrected;  ///< of every frame's pose after all corrections
   std::optional<Evaluation> live;       ///< of the live poses
+  std::optional<Drift> drift;           ///< of the live poses before the first loop closure
   std::optional<Consistency> consistency;
   std::optional<double> end_error;  ///< m, from the route's end to the true final position
   LoopVerdict loops;

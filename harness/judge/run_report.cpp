@@ -67,10 +67,10 @@ RunReport judge(const RunRecord& record, const Trial& trial) {
   }
   report.input_faults = count_faults(record);
   report.diagnosis = diagnose(record, report.results, trial);
+  report.patterns = error_patterns(record, report.results);
   report.failure = record.failure;
   if (report.failure) report.checks.push_back(check_of(*report.failure));
-  std::ranges::move(check_expectations(trial.expectations, report.results),
-                    std::back_inserter(report.checks));
+  std::ranges::move(check_trial(trial, report.results), std::back_inserter(report.checks));
   return report;
 }
 

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "core/util/arithmetic.h"
 #include "harness/judge/degraded_segments.h"
+#include "harness/judge/error_pattern.h"
 #include "harness/judge/verdict.h"
 #include "harness/run/run_cost.h"
 
@@ -38,10 +40,12 @@ struct RunReport {
   std::vector<CameraReport> cameras;     ///< of the rig, in its order
   std::vector<FaultCount> input_faults;  ///< in order of the first of each kind
   std::vector<DegradedSegment> diagnosis;
+  std::vector<ErrorPattern> patterns;
   std::optional<SlamFailure> failure;  ///< of the system under test
   std::vector<Check> checks;  ///< of the scenario's expectations, and of no failure if there is one
   RunCost cost;               ///< filled by the run loop, as the hash
   std::string hash;  ///< of inputs, estimates and results; empty if the run was interrupted
+  NamedValues hash_environment;  ///< of the hash (run/hash_environment.h)
 };
 
 /// All of the report that is a function of the record. Throws Error if an expectation names a

@@ -18,9 +18,19 @@ struct Trial {
   std::string name;
   std::int64_t seed = 0;
   Expectations expectations;
+  Expectations goal;
+  Expectations guard;
   Site site;
   std::optional<Eigen::Vector2d> route_end;  ///< m, world; end of the route, if there is one
   bool miscalibrated = false;                ///< the true rig differs from the nominal one
+
+  /// The occlusion that one of the three asks for, null if none does.
+  const Expectations::Blind* blind() const {
+    for (const Expectations* asked : {&expectations, &goal, &guard}) {
+      if (asked->blind) return &*asked->blind;
+    }
+    return nullptr;
+  }
 };
 
 }  // namespace vinebench::harness

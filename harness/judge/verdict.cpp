@@ -3,52 +3,39 @@
 #include "harness/judge/verdict.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
 
+#include "harness/judge/bounds.h"
+
 namespace vinebench::harness {
 namespace {
 
-std::string text_of(double value, const char* unit) {
-  return fmt::format("{:.4f}{}", value, unit);
+/// An expectation whose metric was not measured fails.
+void add_check(const Bound& bound, const Expectations& asked, const RunResults& results,
+               std::vector<Check>& checks) {
+  const std::optional<double> allowed = bound.asked(asked);
+  if (!allowed) return;
+  const std::optional<double> measured = bound.measured(results);
+  const bool ok = measured && (bound.at_least ? *measured >= *allowed : *measured <= *allowed);
+  checks.push_back({bound.what, measured ? text_of(bound, *measured) : "none",
+                    (bound.at_least ? ">= " : "<= ") + text_of(bound, *allowed), ok});
 }
-std::string text_of(int value, const char* unit) {
-  return fmt::format("{}{}", value, unit);
-}
 
-/// Builds the list; an expectation whose metric was not measured fails.
-class Checks {
- public:
-  template <class T>
-  void at_least(const char* what, const std::optional<T>& asked, const std::optional<T>& measured,
-                const char* unit = "") {
-    if (asked) add(what, *asked, measured, measured && *measured >= *asked, ">= ", unit);
-  }
-  template <class T>
-  void at_most(const char* what, const std::optional<T>& asked, const std::optional<T>& measured,
-               const char* unit = "") {
-    if (asked) add(what, *asked, measured, measured && *measured <= *asked, "<= ", unit);
-  }
-  std::vector<Check> take() { return std::move(checks_); }
-
- private:
-  template <class T>
-  void add(const char* what, const T& asked, const std::optional<T>& measured, bool ok,
-           const char* sign, const char* unit) {
-    checks_.push_back(
-        {what, measured ? text_of(*measured, unit) : "none", sign + text_of(asked, unit), ok});
-  }
-  std::vector<Check> checks_;
-};
-
-void check_blind(Checks& checks, const Expectations& asked, const RunResults& results) {
+void check_blind(const Expectations& asked, const RunResults& results, std::vector<Check>& checks) {
   if (!asked.blind) return;
   const std::optional<OcclusionSegment>& blind = results.blind;
   const double seconds = blind ? blind->seconds : 0;
-  checks.at_least<double>("blind in motion", asked.blind->seconds, seconds, " s");
-  checks.at_least<double>("inliers' drop while blind", asked.blind->inliers_drop,
-                          blind ? blind->inliers_drop() : std::nullopt);
+  checks.push_back({"blind in motion", fmt::format("{:.4f} s", seconds),
+                    fmt::format(">= {:.4f} s", asked.blind->seconds),
+                    seconds >= asked.blind->seconds});
+  const std::optional<double> least = asked.blind->inliers_drop;
+  if (!least) return;
+  const std::optional<double> drop = blind ? blind->inliers_drop() : std::nullopt;
+  checks.push_back({"inliers' drop while blind", drop ? fmt::format("{:.4f}", *drop) : "none",
+                    fmt::format(">= {:.4f}", *least), drop && *drop >= *least});
 }
 
 constexpr std::size_t kWidestColumn = 40;  // longer texts stand out
@@ -64,26 +51,52 @@ std::size_t widest(const std::vector<Check>& checks, std::string Check::*column)
 
 }  // namespace
 
-std::vector<Check> check_expectations(const Expectations& asked, const RunResults& results) {
-  const auto ate = [](const std::optional<Evaluation>& evaluation,
-                      ErrorStatistics Evaluation::*of) {
-    return evaluation ? std::optional(((*evaluation).*of).rmse) : std::nullopt;
-  };
-  const LoopVerdict& loops = results.loops;
-  Checks checks;
-  checks.at_least<double>("coverage", asked.coverage_min, results.coverage);
-  checks.at_most<int>("losses", asked.losses_max, results.losses);
-  checks.at_most("ATE, SE(3)-aligned", asked.ate_rmse_max, ate(results.corrected, &Evaluation::ate),
-                 " m");
-  checks.at_most("ATE, first pose aligned", asked.ate_origin_rmse_max,
-                 ate(results.corrected, &Evaluation::origin), " m");
-  checks.at_most("distance from the route's end", asked.end_error_max, results.end_error, " m");
-  checks.at_least<int>("loop closures, correct", asked.loop_closures_correct_min, loops.correct());
-  checks.at_most<int>("loop closures, wrong", asked.loop_closures_wrong_max, loops.wrong());
-  checks.at_most<int>("loop closures, missed", asked.loop_closures_missed_max,
-                      static_cast<int>(loops.missed.size()));
-  check_blind(checks, asked, results);
-  return checks.take();
+const char* name_of(CheckKind kind) {
+  switch (kind) {
+    case CheckKind::kGoal:
+      return "goal";
+    case CheckKind::kGuard:
+      return "guard";
+    case CheckKind::kExpectation:
+      break;
+  }
+  return "expectation";
+}
+
+CheckKind kind_of(const std::string& name) {
+  for (const CheckKind kind : {CheckKind::kGoal, CheckKind::kGuard}) {
+    if (name == name_of(kind)) return kind;
+  }
+  return CheckKind::kExpectation;
+}
+
+std::vector<Check> check_expectations(const Expectations& asked, const RunResults& results,
+                                      CheckKind kind) {
+  std::vector<Check> checks;
+  for (const Bound& bound : bounds()) add_check(bound, asked, results, checks);
+  check_blind(asked, results, checks);
+  for (Check& check : checks) check.kind = kind;
+  return checks;
+}
+
+std::vector<Check> check_trial(const Trial& trial, const RunResults& results) {
+  std::vector<Check> checks = check_expectations(trial.expectations, results);
+  std::ranges::move(check_expectations(trial.goal, results, CheckKind::kGoal),
+                    std::back_inserter(checks));
+  std::ranges::move(check_expectations(trial.guard, results, CheckKind::kGuard),
+                    std::back_inserter(checks));
+  return checks;
+}
+
+std::string verdict_of(const std::vector<Check>& checks) {
+  if (all_hold(checks)) return "PASSED";
+  std::vector<std::string> kinds;
+  for (const Check& check : checks) {
+    const std::string kind = name_of(check.kind);
+    if (!check.ok && std::ranges::count(kinds, kind) == 0) kinds.push_back(kind);
+  }
+  if (kinds == std::vector<std::string>{name_of(CheckKind::kExpectation)}) return "FAILED";
+  return fmt::format("FAILED ({})", fmt::join(kinds, ", "));
 }
 
 bool all_hold(const std::vector<Check>& checks) {
@@ -100,8 +113,11 @@ std::string format_checks(const std::vector<Check>& checks) {
   const std::size_t what = widest(checks, &Check::what);
   const std::size_t measured = widest(checks, &Check::measured);
   const std::size_t expected = widest(checks, &Check::expected);
+  const bool kinds = std::ranges::any_of(
+      checks, [](const Check& check) { return check.kind != CheckKind::kExpectation; });
   std::string text;
   for (const Check& check : checks) {
+    text += kinds ? fmt::format("  {:<11}", name_of(check.kind)) : "";
     text += fmt::format("  {:<{}}  {:>{}}  {:<{}}  {}\n", check.what, what, check.measured,
                         measured, check.expected, expected, check.ok ? "ok" : "FAILED");
   }

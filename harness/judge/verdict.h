@@ -9,22 +9,44 @@
 
 namespace vinebench::harness {
 
+/// Why something is asked of a run.
+enum class CheckKind {
+  kExpectation,  ///< a user's own
+  kGoal,         ///< what the scenario exists to show
+  kGuard,        ///< what earlier runs of the scenario measured, and some more
+};
+
+/// "expectation", "goal", "guard".
+const char* name_of(CheckKind kind);
+/// kExpectation for any other name.
+CheckKind kind_of(const std::string& name);
+
 /// One expectation with the measured value.
 struct Check {
   std::string what;
   std::string measured;
   std::string expected;
   bool ok = false;
+  CheckKind kind = CheckKind::kExpectation;
 };
 
-std::vector<Check> check_expectations(const Expectations& expectations, const RunResults& results);
+std::vector<Check> check_expectations(const Expectations& expectations, const RunResults& results,
+                                      CheckKind kind = CheckKind::kExpectation);
+
+/// Expectations, goal and guard, in this order.
+std::vector<Check> check_trial(const Trial& trial, const RunResults& results);
+
+/// "PASSED", or "FAILED" with the kinds of what failed, such as "FAILED (goal, guard)"; for
+/// expectations alone only "FAILED".
+std::string verdict_of(const std::vector<Check>& checks);
 
 bool all_hold(const std::vector<Check>& checks);
 
 /// Those that are not met.
 std::vector<Check> failed_of(const std::vector<Check>& checks);
 
-/// A human-readable table, one line per check; empty if there is none.
+/// A human-readable table, one line per check, with its kind if it is no expectation; empty if
+/// there is none.
 std::string format_checks(const std::vector<Check>& checks);
 
 }  // namespace vinebench::harness

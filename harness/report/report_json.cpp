@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/report/report_json.h"
 
+#include "core/geometry/angle.h"
 #include "vinebench/version.h"
 
 namespace vinebench::harness {
@@ -60,8 +61,40 @@ void add_cost(const RunCost& cost, Json& metrics) {
   metrics["peak_rss_mib"] = cost.peak_rss_mib;
 }
 
+/// Not part of the hash, so that runs of earlier programs keep theirs.
+void add_gate_metrics(const RunResults& results, Json& metrics) {
+  const auto degrees = [](double radians) { return radians / kRadiansPerDegree; };
+  if (const auto& corrected = results.corrected) {
+    const OrientationErrors& orientation = corrected->orientation;
+    metrics["heading_rmse_deg"] = degrees(orientation.heading.rmse);
+    metrics["heading_max_deg"] = degrees(orientation.heading.max);
+    metrics["tilt_rmse_deg"] = degrees(orientation.tilt.rmse);
+    metrics["tilt_max_deg"] = degrees(orientation.tilt.max);
+    metrics["worst_frame"] = {{"error_m", corrected->worst.error},
+                              {"t", to_seconds(corrected->worst.stamp)}};
+  }
+  const auto& world = results.corrected ? results.corrected->world : std::nullopt;
+  metrics["ate_world_rmse_m"] = world ? Json(world->position.rmse) : Json();
+  metrics["heading_world_rmse_deg"] =
+      world ? Json(degrees(world->orientation.heading.rmse)) : Json();
+  metrics["tilt_world_rmse_deg"] = world ? Json(degrees(world->orientation.tilt.rmse)) : Json();
+  metrics["drift_m"] = results.drift ? Json(results.drift->error) : Json();
+  metrics["drift_percent"] = results.drift ? Json(results.drift->percent) : Json();
+  metrics["loop_returns"] = results.loops.returns;
+}
+
 Json failure_json(const SlamFailure& failure) {
   return {{"cause", failure.cause}, {"frame", or_null(failure.frame)}};
+}
+
+Json patterns_json(const std::vector<ErrorPattern>& patterns) {
+  Json list = Json::array();
+  for (const ErrorPattern& pattern : patterns) {
+    Json json{{"pattern", name_of(pattern.kind)}, {"size", pattern.size}, {"share", pattern.share}};
+    if (pattern.kind == ErrorPatternKind::kStep) json["t"] = to_seconds(pattern.stamp);
+    list.push_back(std::move(json));
+  }
+  return list;
 }
 
 void add_unhashed(const RunReport& report, Json& metrics) {
@@ -70,6 +103,8 @@ void add_unhashed(const RunReport& report, Json& metrics) {
   if (Json shares = occlusion_json(report); !shares.empty()) metrics["occlusion"] = shares;
   if (results.blind) metrics["blind"]["occluder"] = name_of(results.blind->occluder);
   if (results.consistency) metrics["nees_left_out"] = results.consistency->not_invertible;
+  add_gate_metrics(results, metrics);
+  metrics["error_patterns"] = patterns_json(report.patterns);
 }
 
 }  // namespace
@@ -79,6 +114,9 @@ Json to_json(const RunReport& report) {
   metrics.update(hashed_json(report));
   add_cost(report.cost, metrics);
   metrics["hash"] = report.hash;
+  for (const auto& [name, value] : report.hash_environment) {
+    metrics["hash_environment"][name] = value;
+  }
   add_unhashed(report, metrics);
   metrics["expectations"] = checks_json(report.checks);
   return metrics;
@@ -119,7 +157,8 @@ Json checks_json(const std::vector<Check>& checks) {
     list.push_back({{"what", check.what},
                     {"measured", check.measured},
                     {"expected", check.expected},
-                    {"ok", check.ok}});
+                    {"ok", check.ok},
+                    {"kind", name_of(check.kind)}});
   }
   return list;
 }
@@ -127,8 +166,8 @@ Json checks_json(const std::vector<Check>& checks) {
 std::vector<Check> checks_of(const Json& list) {
   std::vector<Check> checks;
   for (const Json& check : list) {
-    checks.push_back(
-        {check.at("what"), check.at("measured"), check.at("expected"), check.at("ok").get<bool>()});
+    checks.push_back({check.at("what"), check.at("measured"), check.at("expected"),
+                      check.at("ok").get<bool>(), kind_of(check.value("kind", ""))});
   }
   return checks;
 }

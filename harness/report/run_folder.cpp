@@ -86,7 +86,7 @@ FolderLock prepare_run_folder(const std::filesystem::path& folder, const std::st
 
 void write_run_files(const std::filesystem::path& folder, const Trial& trial,
                      const RunRecord& record, const RunReport& report) {
-  const auto& blind = trial.expectations.blind;
+  const Expectations::Blind* blind = trial.blind();
   const double box_share = blind ? blind->box_share : Expectations::Blind{}.box_share;
   write_tum(true_trajectory(record), folder / "groundtruth.tum");
   write_tum(live_trajectory(record), folder / "estimate_live.tum");

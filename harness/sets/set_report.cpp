@@ -14,7 +14,7 @@ namespace vinebench::harness {
 namespace {
 
 std::string verdict_of(const SetRun& run) {
-  return !run.error.empty() ? "ERROR" : run.failed() ? "FAILED" : "passed";
+  return !run.error.empty() ? "ERROR" : run.failed() ? verdict_of(run.result->checks) : "passed";
 }
 
 std::optional<double> value_of(const Metric& metric, const SetRun& run) {
@@ -64,15 +64,15 @@ void check_median(const std::vector<SetRun>& runs, const char* key, const char* 
                     fmt::format("<= {:.4f} m", *bound), median <= *bound});
 }
 
-std::vector<Check> check_medians(const Expectations& expectations,
-                                 const std::vector<SetRun>& runs) {
-  std::vector<Check> checks;
-  if (!expectations.median || seeds_of(runs) < kSeedsForMedian) return checks;
+void check_medians(const Expectations& expectations, CheckKind kind,
+                   const std::vector<SetRun>& runs, std::vector<Check>& checks) {
+  if (!expectations.median || seeds_of(runs) < kSeedsForMedian) return;
+  const std::size_t first = checks.size();
   check_median(runs, "/ate_rmse_m", "ATE, SE(3)-aligned", expectations.median->ate_rmse_max,
                checks);
   check_median(runs, "/ate_origin_rmse_m", "ATE, first pose aligned",
                expectations.median->ate_origin_rmse_max, checks);
-  return checks;
+  for (std::size_t i = first; i < checks.size(); ++i) checks[i].kind = kind;
 }
 
 std::optional<RepeatsSummary> repeats_of(const std::vector<SetRun>& runs) {
@@ -146,9 +146,11 @@ std::vector<SeedsSummary> summarise(const std::vector<PlannedRun>& plan,
     const auto planned = std::ranges::find_if(
         plan, [&](const PlannedRun& run) { return run.scenario.name == summary.scenario; });
     summary.medians = medians_of(summary.runs);
-    summary.checks = check_medians(planned->scenario.expectations, summary.runs);
+    const ScenarioConfig& scenario = planned->scenario;
+    check_medians(scenario.expectations, CheckKind::kExpectation, summary.runs, summary.checks);
+    check_medians(scenario.goal, CheckKind::kGoal, summary.runs, summary.checks);
     summary.repeats = repeats_of(summary.runs);
-    summary.repeat_checks = check_repeats(planned->scenario.slam, summary.repeats);
+    summary.repeat_checks = check_repeats(scenario.slam, summary.repeats);
   }
   return scenarios;
 }

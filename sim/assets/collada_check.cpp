@@ -63,15 +63,35 @@ class ColladaCheck {
       return end;
     }
     read(tag);
-    if (!tag.ends_with("/>")) open_.push_back(node_);
+    if (!tag.ends_with("/>")) {
+      open_.push_back(node_);
+      check_indices(tag, end);
+    }
     if (open_.size() > kDeepestElement) {
       fail("{}: more than {} elements in each other", file_, kDeepestElement);
     }
     return end;
   }
 
+  static std::string_view name_of(std::string_view tag) {
+    return tag.substr(1, tag.find_first_of(" \t\r\n/>") - 1);
+  }
+
+  /// Assimp waits for ever, and collects zeros, at what is no number in a list of indices.
+  void check_indices(std::string_view tag, std::size_t begin) const {
+    const std::string_view name = name_of(tag);
+    if (name != "p" && name != "h" && name != "v" && name != "vcount") return;
+    const std::size_t end = std::min(text_.find('<', begin), text_.size());
+    const std::string_view list = text_.substr(begin, end - begin);
+    const std::size_t other = list.find_first_not_of("0123456789+- \t\r\n");
+    if (other != list.npos || !text_.substr(end).starts_with("</")) {
+      fail("{}: <{}>: expected whole numbers, found '{}'", file_, name,
+           text_.substr(begin + std::min(other, list.size()), 10));
+    }
+  }
+
   void read(std::string_view tag) {
-    const std::string_view name = tag.substr(1, tag.find_first_of(" \t\r\n/>") - 1);
+    const std::string_view name = name_of(tag);
     const std::string parent = open_.empty() ? "" : open_.back();
     node_ = parent;
     if (name == "node") {

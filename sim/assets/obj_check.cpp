@@ -52,8 +52,12 @@ std::size_t count_words(std::string_view line) {
 void check_obj(std::string_view text, const std::string& file) {
   check_text(text, file);
   std::size_t vertices = 0, corners = 0;
-  for_each_line(text, [&](std::string_view line, int) {
+  for_each_line(text, [&](std::string_view line, int number) {
     const std::string_view word = first_word(line);
+    // assimp reads beyond the end of a name that ends so.
+    if (word == "mtllib" && line.find("://") != line.npos) {
+      fail("{}:{}: mtllib: expected a file beside the mesh, found a URL", file, number);
+    }
     if (word == "v") ++vertices;
     if (word == "f" || word == "l" || word == "p") corners += count_words(line) - 1;
   });

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/config/yaml_writer.h"
+#include "core/util/arithmetic.h"
 #include "core/util/error.h"
 #include "core/util/random.h"
 #include "sim/assets/asset_file.h"
@@ -18,14 +19,16 @@ namespace {
 
 constexpr int kYoungTemplates = 2;
 
-/// Of the generator's sources, the seed and what it is told.
+/// Of the generator's sources, the seed, what it is told, and what computes: another libm or code
+/// of OpenCV makes other bytes.
 std::string plant_name(const PlantBrief& brief, std::uint64_t seed, int index) {
   VinesConfig vines = brief.vines;
   vines.cultivar.clear();  // its content counts, not its name
   vines.meshes.clear();
   vines.mesh_import.reset();
-  const std::string key = fmt::format("{} {}\n{}{}", VINEBENCH_PLANT_HASH, seed, format_yaml(vines),
-                                      format_yaml(brief.cultivar));
+  const std::string key =
+      fmt::format("{} {}\n{}\n{}{}", VINEBENCH_PLANT_HASH, seed, arithmetic_text(),
+                  format_yaml(vines), format_yaml(brief.cultivar));
   return fmt::format("vine-{:016x}-{}.glb", fnv1a(key), index);
 }
 

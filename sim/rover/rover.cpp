@@ -183,15 +183,26 @@ void Rover::Physics::place(const Eigen::Vector3d& start) {
 }
 
 void Rover::Physics::check_clear(const Eigen::Vector3d& start) const {
+  const mjModel& model = world.model();
+  const auto is_rover = [&](int geom) {
+    return model.body_rootid[model.geom_bodyid[geom]] == model.jnt_bodyid[chassis];
+  };
+  // A model need not name its parts.
+  const auto named = [&](int type, int index) {
+    const char* name = mj_id2name(&model, type, index);
+    return name != nullptr ? std::string(name) : fmt::format("number {}", index);
+  };
   const int ground = world.find(mjOBJ_GEOM, "ground");
   for (int i = 0; i < world.state().ncon; ++i) {
-    const mjContact& contact = world.state().contact[i];
-    if (contact.geom1 == ground || contact.geom2 == ground) continue;
-    const mjModel& model = world.model();
-    const bool first = model.geom_bodyid[contact.geom1] == model.jnt_bodyid[chassis];
+    const int one = world.state().contact[i].geom1;
+    const int other = world.state().contact[i].geom2;
+    if (one == ground || other == ground) continue;
+    if (is_rover(one) && is_rover(other)) {
+      fail("the rover's model collides with itself: bodies {} and {}",
+           named(mjOBJ_BODY, model.geom_bodyid[one]), named(mjOBJ_BODY, model.geom_bodyid[other]));
+    }
     fail("the rover cannot start at ({:.3f}, {:.3f}) m: it collides with {} of the world",
-         start.x(), start.y(),
-         mj_id2name(&model, mjOBJ_GEOM, first ? contact.geom2 : contact.geom1));
+         start.x(), start.y(), named(mjOBJ_GEOM, is_rover(one) ? other : one));
   }
 }
 

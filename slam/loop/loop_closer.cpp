@@ -317,8 +317,9 @@ LoopClosure LoopCloser::close(int keyframe_id, double path_length, const Estimat
   closure.earlier = map.keyframe(first).frame->stamp;
   closure.later = later.frame->stamp;
   closure.T_earlier_later = T_earlier_tag * T_tag_later;
-  spread_correction(map, first, keyframe_id, tag->T_ref_tag * T_tag_later,
-                    carry_covariance(covariance(*sighting) + covariance(*earlier), T_tag_later));
+  const Matrix6d measured =
+      carry_covariance(covariance(*sighting) + covariance(*earlier), T_tag_later);
+  spread_correction(map, first, keyframe_id, tag->T_ref_tag * T_tag_later, measured);
   for (const TagSighting& seen : later.frame->tags) {
     if (registered(seen) != nullptr && !T_map_world_) continue;
     if (map.find_tag(seen.family, seen.id) == nullptr) add_tag(seen, later.T_map_body, map);
@@ -328,6 +329,8 @@ LoopClosure LoopCloser::close(int keyframe_id, double path_length, const Estimat
   if (!same_tag(*earlier, *sighting)) {
     // One sighting's turn swings what is measured by way of another tag: all of them know better.
     closure.T_earlier_later = map.keyframe(first).T_map_body.inverse() * later.T_map_body;
+  } else {
+    closure.covariance = measured;
   }
   closure.correction =
       (map.keyframe(keyframe_id).T_map_body.translation - before.translation).norm();

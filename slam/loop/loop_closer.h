@@ -33,6 +33,11 @@ class LoopCloser {
   /// Takes from a map that was loaded how it lies in the world.
   void take_over(const Map& map);
 
+  /// The map's pose in the world by the first registered tag that was seen; none before that.
+  std::optional<Pose> T_world_map() const {
+    return T_map_world_ ? std::optional(T_map_world_->inverse()) : std::nullopt;
+  }
+
   /// The body's pose in the world by the registered tags among the sightings; none where there are
   /// none, where they contradict each other or are ambiguous.
   std::optional<Pose> world_pose(const std::vector<TagSighting>& sightings) const;

@@ -145,6 +145,8 @@ expect 2 "recording of a set" "--record: is for one scenario" -- \
   run "$root/scenarios/quick-loop.yaml" --seeds 1..2 --record "$work/set" --out "$work/out"
 expect 2 "jobs of one run" "expected several scenarios or --seeds" -- \
   run "$root/scenarios/quick-loop.yaml" --jobs 2 --out "$work/out"
+expect 2 "guard of few seeds" "--seeds: expected at least 5 seeds, found 2" -- \
+  guard "$root/scenarios/quick-loop.yaml" --seeds 1..2 --out "$work/guard"
 expect 2 "verdicts in a missing folder" "none/verdicts.xml: cannot be written" -- \
   run "$root/scenarios/quick-loop.yaml" --seeds 1..2 --out "$work/out" \
   --junit "$work/none/verdicts.xml"

@@ -42,12 +42,12 @@ case $step in
     ;;
   map)
     # In a known place no keyframes are added, so there is no loop to close.
-    in_the_map=(--load-map "$work/verdict.map" --set expectations.loop_closures_correct_min=0
-      --set expectations.loop_closures_missed_max=9)
+    in_the_map=(--load-map "$work/verdict.map" --set goal.loop_closures_correct_min=null
+      --set goal.loop_closures_missed_max=null --set guard=null)
     "$vinebench" run "$scenario" --out "$work/by_tag" "${in_the_map[@]}"
     # Without the tag camera: the second frame is the first that can have a pose.
     "$vinebench" run "$scenario" --out "$work/by_looks" "${in_the_map[@]}" \
-      --set 'slam.cameras=[front, back]' --set expectations.coverage_min=0.97
+      --set 'slam.cameras=[front, back]' --set goal.coverage_min=0.97
     for run in verdict by_tag by_looks; do
       echo "$run: $(metric $run keyframes) keyframes, $(metric $run landmarks) landmarks," \
         "ATE $(metric $run ate_rmse_m) m"

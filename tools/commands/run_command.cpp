@@ -7,8 +7,10 @@
 
 #include "core/util/error.h"
 #include "harness/datasets/formats.h"
+#include "harness/experiment/bound_check.h"
 #include "harness/experiment/trust.h"
 #include "harness/jobs/run_scenario.h"
+#include "harness/run/hash_environment.h"
 #include "harness/sets/seed_list.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
@@ -39,6 +41,13 @@ struct RunArguments {
   std::vector<std::filesystem::path> data_folders;
 };
 
+/// For a scenario as its file says: overrides change the drive and leave the bounds.
+void name_ineffective_bounds(const harness::ScenarioConfig& scenario, const std::string& file) {
+  for (const auto& bound : harness::ineffective_bounds(scenario)) {
+    fmt::print(stderr, "vinebench: {}: {}\n", file, bound.text());
+  }
+}
+
 std::vector<harness::ScenarioConfig> scenarios_of(const RunArguments& arguments) {
   const std::vector<Override> overrides = parse_overrides(arguments.overrides);
   std::vector<harness::ScenarioConfig> scenarios;
@@ -48,6 +57,7 @@ std::vector<harness::ScenarioConfig> scenarios_of(const RunArguments& arguments)
       harness::check_untrusted(scenarios.back(), file, {arguments.data_folders});
     }
     sim::choose_backend(scenarios.back().simulation.renderer, arguments.machine.gl_platform);
+    if (overrides.empty()) name_ineffective_bounds(scenarios.back(), file);
     if (arguments.seed) scenarios.back().seed = *arguments.seed;
   }
   return scenarios;
@@ -64,7 +74,7 @@ std::optional<harness::RunRecording> recording_of(const RunArguments& arguments)
 void print_verdict(const harness::ScenarioConfig& scenario, const harness::RunOutcome& outcome,
                    const std::filesystem::path& folder) {
   fmt::print("\n{}: {} ({} frames in {:.0f} s, hash {})\n{}{}results: {}\n", scenario.name,
-             harness::all_hold(outcome.report.checks) ? "PASSED" : "FAILED", outcome.report.frames,
+             harness::verdict_of(outcome.report.checks), outcome.report.frames,
              outcome.report.cost.wall_seconds, outcome.report.hash,
              harness::format_checks(outcome.report.checks), outcome.summary,
              std::filesystem::absolute(folder).string());
@@ -72,7 +82,7 @@ void print_verdict(const harness::ScenarioConfig& scenario, const harness::RunOu
 
 /// Runs once more, without files, and compares.
 int verify_determinism(const harness::ScenarioConfig& scenario, const RunArguments& arguments,
-                       const std::string& first) {
+                       const harness::RunReport& first) {
   harness::RunOptions options = interactive_options(scenario.name + " (again)");
   options.maps.load = arguments.maps.load;
   const harness::RunOutcome again =
@@ -81,11 +91,18 @@ int verify_determinism(const harness::ScenarioConfig& scenario, const RunArgumen
     fmt::print(stderr, "vinebench: stopped in the second run; determinism is not verified\n");
     return interruption_code();
   }
-  if (again.report.hash == first) {
-    fmt::print("determinism: both runs have hash {}\n", first);
+  if (const std::string names =
+          harness::environment_differences(first.hash_environment, again.report.hash_environment);
+      !names.empty()) {
+    fmt::print("determinism: FAILED, the runs' hashes are not comparable, they differ in {}\n",
+               names);
+    return kExpectationFailed;
+  }
+  if (again.report.hash == first.hash) {
+    fmt::print("determinism: both runs have hash {}\n", first.hash);
     return 0;
   }
-  fmt::print("determinism: FAILED, the first run has hash {}, the second {}\n", first,
+  fmt::print("determinism: FAILED, the first run has hash {}, the second {}\n", first.hash,
              again.report.hash);
   return kExpectationFailed;
 }
@@ -127,9 +144,8 @@ int run_one(const RunArguments& arguments) {
   if (outcome.interrupted) return report_interruption(outcome, folder);
   print_verdict(scenario, outcome, folder);
   std::fflush(stdout);
-  const int repeated = arguments.verify_determinism
-                           ? verify_determinism(scenario, arguments, outcome.report.hash)
-                           : 0;
+  const int repeated =
+      arguments.verify_determinism ? verify_determinism(scenario, arguments, outcome.report) : 0;
   return repeated != 0                              ? repeated
          : harness::all_hold(outcome.report.checks) ? 0
                                                     : kExpectationFailed;

@@ -68,10 +68,10 @@ int report(const ManyRuns& many, const std::vector<harness::SeedsSummary>& scena
 
 }  // namespace
 
-int run_many(const ManyRuns& many) {
-  const std::vector<harness::PlannedRun> plan =
+MadeRuns make_runs(const ManyRuns& many) {
+  std::vector<harness::PlannedRun> plan =
       harness::plan_set(many.scenarios, many.seeds, many.out, many.repeats);
-  const FolderLock lock = prepare(many);
+  FolderLock lock = prepare(many);
   const harness::Machine machine = checked_machine(many.machine);
   catch_interrupts();
   harness::SetOptions options;
@@ -84,16 +84,21 @@ int run_many(const ManyRuns& many) {
   };
   options.stopped = interrupted;
   options.progress = &std::cerr;
-  const harness::SetOutcome outcome = harness::run_set(plan, options);
+  harness::SetOutcome outcome = harness::run_set(plan, options);
   if (outcome.interrupted) {
     const auto whole = std::ranges::count_if(
         outcome.runs, [](const harness::SetRun& run) { return run.result.has_value(); });
     fmt::print(stderr,
                "vinebench: stopped; {} of {} runs are whole in {}, and the same command goes on\n",
                whole, plan.size(), many.out.string());
-    return interruption_code();
   }
-  return report(many, harness::summarise(plan, outcome));
+  return {std::move(lock), std::move(plan), std::move(outcome)};
+}
+
+int run_many(const ManyRuns& many) {
+  const MadeRuns made = make_runs(many);
+  if (made.outcome.interrupted) return interruption_code();
+  return report(many, harness::summarise(made.plan, made.outcome));
 }
 
 }  // namespace vinebench::tools

@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "core/files/output_folder.h"
 #include "harness/experiment/scenario.h"
 #include "harness/machine.h"
+#include "harness/sets/run_set.h"
 
 namespace vinebench::tools {
 
@@ -23,6 +25,16 @@ struct ManyRuns {
   int repeats = 1;
   bool force = false;
 };
+
+/// The runs of a set, in the folder that the lock is of.
+struct MadeRuns {
+  FolderLock lock;
+  std::vector<harness::PlannedRun> plan;
+  harness::SetOutcome outcome;
+};
+
+/// Makes the runs that are missing, and says so if it is interrupted.
+MadeRuns make_runs(const ManyRuns& many);
 
 /// Runs them, prints and writes the table, and returns the exit code.
 int run_many(const ManyRuns& many);

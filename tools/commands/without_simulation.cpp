@@ -25,6 +25,10 @@ Command run_command(const Surroundings&) {
   return refusal("run");
 }
 
+Command guard_command(const Surroundings&) {
+  return refusal("guard");
+}
+
 Command record_command(const Surroundings&) {
   return refusal("record");
 }

@@ -19,6 +19,7 @@ std::string without_directive(std::string text) {
   return text;
 }
 
+constexpr int kSmallestSide = 16;            // px
 constexpr int kLargestSide = 16384;          // px; calibration.yaml's
 constexpr double kHighestRate = 1e6;         // Hz
 constexpr double kRotationTolerance = 1e-3;  // of an entry of R R^T
@@ -89,12 +90,17 @@ PinholeCamera SensorFile::camera() const {
   expect_word("distortion_model", {"radial-tangential", "radtan", "plumb_bob", "none"});
   const std::vector<double> size = numbers(root_["resolution"], "resolution", 2);
   const std::vector<double> k = numbers(root_["intrinsics"], "intrinsics", 4);
+  for (const double side : size) {
+    if (side < kSmallestSide || side > kLargestSide || side != std::floor(side)) {
+      fault(root_["resolution"],
+            fmt::format("resolution: expected {} to {} pixels a side, found {}", kSmallestSide,
+                        kLargestSide, side));
+    }
+  }
   PinholeCamera camera{
       static_cast<int>(size[0]), static_cast<int>(size[1]), k[0], k[1], k[2], k[3], {}};
-  const auto [least, most] = std::minmax(size[0], size[1]);
-  if (!(least >= 16 && most <= kLargestSide) || camera.fx <= 0 || camera.fy <= 0) {
-    fault(root_["intrinsics"],
-          fmt::format("expected 16 to {} pixels a side and focal lengths above 0", kLargestSide));
+  if (camera.fx <= 0 || camera.fy <= 0) {
+    fault(root_["intrinsics"], "intrinsics: expected focal lengths above 0");
   }
   const YAML::Node distortion = root_["distortion_coefficients"];
   if (!distortion.IsDefined() || (distortion.IsSequence() && distortion.size() == 0)) return camera;

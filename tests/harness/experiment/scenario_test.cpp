@@ -204,5 +204,41 @@ TEST(ShippedScenariosTest, AreValid) {
   EXPECT_GE(count, 2);
 }
 
+// A guard is a measurement of one scenario; what is derived from it has another difficulty.
+TEST_F(ScenarioTest, AGoalIsInheritedAndAGuardIsNot) {
+  write(kRoute + R"(
+goal: {losses_max: 0, ate_rmse_max: 0.02}
+guard: {seeds: 1..10, version: "1", ate_rmse_max: 0.01}
+)");
+  const Trial base = trial_of(load_scenario(folder_ / "scenario.yaml"));
+  EXPECT_EQ(base.guard.ate_rmse_max, 0.01);
+  EXPECT_EQ(base.goal.ate_rmse_max, 0.02);
+  write_file_atomically(folder_ / "derived.yaml",
+                        "base: scenario.yaml\nname: derived\ngoal: {losses_max: null}\n");
+  const ScenarioConfig derived = load_scenario(folder_ / "derived.yaml");
+  EXPECT_FALSE(derived.guard);
+  EXPECT_FALSE(derived.goal.losses_max);
+  EXPECT_EQ(derived.goal.ate_rmse_max, 0.02);
+  // What is set on the command line is judged by the guard all the same.
+  EXPECT_TRUE(load_scenario(folder_ / "scenario.yaml", {{"sensors.wheels.counts_per_turn", "99"}})
+                  .guard.has_value());
+}
+
+TEST_F(ScenarioTest, TheGuardIsOfTheSlamCoreAlone) {
+  ScenarioConfig scenario =
+      load_scenario(write(kRoute + "guard: {seeds: 1..10, version: \"1\", losses_max: 0}\n"));
+  EXPECT_EQ(trial_of(scenario).guard.losses_max, 0);
+  scenario.slam.plugin.emplace();
+  EXPECT_FALSE(trial_of(scenario).guard.losses_max);
+}
+
+TEST_F(ScenarioTest, OneOcclusionIsMeasured) {
+  EXPECT_THAT(error_of("goal: {blind: {cameras: side}}\nexpectations: {blind: {cameras: side}}\n"),
+              testing::HasSubstr("blind: expected in expectations or in goal, found in both"));
+  EXPECT_THAT(error_of("guard: {blind: {cameras: side}}\n"),
+              testing::HasSubstr("guard.blind: expected in expectations or in goal"));
+  EXPECT_THAT(error_of("goal: {blind: {cameras: top}}\n"), testing::HasSubstr("no camera 'top'"));
+}
+
 }  // namespace
 }  // namespace vinebench::harness

@@ -124,5 +124,85 @@ TEST(RelativeErrorTest, SegmentsEndNearestToOneMetre) {
   EXPECT_FALSE(percent_for(0.6).has_value());
 }
 
+/// Five poses at the origin's height, a metre apart along x, of these headings, degrees.
+Trajectory heading_to(const std::vector<double>& headings_deg, double pitch_deg = 0) {
+  Trajectory trajectory;
+  for (std::size_t i = 0; i < headings_deg.size(); ++i) {
+    constexpr double kDegree = std::numbers::pi / 180;
+    trajectory.push_back(
+        {static_cast<Stamp>(i) * kNanosecondsPerSecond,
+         Pose{from_roll_pitch_yaw({0, pitch_deg * kDegree, headings_deg[i] * kDegree}),
+              {static_cast<double>(i), 0, 0}}});
+  }
+  return trajectory;
+}
+
+constexpr double kAngleRounding = 1e-9;  // rad
+
+// Errors of 0, 3, 0 and -4 degrees across the wrap of 180: rmse sqrt((9 + 16) / 4) = 2.5.
+TEST(OrientationTest, HeadingIsTheAngleSeenFromAbove) {
+  const auto errors = orientation_errors(
+      associate(heading_to({0, 179, 90, -178}), heading_to({0, -178, 90, 178})), Pose{});
+  EXPECT_NEAR(errors.heading.rmse, 2.5 * std::numbers::pi / 180, kAngleRounding);
+  EXPECT_NEAR(errors.heading.max, 4 * std::numbers::pi / 180, kAngleRounding);
+  EXPECT_NEAR(errors.tilt.max, 0, kAngleRounding);
+}
+
+// A body pitched by 2 degrees everywhere: the vertical is 2 degrees off, whatever its heading.
+TEST(OrientationTest, TiltIsTheAngleOfTheVertical) {
+  const auto errors = orientation_errors(
+      associate(heading_to({0, 45, 90, 180}), heading_to({0, 45, 90, 180}, 2)), Pose{});
+  EXPECT_NEAR(errors.tilt.rmse, 2 * std::numbers::pi / 180, kAngleRounding);
+  EXPECT_NEAR(errors.tilt.max, 2 * std::numbers::pi / 180, kAngleRounding);
+  EXPECT_NEAR(errors.heading.max, 0, kAngleRounding);
+}
+
+// A tag surveyed 6 cm aside and turned by 5 degrees about the origin moves the whole map: aligned
+// there is no error. In the world the pose at distance d is off by (0, 0.06) and by 2 d sin(2.5
+// deg) along the chord, which is at 92.5 degrees: by components (-c d sin 2.5, 0.06 + c d cos 2.5)
+// with c = 2 sin 2.5.
+TEST(EvaluateTest, InTheWorldNothingIsAligned) {
+  const Trajectory truth = through({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}});
+  const double turn = 5 * std::numbers::pi / 180;
+  const Pose wrong{from_roll_pitch_yaw({0, 0, turn}), {0, 0.06, 0}};
+  const auto evaluation = evaluate(truth, truth, wrong);
+  ASSERT_TRUE(evaluation && evaluation->world);
+  EXPECT_NEAR(evaluation->ate.max, 0, kRounding);
+  EXPECT_NEAR(evaluation->origin.max, 0, kRounding);
+  const double half = turn / 2;
+  double squares = 0;
+  for (int d = 0; d < 4; ++d) {
+    const double chord = 2 * d * std::sin(half);
+    squares += std::pow(chord * std::sin(half), 2) + std::pow(0.06 + chord * std::cos(half), 2);
+  }
+  EXPECT_NEAR(evaluation->world->position.rmse, std::sqrt(squares / 4), kRounding);
+  EXPECT_NEAR(evaluation->world->orientation.heading.rmse, turn, kAngleRounding);
+  EXPECT_FALSE(evaluate(truth, truth)->world);
+}
+
+// Aligned by the first pose, the third is 0.3 m off and the others less.
+TEST(EvaluateTest, NamesTheWorstFrame) {
+  const auto evaluation = evaluate(through({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}),
+                                   through({{0, 0, 0}, {1, 0.1, 0}, {2, 0, -0.3}, {3, 0.2, 0}}));
+  ASSERT_TRUE(evaluation);
+  EXPECT_EQ(evaluation->worst.stamp, 2 * kNanosecondsPerSecond);
+  EXPECT_NEAR(evaluation->worst.error, 0.3, kRounding);
+}
+
+// Errors of 0, 0.02, 0.06, 0.04 m and, corrected by a closure at 4 s, 0: the largest before it is
+// 0.06 m, on 3 m. Before 2 s it is 0.02 m on 1 m.
+TEST(DriftTest, IsTheLargestErrorBeforeAClosure) {
+  const Trajectory truth = through({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}});
+  const Trajectory live = through({{0, 0, 0}, {1, 0.02, 0}, {2, 0.06, 0}, {3, 0.04, 0}, {4, 0, 0}});
+  const auto drift = drift_before(4 * kNanosecondsPerSecond, truth, live);
+  ASSERT_TRUE(drift);
+  EXPECT_NEAR(drift->error, 0.06, kRounding);
+  EXPECT_NEAR(drift->percent, 2, 100 * kRounding);
+  const auto early = drift_before(2 * kNanosecondsPerSecond, truth, live);
+  EXPECT_NEAR(early->error, 0.02, kRounding);
+  EXPECT_NEAR(early->percent, 2, 100 * kRounding);
+  EXPECT_FALSE(drift_before(kNanosecondsPerSecond, truth, live));  // one pose
+}
+
 }  // namespace
 }  // namespace vinebench::harness

@@ -130,5 +130,71 @@ TEST(LoopJudgeTest, AVisitNeedsAWayWithoutTheTag) {
   EXPECT_EQ(tag_visits(record).size(), 1u);
 }
 
+// A covariance of nearly nothing leaves the floor of 5 mm and half a degree along and about each
+// axis: 24 mm are 4.8 of them, and 4.8^2 = 23.04 is above 22.458; 23 mm are 4.6, 21.16. With 10 mm
+// of its own, 24 mm are 24 / sqrt(125) = 2.15. 11 cm are wrong whatever the covariance.
+TEST(LoopJudgeTest, TheCovarianceDecidesAboveItsFloor) {
+  const auto correct = [](double offset, double sigma) {
+    LoopClosure closure = test::fake_closure(test::seconds(1), test::seconds(19), offset);
+    closure.covariance = Matrix6d::Identity() * sigma * sigma;
+    return verdict_of(19, closure).correct() == 1;
+  };
+  EXPECT_TRUE(correct(0.023, 1e-9));
+  EXPECT_FALSE(correct(0.024, 1e-9));
+  EXPECT_TRUE(correct(0.024, 0.01));
+  EXPECT_FALSE(correct(0.11, 1));
+}
+
+// Neighbouring frames have no loop between them: right, but no loop closure, and the return from
+// 18 s on is still missed.
+TEST(LoopJudgeTest, ClosuresOfNeighbouringFramesCountForNothing) {
+  const LoopVerdict verdict =
+      verdict_of(19.1, test::fake_closure(test::seconds(19), test::seconds(19.1)));
+  EXPECT_EQ(verdict.correct(), 0);
+  EXPECT_EQ(verdict.wrong(), 0);
+  EXPECT_EQ(verdict.missed.size(), 1u);
+  EXPECT_EQ(verdict.returns, 1);
+}
+
+TEST(LoopJudgeTest, AWrongClosureDoesNotMakeUpForAMissedOne) {
+  const LoopVerdict verdict =
+      verdict_of(19, test::fake_closure(test::seconds(1), test::seconds(19), 0.5));
+  EXPECT_EQ(verdict.wrong(), 1);
+  EXPECT_EQ(verdict.missed.size(), 1u);
+}
+
+// A camera with a view of 90 degrees looks ahead from every pose of the circle. The tag is 1 m
+// ahead of the first pose, and of no other: a closure between other frames names a tag that cannot
+// be there, however well it agrees with the truth.
+TEST(LoopJudgeTest, ATagMustBeInViewAtBothEnds) {
+  RunRecord record = record_of({});
+  record.rig.cameras[2].model = {
+      .width = 101, .height = 101, .fx = 50, .fy = 50, .cx = 50, .cy = 50};
+  record.rig.cameras[2].T_body_cam = Rig::mount({0, 0, 0}, {0, 0, 0});
+  record.rig.tag_cameras = {2};
+  // Its z axis, into the tag, is the camera's.
+  record.tags[0].T_world_tag = test::circle(0) * Rig::mount({1, 0, 0}, {0, 0, 0});
+  for (Tick& tick : record.ticks) tick.truth.visible_tags.clear();
+  const auto wrong = [&](double earlier, double later) {
+    RunRecord closed = record;
+    closed.ticks[190].estimate.loop_closure =
+        test::fake_closure(test::seconds(earlier), test::seconds(later));
+    return judge_loop_closures(closed).wrong();
+  };
+  EXPECT_EQ(wrong(0, 20), 0);  // the circle's end is its beginning
+  EXPECT_EQ(wrong(0, 10), 1);
+  EXPECT_EQ(wrong(10, 20), 1);
+}
+
+TEST(LoopJudgeTest, AClosureByAppearanceNeedsNoTag) {
+  RunRecord record = record_of({});
+  record.rig.tag_cameras = {2};
+  LoopClosure closure = test::fake_closure(test::seconds(5), test::seconds(15));
+  record.ticks[150].estimate.loop_closure = closure;
+  EXPECT_EQ(judge_loop_closures(record).wrong(), 1);
+  record.ticks[150].estimate.loop_closure->tag_id = -1;
+  EXPECT_EQ(judge_loop_closures(record).correct(), 1);
+}
+
 }  // namespace
 }  // namespace vinebench::harness

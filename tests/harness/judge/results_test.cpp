@@ -134,5 +134,31 @@ TEST(ResultsTest, AnEmptyRecordIsMeasured) {
   EXPECT_FALSE(results.corrected);
 }
 
+// The estimate stands still. From (1, 0) on the circle, the rover is 2 m away after half a turn, at
+// 10 s; the distance after t s is 2 sin(pi t / 20).
+TEST(ResultsTest, DriftEndsWithTheFirstClosure) {
+  const auto standing = [](double closed_at) {
+    return measure(record_of([=](Estimate& estimate) {
+                     if (estimate.stamp == test::seconds(closed_at)) {
+                       estimate.loop_closure = test::fake_closure(0, estimate.stamp);
+                     }
+                     estimate.T_map_body = Pose{};
+                   }),
+                   {});
+  };
+  EXPECT_NEAR(standing(5).drift.value().error, 2 * std::sin(std::numbers::pi * 4.9 / 20), 1e-9);
+  EXPECT_NEAR(standing(19).drift.value().error, 2, 1e-9);
+  EXPECT_NEAR(standing(99).drift.value().error, 2, 1e-9);  // no closure at all
+}
+
+// The map's frame is the first body's, at (1, 0): in the world it is where the system says.
+TEST(ResultsTest, TheWorldIsTheSystemsOwn) {
+  RunRecord record = record_of({});
+  EXPECT_FALSE(measure(record, {}).corrected.value().world);
+  record.summary.T_world_map =
+      Pose{Eigen::Quaterniond::Identity(), {0, 0.03, 0.04}} * test::circle(0);
+  EXPECT_NEAR(measure(record, {}).corrected->world.value().position.rmse, 0.05, 1e-12);
+}
+
 }  // namespace
 }  // namespace vinebench::harness

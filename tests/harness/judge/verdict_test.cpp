@@ -101,5 +101,35 @@ TEST(VerdictTest, AChecksTableLinesUp) {
             "  longer   1 m  <= 2 m  ok\n");
 }
 
+TEST(VerdictTest, TellsGoalsFromGuards) {
+  Trial trial;
+  trial.expectations.losses_max = 0;
+  trial.goal.ate_rmse_max = 0.01;
+  trial.guard.ate_rmse_max = 0.002;  // good() has 0.004
+  const auto checks = check_trial(trial, good());
+  ASSERT_EQ(checks.size(), 3u);
+  EXPECT_EQ(checks[0].kind, CheckKind::kExpectation);
+  EXPECT_EQ(checks[1].kind, CheckKind::kGoal);
+  EXPECT_EQ(checks[2].kind, CheckKind::kGuard);
+  EXPECT_EQ(verdict_of(checks), "FAILED (guard)");
+  EXPECT_EQ(format_checks(failed_of(checks)),
+            "  guard        ATE, SE(3)-aligned  0.0040 m  <= 0.0020 m  FAILED\n");
+  RunResults bad = good();
+  bad.corrected.reset();
+  EXPECT_EQ(verdict_of(check_trial(trial, bad)), "FAILED (goal, guard)");
+  trial.guard = {};
+  EXPECT_EQ(verdict_of(check_trial(trial, good())), "PASSED");
+}
+
+TEST(VerdictTest, AUsersExpectationFailsWithoutAKind) {
+  RunResults results = good();
+  results.losses = 1;
+  EXPECT_EQ(verdict_of(check_expectations(every_check(), results)), "FAILED");
+  for (const CheckKind kind : {CheckKind::kExpectation, CheckKind::kGoal, CheckKind::kGuard}) {
+    EXPECT_EQ(kind_of(name_of(kind)), kind);
+  }
+  EXPECT_EQ(kind_of(""), CheckKind::kExpectation);
+}
+
 }  // namespace
 }  // namespace vinebench::harness

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "vinebench/version.h"
 
 namespace vinebench::harness {
@@ -25,10 +27,16 @@ RunReport whole() {
   results.coverage = 0.5;
   results.corrected.emplace();
   results.corrected->ate.rmse = 0.25;
+  results.corrected->orientation.heading.rmse = std::numbers::pi;
+  results.corrected->worst = {2 * kNanosecondsPerSecond, 0.5};
+  results.corrected->world.emplace().position.rmse = 0.75;
+  results.drift = Drift{.error = 0.125, .percent = 1};
   results.consistency = Consistency{.frames = 3, .nees_mean = 6, .not_invertible = 2};
   results.loops.missed.resize(1);
   results.blind = OcclusionSegment{.seconds = 4, .inliers_clear = 160, .inliers_blind = 8};
   results.blind->occluder = OccluderClass::kPerson;
+  report.patterns = {{ErrorPatternKind::kLate, 0.1, 0.75},
+                     {ErrorPatternKind::kStep, 0.02, 1, kNanosecondsPerSecond}};
   report.keyframes = 7;
   report.cameras = {{"left", 500, 80, {}}, {"side", 0, 0, {}}};
   report.cameras[0].occlusion.share(OccluderClass::kCarton) = 0.125;
@@ -71,6 +79,18 @@ TEST(ReportJsonTest, HasEveryKeyInItsOrder) {
                                           "hash",
                                           "occlusion",
                                           "nees_left_out",
+                                          "heading_rmse_deg",
+                                          "heading_max_deg",
+                                          "tilt_rmse_deg",
+                                          "tilt_max_deg",
+                                          "worst_frame",
+                                          "ate_world_rmse_m",
+                                          "heading_world_rmse_deg",
+                                          "tilt_world_rmse_deg",
+                                          "drift_m",
+                                          "drift_percent",
+                                          "loop_returns",
+                                          "error_patterns",
                                           "expectations"};
   EXPECT_EQ(keys_of(to_json(whole())), expected);
 }
@@ -89,10 +109,17 @@ TEST(ReportJsonTest, HasTheValues) {
   EXPECT_EQ(json["input_faults"], Json({{"unreadable", 2}}));
   EXPECT_EQ(json["blind"]["inliers_drop"], 0.95);  // 1 - 8 / 160
   EXPECT_EQ(json["blind"]["occluder"], "person");
+  EXPECT_EQ(json["error_patterns"],
+            Json({{{"pattern", "late"}, {"size", 0.1}, {"share", 0.75}},
+                  {{"pattern", "step"}, {"size", 0.02}, {"share", 1.0}, {"t", 1.0}}}));
   EXPECT_EQ(json["timing_ms"]["stereo"], Json({{"mean", 1.0}, {"p50", 2.0}, {"p95", 3.0}}));
   EXPECT_EQ(json["wall_seconds"], 2);
   EXPECT_EQ(json["occlusion"], Json({{"left", {{"carton", 0.125}}}}));  // no key for the clear one
   EXPECT_EQ(json["nees_left_out"], 2);
+  EXPECT_DOUBLE_EQ(json["heading_rmse_deg"], 180);  // half a turn
+  EXPECT_EQ(json["worst_frame"], Json({{"error_m", 0.5}, {"t", 2.0}}));
+  EXPECT_EQ(json["ate_world_rmse_m"], 0.75);
+  EXPECT_EQ(json["drift_m"], 0.125);
   EXPECT_EQ(json["hash"], "abc");
 }
 
@@ -120,6 +147,9 @@ TEST(ReportJsonTest, TheHashedPartDependsOnResultsAlone) {
   slower.cameras[0].occlusion = {};
   slower.results.blind->occluder = OccluderClass::kCrate;
   slower.results.consistency->not_invertible = 0;
+  slower.results.corrected->world.reset();
+  slower.results.drift.reset();
+  slower.patterns.clear();
   EXPECT_EQ(hashed_json(slower).dump(), hashed);
   RunReport other = whole();
   other.landmarks += 1;
@@ -127,14 +157,20 @@ TEST(ReportJsonTest, TheHashedPartDependsOnResultsAlone) {
 }
 
 TEST(ReportJsonTest, ChecksAreReadBack) {
-  const std::vector<Check> checks = checks_of(
-      checks_json({{"ATE", "0.01 m", "<= 0.02 m", true}, {"coverage", "0.5", ">= 1", false}}));
+  const std::vector<Check> checks =
+      checks_of(checks_json({{"ATE", "0.01 m", "<= 0.02 m", true},
+                             {"coverage", "0.5", ">= 1", false, CheckKind::kGuard}}));
   ASSERT_EQ(checks.size(), 2u);
   EXPECT_EQ(checks[0].what, "ATE");
   EXPECT_EQ(checks[0].measured, "0.01 m");
   EXPECT_EQ(checks[0].expected, "<= 0.02 m");
   EXPECT_TRUE(checks[0].ok);
   EXPECT_FALSE(checks[1].ok);
+  EXPECT_EQ(checks[0].kind, CheckKind::kExpectation);
+  EXPECT_EQ(checks[1].kind, CheckKind::kGuard);
+  // An earlier program's have no kind.
+  const Json earlier{{{"what", "a"}, {"measured", "1"}, {"expected", "2"}, {"ok", true}}};
+  EXPECT_EQ(checks_of(earlier).at(0).kind, CheckKind::kExpectation);
 }
 
 }  // namespace

@@ -63,6 +63,20 @@ std::string source(const std::string& accessor, const std::string& list = R"(id=
          accessor + R"(><param name="S"/><param name="T"/></accessor></source>)";
 }
 
+TEST(ColladaCheckTest, IndicesAreWholeNumbers) {
+  for (const char* list : {"<p>0 -1\t+2\r\n3 </p>", "<p/>", "<p></p>", "<vcount> 3 3 </vcount>"}) {
+    EXPECT_EQ(problem(list), "") << list;
+  }
+  for (const char* name : {"p", "h", "v", "vcount"}) {
+    for (const char* text :
+         {"0 x 2", ".5", "1e5", "&lt;", "0 \xff", "<!-- --> x", "<![CDATA[x]]>"}) {
+      EXPECT_THAT(problem(fmt::format("<{0}>{1}</{0}>", name, text)),
+                  HasSubstr(fmt::format("plant.dae: <{}>: expected whole numbers, found", name)))
+          << text;
+    }
+  }
+}
+
 TEST(ColladaCheckTest, AnAccessorMayNotReadBeyondItsList) {
   EXPECT_EQ(problem(source(R"(source="#a" count="3" stride="2")")), "");
   EXPECT_EQ(problem(source(R"(source="#a" count="0" stride="9")")), "");

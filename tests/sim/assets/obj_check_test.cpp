@@ -46,6 +46,14 @@ TEST(ObjCheckTest, APropertyNeedsAMaterial) {
   EXPECT_THAT(mtl_problem("newmtls a\n"), HasSubstr("newmtl"));
 }
 
+TEST(ObjCheckTest, AMaterialLibraryIsNoUrl) {
+  for (const char* name : {"mesh.mtl://", "://", "http://host/mesh.mtl"}) {
+    EXPECT_THAT(obj_problem(std::string("o leaf\nmtllib ") + name),
+                HasSubstr("a.obj:2: mtllib: expected a file beside the mesh, found a URL"));
+  }
+  EXPECT_EQ(obj_problem("mtllib folder/mesh.mtl"), "");
+}
+
 // Faces of five corners each, of which two million fit.
 TEST(ObjCheckTest, CornersAreCounted) {
   std::string text;

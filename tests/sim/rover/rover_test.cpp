@@ -372,6 +372,19 @@ TEST(RoverTest, ErrorsNameWhatIsWrong) {
       },
       ThrowsMessage<Error>(HasSubstr("wheelless.xml")));
 
+  // Its parts meet one another where the model does not forbid it.
+  std::string text = read_file(csl_rover().model);
+  const std::string forbids = "<geom contype=\"0\" conaffinity=\"0\" rgba=\"0.25 0.27 0.30 1\"/>";
+  ASSERT_NE(text.find(forbids), std::string::npos);
+  RoverConfig tangled = csl_rover();
+  tangled.model = folder / "tangled.xml";
+  write_file_atomically(tangled.model, text.erase(text.find(forbids), forbids.size()));
+  EXPECT_THAT(
+      [&] {
+        Rover(tangled, field(), {0, 0, 0}, 1);
+      },
+      ThrowsMessage<Error>(HasSubstr("collides with itself: bodies ")));
+
   RoverConfig wide = csl_rover();
   wide.half_track = 0.25;
   EXPECT_THAT(

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+
 #include "core/util/error.h"
 #include "slam/optimisation/bundle_adjustment.h"
 #include "tests/support/aisle_map.h"
@@ -74,6 +76,23 @@ TEST_F(LoopCloserTest, ALoadedMapLiesInTheWorldAsItsRegisteredTagSays) {
   loop.record(*frame(0, {sighting(2, T_body_tag_)}), estimated, 0, map_);
   ASSERT_EQ(map_.tags().size(), 2u);
   EXPECT_LT(distance(map_.tags()[1].T_map_tag, T_map_tag), 1e-12);
+}
+
+// The map's pose in the world is that which the first registered tag gives, whatever comes after.
+TEST_F(LoopCloserTest, TheFirstRegisteredTagGivesTheWorld) {
+  const Pose T_world_tag{exp_so3({0.1, 0.2, 0.3}), {10, 20, 0.5}};
+  LoopCloser loop = closer({{"tag36h11", 0, 0.2, T_world_tag}});
+  loop.record(*frame(0, {sighting(9, T_body_tag_)}), body_, 0, map_);
+  EXPECT_FALSE(loop.T_world_map());
+  const TagSighting known = sighting(0, T_body_tag_);
+  loop.record(*frame(1, {known}), body_, 0, map_);
+  const auto T_world_map = loop.T_world_map();
+  ASSERT_TRUE(T_world_map);
+  const Pose T_world_seen = *T_world_map * body_ * T_body_tag_;
+  EXPECT_LT(distance(T_world_seen, T_world_tag), 1e-12);
+  EXPECT_LT(angle(T_world_seen, T_world_tag), 1e-7);  // acos near 1
+  loop.record(*frame(2, {known}), Pose{}, 0, map_);
+  EXPECT_EQ(distance(*loop.T_world_map(), *T_world_map), 0);
 }
 
 TEST_F(LoopCloserTest, AnUnregisteredTagIsMappedAtFirstSight) {
@@ -234,6 +253,14 @@ TEST_F(LoopClosureTest, TiesTheTwoVisitsTogether) {
   const Pose moved = truth_[0].inverse() * truth_[5];
   EXPECT_LT(distance(closure.T_earlier_later, moved), 1e-12);
   EXPECT_NEAR(closure.correction, 0.05, 1e-5);  // five steps of 1 cm
+  // Both sightings contribute: without the later one's part it is still a covariance.
+  const Pose T_body_tag = truth_[5].inverse() * T_world_tag_;
+  TagSighting seen = with_corners(sighting(0, T_body_tag));
+  const Matrix6d one =
+      carry_covariance(tag_covariance(seen, 0.161, rig_.tag_cameras, settings_.loop.corner_sigma),
+                       T_body_tag.inverse());
+  ASSERT_TRUE(closure.covariance);
+  EXPECT_EQ(Eigen::LLT<Matrix6d>(*closure.covariance - one).info(), Eigen::Success);
   expect_true_poses();
   // After the closure the visit continues.
   EXPECT_FALSE(loop.sees_loop(*keyframe(5, false), 2.5));
@@ -263,7 +290,9 @@ TEST_F(LoopClosureTest, ARegisteredTagThatIsNewClosesItWithTheLastOne) {
   const LoopClosure closure = loop.close(known_.add(last, drifted(5)), 2.5, known_.rig, known_.map);
   EXPECT_EQ(closure.tag_id, 7);
   EXPECT_EQ(closure.earlier, 0);
-  // With two tags the closure is taken from the adjusted map, which is accurate to 1e-6.
+  // With two tags the closure is taken from the adjusted map, which is accurate to 1e-6. How sure
+  // it is of that is not known.
+  EXPECT_FALSE(closure.covariance);
   const Pose moved = truth_[0].inverse() * truth_[5];
   EXPECT_LT(distance(closure.T_earlier_later, moved), 1e-6);
   EXPECT_EQ(distance(closure.T_earlier_later, known_.map.keyframe(0).T_map_body.inverse() *

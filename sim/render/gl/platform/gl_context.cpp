@@ -22,6 +22,15 @@ GlFunctions load_functions(const GlContext& context) {
   return loaded;
 }
 
+std::string gl_text(GlBackend backend, GLenum name) {
+  const std::unique_ptr<GlContext> context = make_gl_context(backend);
+  const CurrentContext current(*context);
+  PFNGLGETSTRINGPROC get_string = nullptr;
+  load(*context, "glGetString", get_string);
+  const GLubyte* text = get_string(name);
+  return text == nullptr ? "unknown" : reinterpret_cast<const char*>(text);
+}
+
 }  // namespace
 
 std::recursive_mutex& gl_mutex() {
@@ -61,12 +70,17 @@ std::unique_ptr<GlContext> make_gl_context(GlBackend backend) {
 }
 
 std::string gl_version(GlBackend backend) {
-  const std::unique_ptr<GlContext> context = make_gl_context(backend);
-  const CurrentContext current(*context);
-  PFNGLGETSTRINGPROC get_string = nullptr;
-  load(*context, "glGetString", get_string);
-  const GLubyte* text = get_string(GL_VERSION);
-  return text == nullptr ? "unknown" : reinterpret_cast<const char*>(text);
+  return gl_text(backend, GL_VERSION);
+}
+
+std::string gl_renderer(GlBackend backend) {
+  std::string text = gl_text(backend, GL_RENDERER);
+  const std::size_t width = text.find(" bits)");
+  const std::size_t comma = text.rfind(',', width);
+  if (width != std::string::npos && comma != std::string::npos) {
+    text.erase(comma, width + std::string_view(" bits").size() - comma);
+  }
+  return text;
 }
 
 }  // namespace vinebench::sim

@@ -57,6 +57,9 @@ std::unique_ptr<GlContext> make_gl_context(GlBackend backend = GlBackend::kAuto)
 /// What OpenGL says of itself: "4.5 (Core Profile) Mesa 22.3.6".
 std::string gl_version(GlBackend backend = GlBackend::kAuto);
 
+/// What draws: "llvmpipe (LLVM 15.0.6)", without the width of its vectors, which changes no pixel.
+std::string gl_renderer(GlBackend backend = GlBackend::kAuto);
+
 /// Makes a context current for a scope, in which no other thread is in OpenGL.
 class CurrentContext {
  public:

@@ -3,6 +3,7 @@
 #include "sim/render/gl/scene/mip_levels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -11,8 +12,33 @@ namespace {
 
 constexpr double kGamma = 2.2;  // the same power as the shaders'
 
+/// The light of each byte.
+std::array<float, 256> light_table() {
+  std::array<float, 256> table{};
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    table[i] = static_cast<float>(std::pow(static_cast<double>(i) / 255.0, kGamma));
+  }
+  return table;
+}
+
+/// The light from which on a byte is the next one, halfway between both.
+std::array<float, 255> byte_limits() {
+  std::array<float, 255> limits{};
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    limits[i] = static_cast<float>(std::pow((static_cast<double>(i) + 0.5) / 255.0, kGamma));
+  }
+  return limits;
+}
+
+std::uint8_t byte_of(float light) {
+  static const std::array<float, 255> limits = byte_limits();
+  return static_cast<std::uint8_t>(std::upper_bound(limits.begin(), limits.end(), light) -
+                                   limits.begin());
+}
+
 /// Linear light, weighted by alpha so that a cut-out's background does not bleed into its edge.
 cv::Mat to_light(const cv::Mat& rgba, bool cutout) {
+  static const std::array<float, 256> lights = light_table();
   cv::Mat light(rgba.size(), CV_32FC4);
   for (int y = 0; y < rgba.rows; ++y) {
     for (int x = 0; x < rgba.cols; ++x) {
@@ -20,9 +46,7 @@ cv::Mat to_light(const cv::Mat& rgba, bool cutout) {
       const float alpha = from[3] / 255.0f;
       const float weight = cutout ? std::max(alpha, 1e-3f) : 1.0f;
       cv::Vec4f& to = light.at<cv::Vec4f>(y, x);
-      for (int c = 0; c < 3; ++c) {
-        to[c] = weight * static_cast<float>(std::pow(from[c] / 255.0, kGamma));
-      }
+      for (int c = 0; c < 3; ++c) to[c] = weight * lights[from[c]];
       to[3] = cutout ? weight : alpha;
     }
   }
@@ -36,9 +60,7 @@ cv::Mat to_bytes(const cv::Mat& light, bool cutout, float alpha_scale) {
       const cv::Vec4f& from = light.at<cv::Vec4f>(y, x);
       cv::Vec4b& to = rgba.at<cv::Vec4b>(y, x);
       const float weight = cutout ? from[3] : 1.0f;
-      for (int c = 0; c < 3; ++c) {
-        to[c] = cv::saturate_cast<std::uint8_t>(255.0 * std::pow(from[c] / weight, 1 / kGamma));
-      }
+      for (int c = 0; c < 3; ++c) to[c] = byte_of(from[c] / weight);
       to[3] = cv::saturate_cast<std::uint8_t>(255.0f * alpha_scale * from[3]);
     }
   }

@@ -164,6 +164,12 @@ TEST_F(EurocReaderTest, FaultyCalibrationsAreErrors) {
   expect_error("distortion_model: expected radial-tangential");
   set_sensor("cam1", edited("resolution: [32", "resolution: [64"));
   expect_error("camera 'cam1': its calibration is for 64 x 24 pixels, its first image has 32 x 24");
+  for (const char* side : {"15", "16385", "32.5", "-32", "7e54"}) {
+    set_sensor("cam1", edited("resolution: [32", std::string("resolution: [") + side));
+    expect_error("resolution: expected 16 to 16384 pixels a side, found ");
+  }
+  set_sensor("cam1", edited("[20, 20, 15, 11]", "[0, 20, 15, 11]"));
+  expect_error("intrinsics: expected focal lengths above 0");
   set_sensor("cam1", "T_BS: [1, 2");
   expect_error("is not valid YAML");
   std::filesystem::remove(root_ / "mav0/cam1/sensor.yaml");

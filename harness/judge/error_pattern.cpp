@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/judge/error_pattern.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/angle.h"
+#include "core/util/percentile.h"
+#include "harness/judge/evaluation.h"
+
+namespace vinebench::harness {
+namespace {
+
+constexpr double kShareExplained = 0.6;  // of the squared error, at least
+constexpr double kVisible = 0.001;       // m RMS that a fit explains, at least
+constexpr double kLeastStep = 0.005;     // m
+constexpr double kTimesMedian = 10;      // the median change of the error
+constexpr double kLeastTurn = 0.5 * kRadiansPerDegree;
+constexpr double kInconsistent = 4;      // times the expected NEES
+constexpr double kDegreesOfFreedom = 6;  // of a pose
+
+using Vectors = std::vector<Eigen::Vector3d>;
+
+/// Truth and error of each associated frame, aligned by the first pose, m.
+struct Course {
+  Vectors error;
+  Vectors velocity;      ///< true, m/s
+  Vectors displacement;  ///< true, from the first pose
+  Vectors climb;         ///< the path's length upwards
+};
+
+Course course_of(const std::vector<PosePair>& pairs, const Pose& T_world_map) {
+  Course course;
+  double path = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const PosePair& before = pairs[i == 0 ? 0 : i - 1];
+    const PosePair& after = pairs[i + 1 == pairs.size() ? i : i + 1];
+    const Eigen::Vector3d& at = pairs[i].T_world_body.translation;
+    path += (at - before.T_world_body.translation).norm();
+    course.error.push_back(T_world_map * pairs[i].T_map_body.translation - at);
+    course.velocity.push_back((after.T_world_body.translation - before.T_world_body.translation) /
+                              to_seconds(std::max<Stamp>(after.stamp - before.stamp, 1)));
+    course.displacement.push_back(at - pairs.front().T_world_body.translation);
+    course.climb.push_back(path * Eigen::Vector3d::UnitZ());
+  }
+  return course;
+}
+
+double sum_of_products(const Vectors& a, const Vectors& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
+  return sum;
+}
+
+/// The best factor of `shape`, if it explains enough.
+void add_fit(ErrorPatternKind kind, double sign, const Vectors& shape, const Vectors& error,
+             std::vector<ErrorPattern>& patterns) {
+  const double squares = sum_of_products(shape, shape);
+  const double all = sum_of_products(error, error);
+  if (squares <= 0 || all <= 0) return;
+  const double product = sum_of_products(shape, error);
+  const double explained = product * product / squares;
+  if (explained < kShareExplained * all ||
+      explained < kVisible * kVisible * static_cast<double>(error.size())) {
+    return;
+  }
+  patterns.push_back({kind, sign * product / squares, explained / all});
+}
+
+void add_fits(const Course& course, std::vector<ErrorPattern>& patterns) {
+  Vectors turned;
+  for (const Eigen::Vector3d& d : course.displacement) turned.emplace_back(-d.y(), d.x(), 0);
+  std::vector<ErrorPattern> fits;
+  add_fit(ErrorPatternKind::kLate, -1, course.velocity, course.error, fits);
+  add_fit(ErrorPatternKind::kScale, 1, course.displacement, course.error, fits);
+  add_fit(ErrorPatternKind::kTurned, 1, turned, course.error, fits);
+  add_fit(ErrorPatternKind::kClimbing, 1, course.climb, course.error, fits);
+  std::ranges::stable_sort(fits, std::ranges::greater(), &ErrorPattern::share);
+  patterns.insert(patterns.end(), fits.begin(), fits.end());
+}
+
+/// Between neighbouring frames of the live estimate, except where a closure corrects it.
+void add_step(const RunRecord& record, const RunResults& results,
+              std::vector<ErrorPattern>& patterns) {
+  const auto pairs = associate(true_trajectory(record), live_trajectory(record));
+  if (pairs.size() < 3) return;
+  const Pose T_world_map = align_first(pairs);
+  std::vector<double> changes;
+  ErrorPattern step{ErrorPatternKind::kStep};
+  Eigen::Vector3d before = Eigen::Vector3d::Zero();
+  for (const PosePair& pair : pairs) {
+    const Eigen::Vector3d error =
+        T_world_map * pair.T_map_body.translation - pair.T_world_body.translation;
+    const double change = (error - before).norm();
+    before = error;
+    changes.push_back(change);
+    const bool corrected = std::ranges::any_of(results.loops.closures, [&](const auto& closure) {
+      return closure.correct && record.ticks[closure.tick].stamp == pair.stamp;
+    });
+    if (!corrected && change > step.size) {
+      step.size = change;
+      step.stamp = pair.stamp;
+    }
+  }
+  if (step.size >= std::max(kLeastStep, kTimesMedian * percentile(changes, 0.5))) {
+    patterns.push_back(step);
+  }
+}
+
+/// In the world: what aligning the first poses takes away.
+void add_world(const std::vector<PosePair>& pairs, const std::optional<Pose>& T_world_map,
+               std::vector<ErrorPattern>& patterns) {
+  if (!T_world_map) return;
+  const double aligned = position_errors(pairs, align_first(pairs)).rmse;
+  const double unaligned = position_errors(pairs, *T_world_map).rmse;
+  const double share = 1 - std::pow(aligned / std::max(unaligned, 1e-12), 2);
+  if (share < kShareExplained || unaligned < kVisible) return;
+  const Pose wrong = *T_world_map * pairs.front().T_map_body * pairs.front().T_world_body.inverse();
+  const Eigen::Vector3d& at = pairs.front().T_world_body.translation;
+  patterns.push_back({ErrorPatternKind::kWorldOffset, (wrong * at - at).norm(), share});
+  const double turn = Eigen::AngleAxisd(wrong.rotation).angle();
+  if (turn > kLeastTurn) patterns.push_back({ErrorPatternKind::kWorldTurn, turn, share});
+}
+
+void add_count(ErrorPatternKind kind, std::ptrdiff_t count, std::vector<ErrorPattern>& patterns) {
+  if (count > 0) patterns.push_back({kind, static_cast<double>(count)});
+}
+
+void add_consistency(const RunResults& results, std::vector<ErrorPattern>& patterns) {
+  if (!results.consistency || results.consistency->frames == 0) return;
+  const double ratio = results.consistency->nees_mean / kDegreesOfFreedom;
+  if (ratio >= kInconsistent) patterns.push_back({ErrorPatternKind::kOverconfident, ratio});
+  if (ratio <= 1 / kInconsistent) patterns.push_back({ErrorPatternKind::kUnderconfident, ratio});
+}
+
+}  // namespace
+
+const char* name_of(ErrorPatternKind kind) {
+  switch (kind) {
+    case ErrorPatternKind::kLate:
+      return "late";
+    case ErrorPatternKind::kScale:
+      return "scale";
+    case ErrorPatternKind::kTurned:
+      return "turned";
+    case ErrorPatternKind::kClimbing:
+      return "climbing";
+    case ErrorPatternKind::kStep:
+      return "step";
+    case ErrorPatternKind::kWorldOffset:
+      return "world_offset";
+    case ErrorPatternKind::kWorldTurn:
+      return "world_turn";
+    case ErrorPatternKind::kOverconfident:
+      return "overconfident";
+    case ErrorPatternKind::kUnderconfident:
+      return "underconfident";
+    case ErrorPatternKind::kLost:
+      return "lost";
+    case ErrorPatternKind::kWrongLoop:
+      return "wrong_loop";
+    case ErrorPatternKind::kMissedLoop:
+      return "missed_loop";
+  }
+  return "";
+}
+
+std::vector<ErrorPattern> error_patterns(const RunRecord& record, const RunResults& results) {
+  std::vector<ErrorPattern> patterns;
+  add_count(ErrorPatternKind::kLost, results.losses, patterns);
+  add_count(ErrorPatternKind::kWrongLoop, results.loops.wrong(), patterns);
+  add_count(ErrorPatternKind::kMissedLoop, std::ssize(results.loops.missed), patterns);
+  const auto pairs = associate(true_trajectory(record), record.summary.trajectory);
+  if (pairs.size() >= 3) {
+    add_fits(course_of(pairs, align_first(pairs)), patterns);
+    add_step(record, results, patterns);
+    add_world(pairs, record.summary.T_world_map, patterns);
+  }
+  add_consistency(results, patterns);
+  return patterns;
+}
+
+std::string text_of(const ErrorPattern& pattern) {
+  const double size = pattern.size;
+  const std::string share = fmt::format(" ({:.0f} %)", 100 * pattern.share);
+  switch (pattern.kind) {
+    case ErrorPatternKind::kLate:
+      return fmt::format("{:.0f} ms {}{}", 1000 * std::abs(size), size < 0 ? "early" : "late",
+                         share);
+    case ErrorPatternKind::kScale:
+      return fmt::format("scale {:+.1f} %{}", 100 * size, share);
+    case ErrorPatternKind::kTurned:
+      return fmt::format("path turned by {:+.2f} deg{}", size / kRadiansPerDegree, share);
+    case ErrorPatternKind::kClimbing:
+      return fmt::format("climbing {:+.1f} % of the path{}", 100 * size, share);
+    case ErrorPatternKind::kStep:
+      return fmt::format("a step of {:.0f} mm at {:.2f} s", 1000 * size, to_seconds(pattern.stamp));
+    case ErrorPatternKind::kWorldOffset:
+      return fmt::format("map {:.0f} mm off in the world{}", 1000 * size, share);
+    case ErrorPatternKind::kWorldTurn:
+      return fmt::format("map turned by {:.1f} deg in the world", size / kRadiansPerDegree);
+    case ErrorPatternKind::kOverconfident:
+      return fmt::format("squared errors {:.0f} times what the covariances say", size);
+    case ErrorPatternKind::kUnderconfident:
+      return fmt::format("squared errors {:.3f} of what the covariances say", size);
+    case ErrorPatternKind::kLost:
+      return fmt::format("lost {:.0f} times", size);
+    case ErrorPatternKind::kWrongLoop:
+      return fmt::format("{:.0f} wrong loop closures", size);
+    case ErrorPatternKind::kMissedLoop:
+      return fmt::format("{:.0f} missed loop closures", size);
+  }
+  return "";
+}
+
+std::string format_patterns(const std::vector<ErrorPattern>& patterns) {
+  std::string line;
+  for (const ErrorPattern& pattern : patterns) {
+    line += (line.empty() ? "pattern of the error: " : ", ") + text_of(pattern);
+  }
+  return line.empty() ? "" : line + "\n";
+}
+
+}  // namespace vinebench::harness

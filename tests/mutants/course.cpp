@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/mutants/course.h"
+
+#include "harness/judge/results.h"
+#include "harness/run/lockstep.h"
+#include "sim/world/world_layout.h"
+#include "slam/slam.h"
+
+namespace vinebench::mutants {
+
+Course::Course(const std::filesystem::path& scenario, int threads)
+    : file_(scenario),
+      scenario_(harness::load_scenario(scenario)),
+      machine_(harness::machine_of_environment()),
+      pool_(threads) {
+  frames_ = std::make_unique<KeptFrames>(*simulate(scenario_));
+}
+
+std::unique_ptr<SimulatedSource> Course::simulate(const harness::ScenarioConfig& scenario) {
+  return sim::make_simulation(scenario.simulation, static_cast<std::uint64_t>(scenario.seed),
+                              machine_.plant_cache, pool_);
+}
+
+Outcome Course::run(const Mutant& mutant) {
+  if (mutant.settings.empty()) {
+    frames_->rewind();
+    return judge(*frames_, mutant);
+  }
+  return judge(*simulate(harness::load_scenario(file_, mutant.settings)), mutant);
+}
+
+Outcome Course::judge(FrameSource& source, const Mutant& mutant) {
+  Told told{source.rig(), sim::registered_tags(scenario_.simulation.world), scenario_.slam};
+  if (mutant.tell) mutant.tell(told);
+  const auto honest = slam::make_slam(told.config, told.rig, told.tags, pool_);
+  SlamSystem* system = honest.get();
+  std::optional<FaultySlam> faulty;
+  if (mutant.fault) {
+    system = &faulty.emplace(*honest, *mutant.fault, source.size(), source.rig().rate_hz);
+  }
+  harness::RunRecorder recorder(source.rig(), sim::world_tags(scenario_.simulation.world));
+  harness::run_lockstep(source, *system, {&recorder});
+  const harness::Trial trial = harness::trial_of(scenario_);
+  const harness::RunResults results = harness::measure(recorder.record(), trial);
+  Outcome outcome;
+  for (harness::Check& check : harness::check_trial(trial, results)) {
+    if (!check.ok) outcome.failed.push_back(std::move(check));
+  }
+  outcome.patterns = harness::error_patterns(recorder.record(), results);
+  return outcome;
+}
+
+}  // namespace vinebench::mutants
