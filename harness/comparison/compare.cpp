@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/comparison/run_hashes.h"
 #include "harness/statistics/holm.h"
 
 namespace vinebench::harness {
@@ -230,7 +231,7 @@ std::vector<FigureComparison> compare_figures(const std::vector<RunPair>& pairs,
     if (figure.pairs() > 0) figures.push_back(std::move(figure));
   }
   for (const bool of_estimate : {true, false}) adjust(figures, of_estimate, settings.goal.alpha);
-  const bool same = identical(pairs);
+  const bool same = compare_hashes(pairs).relation == HashRelation::kSame;
   for (FigureComparison& figure : figures) {
     if (same && figure.metric.of_estimate && never_differs(figure)) {
       figure.p_equivalence = figure.adjusted_p_equivalence = 0;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "harness/comparison/repeats.h"
+#include "harness/comparison/run_hashes.h"
 
 namespace vinebench::harness {
 namespace {
@@ -126,7 +127,9 @@ std::string repeats_text(const PairedRuns& runs) {
 
 std::string heading(const std::string& name, const std::vector<RunPair>& pairs,
                     const std::vector<FigureComparison>& figures) {
-  const std::string equal = identical(pairs) ? "; all runs are the same to the byte" : "";
+  const std::string equal = compare_hashes(pairs).relation == HashRelation::kSame
+                                ? "; all runs are the same to the byte"
+                                : "";
   const Verdict verdict = overall(figures);
   const std::string text = verdict == Verdict::kCannotTell ? "cannot tell yet how B differs from A"
                            : verdict == Verdict::kEqual    ? "B is equal to A within the margins"
@@ -193,6 +196,9 @@ std::string format_comparison(const PairedRuns& runs, const CompareSettings& set
                         failures_text(figures, settings.goal.alpha));
   }
   text += repeats_text(runs);
+  if (const HashComparison hashes = compare_hashes(runs.pairs); !hashes.reason.empty()) {
+    text += fmt::format("hashes of A and B are not comparable: {}\n", hashes.reason);
+  }
   for (const std::string& run : runs.unpaired) text += fmt::format("not compared: {}\n", run);
   for (const std::string& run : runs.differing) {
     text += fmt::format("warning: not the same experiment: {}\n", run);
@@ -214,7 +220,7 @@ Json comparison_json(const PairedRuns& runs, const CompareSettings& settings) {
     }
     groups.push_back({{"name", name},
                       {"verdict", name_of(overall(figures))},
-                      {"identical", identical(pairs)},
+                      {"identical", compare_hashes(pairs).relation == HashRelation::kSame},
                       {"pairs", seeds},
                       {"figures", list},
                       {"failures", failures_json(figures, settings.goal.alpha)}});
@@ -225,6 +231,7 @@ Json comparison_json(const PairedRuns& runs, const CompareSettings& settings) {
           {"repeats",
            {{"a", repeats_json(repeats_of_side(runs.pairs, &RunPair::before))},
             {"b", repeats_json(repeats_of_side(runs.pairs, &RunPair::after))}}},
+          {"hashes_not_comparable", compare_hashes(runs.pairs).reason},
           {"not_compared", runs.unpaired},
           {"differing", runs.differing}};
 }

@@ -232,13 +232,4 @@ std::vector<std::pair<std::string, std::vector<RunPair>>> groups_of(const Paired
   return groups;
 }
 
-bool identical(const std::vector<RunPair>& pairs) {
-  return std::ranges::all_of(pairs, [](const RunPair& pair) {
-    const std::string hash = pair.before.repeats.front().hash();
-    const auto same = [&](const StoredRun& run) { return run.hash() == hash; };
-    return !hash.empty() && std::ranges::all_of(pair.before.repeats, same) &&
-           std::ranges::all_of(pair.after.repeats, same);
-  });
-}
-
 }  // namespace vinebench::harness

@@ -52,7 +52,4 @@ PairedRuns pair_runs(const std::filesystem::path& before, const std::filesystem:
 /// Pairs by scenario, as "row"; then all together if there are several, as "all scenarios".
 std::vector<std::pair<std::string, std::vector<RunPair>>> groups_of(const PairedRuns& runs);
 
-/// Every repeat of both sides has the same hash: the runs are the same to the byte.
-bool identical(const std::vector<RunPair>& pairs);
-
 }  // namespace vinebench::harness

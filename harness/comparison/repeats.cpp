@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "harness/comparison/run_hashes.h"
 #include "harness/statistics/shares.h"
 
 namespace vinebench::harness {
@@ -31,12 +32,6 @@ std::optional<FailingSeed> failing_seed(const RepeatedSeed& seed) {
   found.rate = clopper_pearson(found.failed, found.repeats, 0.05);
   found.checks.assign(names.begin(), names.end());
   return found;
-}
-
-std::set<std::string> hashes_of(const SeedRuns& runs) {
-  std::set<std::string> hashes;
-  for (const StoredRun& run : runs.repeats) hashes.insert(run.hash());
-  return hashes;
 }
 
 /// Values of each seed; logarithms if all are positive and the metric is a ratio's.
@@ -70,9 +65,10 @@ RepeatsSummary summary_of(const std::vector<RepeatedSeed>& seeds) {
     if (repeats_of(seed) < 2) continue;
     ++summary.seeds;
     if (const auto failing = failing_seed(seed)) summary.failing.push_back(*failing);
-    const std::set<std::string> hashes = hashes_of(seed.runs);
-    if (hashes.contains("")) summary.hashed = false;
-    if (hashes.size() > 1) summary.differing.push_back(seed.runs.seed);
+    const HashComparison hashes = compare_hashes(seed.runs.repeats);
+    if (hashes.relation == HashRelation::kUnknown) summary.hashed = false;
+    if (hashes.relation == HashRelation::kDiffer) summary.differing.push_back(seed.runs.seed);
+    if (!hashes.reason.empty()) summary.not_comparable = hashes.reason;
   }
   for (const Metric& metric : shown_metrics()) {
     if (auto figure = variance_of(metric, seeds)) summary.variances.push_back(std::move(*figure));
@@ -111,9 +107,12 @@ std::string hash_text(const RepeatsSummary& summary) {
     return "repeats agree by hash: the system is deterministic here, and one run of a seed is "
            "enough";
   }
-  if (summary.differing.empty()) return "runs without a hash";
-  return fmt::format("repeats differ by hash in seed {}: the system is not deterministic",
-                     fmt::join(summary.differing, ", "));
+  if (!summary.differing.empty()) {
+    return fmt::format("repeats differ by hash in seed {}: the system is not deterministic",
+                       fmt::join(summary.differing, ", "));
+  }
+  if (!summary.hashed) return "runs without a hash";
+  return "hashes are not comparable: " + summary.not_comparable;
 }
 
 }  // namespace
@@ -181,6 +180,7 @@ Json repeats_json(const std::vector<RepeatsSummary>& summaries) {
                     {"runs", summary.runs},
                     {"deterministic", summary.deterministic()},
                     {"differing_seeds", summary.differing},
+                    {"hashes_not_comparable", summary.not_comparable},
                     {"failing", failing},
                     {"figures", figures}});
   }

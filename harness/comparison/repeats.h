@@ -38,9 +38,10 @@ struct RepeatsSummary {
   std::vector<FailingSeed> failing{};     ///< flaky ones and broken ones
   std::vector<std::int64_t> differing{};  ///< seeds whose repeats have different hashes
   bool hashed = false;                    ///< every run has a hash
+  std::string not_comparable{};           ///< why hashes of some seed's repeats are not; or empty
   std::vector<FigureVariance> variances{};
 
-  bool deterministic() const { return hashed && differing.empty(); }
+  bool deterministic() const { return hashed && differing.empty() && not_comparable.empty(); }
 };
 
 /// A seed's repeats that have no results count as failed.

@@ -17,6 +17,16 @@ std::string StoredRun::hash() const {
   return found != json.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
+NamedValues StoredRun::hash_environment() const {
+  NamedValues environment;
+  const auto found = json.find("hash_environment");
+  if (found == json.end() || !found->is_object()) return environment;
+  for (const auto& [name, value] : found->items()) {
+    environment.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  return environment;
+}
+
 std::optional<StoredRun> stored_run(Json metrics) {
   StoredRun run;
   try {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "core/util/arithmetic.h"
 #include "harness/report/report_json.h"
 
 namespace vinebench::harness {
@@ -27,6 +28,10 @@ struct StoredRun {
 
   /// Of all its images and results; empty if the file has none.
   std::string hash() const;
+
+  /// What the hash depends on beside scenario, seed and build (harness/run/hash_environment.h);
+  /// empty if the file has none.
+  NamedValues hash_environment() const;
 };
 
 /// Empty if this is not the metrics of a run.

@@ -14,8 +14,10 @@
 #include "core/files/output_file.h"
 #include "core/files/output_folder.h"
 #include "core/util/error.h"
+#include "harness/datasets/files/json_file.h"
 #include "harness/jobs/run_scenario.h"
 #include "harness/report/run_folder.h"
+#include "harness/run/hash_environment.h"
 #include "harness/sets/child_process.h"
 #include "harness/sets/run_inputs.h"
 
@@ -35,8 +37,41 @@ bool has_inputs(const fs::path& folder, const std::string& fingerprint) {
          read_file(folder / kInputsFile) == fingerprint + "\n";
 }
 
+/// Environments of the runs' hashes in this process, by scenario.
+class Environments {
+ public:
+  explicit Environments(const SetOptions& options) : options_(options) {}
+
+  /// OpenGL starts in a child, because no child can use that of its parent.
+  const NamedValues& of(const ScenarioConfig& scenario) {
+    const auto found = known_.find(scenario.name);
+    if (found != known_.end()) return found->second;
+    const std::string text = run_in_child(scenario.name, [&] {
+      return json_text(Json(
+          hash_environment(options_.libraries ? options_.libraries(scenario) : NamedValues())));
+    });
+    return known_.emplace(scenario.name, Json::parse(text).get<NamedValues>()).first->second;
+  }
+
+ private:
+  const SetOptions& options_;
+  std::map<std::string, NamedValues> known_;
+};
+
+/// The results in a folder, if they are what this run would have.
+std::optional<StoredRun> same_run(const fs::path& folder, const ScenarioConfig& scenario,
+                                  const std::string& fingerprint, Environments& environments) {
+  if (!has_inputs(folder, fingerprint)) return std::nullopt;
+  std::optional<StoredRun> run = read_stored_run(folder / "metrics.json");
+  if (!run) return std::nullopt;
+  const std::string names =
+      environment_differences(run->hash_environment(), environments.of(scenario));
+  return names.empty() ? std::move(run) : std::nullopt;
+}
+
 /// Comparisons take all repeats of a seed as runs of one system.
-void remove_other_repeats(const PlannedRun& first, const std::string& fingerprint) {
+void remove_other_repeats(const PlannedRun& first, const std::string& fingerprint,
+                          Environments& environments) {
   std::error_code ignored;
   for (const fs::path& folder : {first.folder, first.folder.parent_path()}) {
     if (fs::is_symlink(folder, ignored)) return;
@@ -44,7 +79,8 @@ void remove_other_repeats(const PlannedRun& first, const std::string& fingerprin
   for (const auto& entry : fs::directory_iterator(first.folder, ignored)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(kRepeatFolder) || !entry.is_directory(ignored)) continue;
-    if (entry.is_symlink(ignored) || has_inputs(entry.path(), fingerprint)) continue;
+    if (entry.is_symlink(ignored)) continue;
+    if (same_run(entry.path(), first.scenario, fingerprint, environments)) continue;
     for (const char* file : {"metrics.json", kInputsFile}) {
       fs::remove(entry.path() / file, ignored);
     }
@@ -84,6 +120,7 @@ class RunningSet {
  public:
   RunningSet(const std::vector<PlannedRun>& plan, const SetOptions& options)
       : plan_(plan), options_(options) {
+    Environments environments(options);
     for (std::size_t i = 0; i < plan.size(); ++i) {
       const PlannedRun& run = plan[i];
       outcome_.runs.push_back({.scenario = run.scenario.name,
@@ -91,8 +128,9 @@ class RunningSet {
                                .folder = run.folder,
                                .repeat = run.repeat,
                                .repeats = run.repeats});
-      if (run.repeat == 1) remove_other_repeats(run, fingerprint_of_inputs(run.scenario));
-      if (!options.force && keep(outcome_.runs.back(), run)) {
+      const std::string fingerprint = fingerprint_of_inputs(run.scenario);
+      if (run.repeat == 1) remove_other_repeats(run, fingerprint, environments);
+      if (!options.force && keep(outcome_.runs.back(), run, fingerprint, environments)) {
         tell(outcome_.runs.back());
       } else {
         to_run_.push_back(i);
@@ -117,9 +155,9 @@ class RunningSet {
   }
 
  private:
-  bool keep(SetRun& result, const PlannedRun& run) {
-    if (!has_inputs(run.folder, fingerprint_of_inputs(run.scenario))) return false;
-    result.result = read_metrics(result);
+  static bool keep(SetRun& result, const PlannedRun& run, const std::string& fingerprint,
+                   Environments& environments) {
+    result.result = same_run(run.folder, run.scenario, fingerprint, environments);
     result.kept = result.result.has_value();
     return result.kept;
   }

@@ -35,10 +35,13 @@ using RunFunction =
     std::function<RunOutcome(const ScenarioConfig&, int threads, const RunOptions&)>;
 
 struct SetOptions {
-  int jobs = 1;                      ///< parallel runs
-  int threads = 1;                   ///< of all jobs together; each has at least one
-  bool force = false;                ///< repeat existing runs
-  RunFunction run;                   ///< called in child processes
+  int jobs = 1;        ///< parallel runs
+  int threads = 1;     ///< of all jobs together; each has at least one
+  bool force = false;  ///< repeat existing runs
+  RunFunction run;     ///< called in child processes
+  /// What makes the frames of a scenario's run, as its RunOptions::libraries; called in child
+  /// processes; nothing if empty.
+  std::function<NamedValues(const ScenarioConfig&)> libraries;
   std::function<bool()> stopped;     ///< polled; may be empty
   std::ostream* progress = nullptr;  ///< gets a line for every finished run
 };
@@ -68,10 +71,10 @@ struct SetOutcome {
 };
 
 /// Runs them in parallel, each in its own process with its messages in log.txt of its folder, so
-/// that a crash does not affect other runs. An existing complete run with the same inputs is kept.
-/// Metrics of further repeats of a planned seed, which an earlier set has left with other inputs,
-/// are removed.
-/// The number of threads changes no result.
+/// that a crash does not affect other runs. An existing complete run with the same inputs, of an
+/// environment whose hashes are comparable, is kept. Metrics of further repeats of a planned seed,
+/// which an earlier set has left with others, are removed. Throws Error if `libraries` does. The
+/// number of threads changes no result.
 SetOutcome run_set(const std::vector<PlannedRun>& plan, const SetOptions& options);
 
 }  // namespace vinebench::harness

@@ -96,8 +96,10 @@ std::vector<Check> check_repeats(const SlamChoice& slam,
                                  const std::optional<RepeatsSummary>& repeats) {
   if (!repeats || slam.external || slam.plugin) return {};
   const std::size_t differing = repeats->differing.size();
-  return {{"repeats agree by hash", fmt::format("{} seeds differ", differing), "0 seeds differ",
-           differing == 0}};
+  const std::string& obstacle = repeats->not_comparable;
+  return {{"repeats agree by hash",
+           obstacle.empty() ? fmt::format("{} seeds differ", differing) : obstacle,
+           "0 seeds differ", differing == 0 && obstacle.empty()}};
 }
 
 std::vector<std::string> cells_of(const std::vector<std::optional<double>>& values) {

@@ -26,4 +26,9 @@ inline std::vector<harness::RunPair> run_pairs(const std::string& key,
   return pairs;
 }
 
+/// What metrics.json has of a hash; `libm` computed it.
+inline harness::Json hash_json(const std::string& hash, const std::string& libm = "vinebench") {
+  return {{"hash", hash}, {"hash_environment", {{"libm", libm}, {"blas", "libblas.so"}}}};
+}
+
 }  // namespace vinebench::test

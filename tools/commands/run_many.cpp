@@ -15,6 +15,7 @@
 #include "core/util/error.h"
 #include "harness/datasets/files/json_file.h"
 #include "harness/jobs/run_scenario.h"
+#include "harness/jobs/simulation_versions.h"
 #include "harness/sets/junit.h"
 #include "harness/sets/set_report.h"
 #include "tools/arguments/command.h"
@@ -81,6 +82,9 @@ MadeRuns make_runs(const ManyRuns& many) {
   options.run = [&machine](const harness::ScenarioConfig& scenario, int threads,
                            const harness::RunOptions& run) {
     return harness::run_scenario(scenario, machine, threads, run);
+  };
+  options.libraries = [](const harness::ScenarioConfig& scenario) {
+    return harness::drawing_libraries(scenario.simulation.renderer);
   };
   options.stopped = interrupted;
   options.progress = &std::cerr;

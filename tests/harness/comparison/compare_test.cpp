@@ -174,14 +174,16 @@ TEST(CompareTest, IdenticalRunsAreEqual) {
   std::vector<RunPair> pairs;
   for (const std::int64_t seed : {1, 2}) {
     SeedRuns runs = test::seed_runs(seed, {{"/losses", 0}, {"/ate_rmse_m", 0.01}});
-    runs.repeats[0].json = {{"hash", "abc"}};
+    runs.repeats[0].json = test::hash_json("abc");
     pairs.push_back({runs, runs});
   }
   for (const FigureComparison& figure : compare_figures(pairs, {})) {
     EXPECT_EQ(figure.verdict, Verdict::kEqual) << figure.metric.title;
   }
-  pairs[1].after.repeats[0].json["hash"] = "abd";
-  EXPECT_EQ(compare_figures(pairs, {}).back().verdict, Verdict::kCannotTell);  // losses
+  for (const Json& other : {test::hash_json("abd"), test::hash_json("abc", "glibc")}) {
+    pairs[1].after.repeats[0].json = other;
+    EXPECT_EQ(compare_figures(pairs, {}).back().verdict, Verdict::kCannotTell) << other;  // losses
+  }
 }
 
 TEST(CompareTest, TheOverallVerdictIsThatOfTheEstimate) {

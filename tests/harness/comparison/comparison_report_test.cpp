@@ -88,6 +88,25 @@ TEST(ComparisonReportTest, TheDataHasAllNumbers) {
   EXPECT_GT(figure["pairs_needed"], 2);
 }
 
+TEST(ComparisonReportTest, HashesOfOtherEnvironmentsAreNotCompared) {
+  PairedRuns runs;
+  runs.pairs = test::run_pairs("/ate_rmse_m", {0.01, 0.02}, {0.01, 0.02});
+  for (RunPair& pair : runs.pairs) {
+    pair.before.repeats[0].json = pair.after.repeats[0].json = test::hash_json("a");
+  }
+  EXPECT_THAT(format_comparison(runs, {}),
+              AllOf(HasSubstr("2 pairs; all runs are the same to the byte)"),
+                    Not(HasSubstr("comparable"))));
+  runs.pairs[1].after.repeats[0].json = test::hash_json("a", "glibc");
+  EXPECT_THAT(format_comparison(runs, {}),
+              AllOf(HasSubstr("hashes of A and B are not comparable: their environments differ in "
+                              "libm\n"),
+                    Not(HasSubstr("same to the byte"))));
+  const Json json = comparison_json(runs, {});
+  EXPECT_EQ(json["groups"][0]["identical"], false);
+  EXPECT_EQ(json["hashes_not_comparable"], "their environments differ in libm");
+}
+
 TEST(ComparisonReportTest, RepeatsTellOfTheSystem) {
   PairedRuns runs = passed_runs();
   for (RunPair& pair : runs.pairs) {

@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "tests/support/compared_runs.h"
+
 namespace vinebench::harness {
 namespace {
 
@@ -15,13 +17,14 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-StoredRun repeat(std::int64_t seed, double ate_m, bool ok, const std::string& hash) {
-  return stored_run({{"scenario", "row"},
-                     {"seed", seed},
-                     {"ate_rmse_m", ate_m},
-                     {"hash", hash},
-                     {"expectations", checks_json({{"losses", "", "", ok}})}})
-      .value();
+StoredRun repeat(std::int64_t seed, double ate_m, bool ok, const std::string& hash,
+                 const std::string& libm = "vinebench") {
+  Json metrics{{"scenario", "row"},
+               {"seed", seed},
+               {"ate_rmse_m", ate_m},
+               {"expectations", checks_json({{"losses", "", "", ok}})}};
+  metrics.update(test::hash_json(hash, libm));
+  return stored_run(metrics).value();
 }
 
 RepeatedSeed seed_of(std::int64_t seed, std::vector<StoredRun> repeats,
@@ -64,6 +67,19 @@ TEST(RepeatsTest, ADeterministicSystemAgreesByHash) {
   EXPECT_TRUE(summaries.at(0).deterministic());
   EXPECT_THAT(format_repeats(summaries),
               AllOf(HasSubstr("repeats agree by hash"), Not(HasSubstr("between"))));
+}
+
+TEST(RepeatsTest, RepeatsOfOtherEnvironmentsDoNotTellByHash) {
+  const auto summaries = summarise_repeats(
+      {seed_of(1, {repeat(1, 0.01, true, "a"), repeat(1, 0.01, true, "a")}),
+       seed_of(2, {repeat(2, 0.02, true, "b"), repeat(2, 0.02, true, "b", "x")})});
+  EXPECT_FALSE(summaries.at(0).deterministic());
+  EXPECT_TRUE(summaries[0].differing.empty());
+  EXPECT_THAT(format_repeats(summaries),
+              AllOf(HasSubstr("hashes are not comparable: their environments differ in libm\n"),
+                    Not(HasSubstr("differ by hash"))));
+  EXPECT_EQ(repeats_json(summaries)[0]["hashes_not_comparable"],
+            "their environments differ in libm");
 }
 
 TEST(RepeatsTest, WithoutRepeatsThereIsNothingToSay) {

@@ -17,6 +17,7 @@ RunReport report() {
   report.results.loops.missed.resize(2);
   report.checks = {{"coverage", "0.5", ">= 1", false}};
   report.cost.wall_seconds = 12;
+  report.hash_environment = {{"libm", "vinebench"}, {"blas", "libblas.so"}};
   return report;
 }
 
@@ -34,6 +35,7 @@ TEST(StoredRunTest, HasWhatTheReportHad) {
   EXPECT_FALSE(run->value("/hash"));        // text
   EXPECT_EQ(run->value(kPassedKey), 0);     // its coverage is too low
   EXPECT_EQ(run->hash(), "");
+  EXPECT_EQ(run->hash_environment(), report().hash_environment);
   ASSERT_EQ(run->checks.size(), 1u);
   EXPECT_EQ(run->checks[0].what, "coverage");
   EXPECT_EQ(run->json, to_json(report()));
@@ -44,6 +46,7 @@ TEST(StoredRunTest, ARunWithoutExpectationsHasNoVerdict) {
   EXPECT_FALSE(run->value(kPassedKey));
   EXPECT_EQ(run->hash(), "abc");
   EXPECT_EQ(StoredRun{}.hash(), "");
+  EXPECT_TRUE(run->hash_environment().empty());
 }
 
 TEST(StoredRunTest, WhatIsNotARunsMetricsIsNone) {

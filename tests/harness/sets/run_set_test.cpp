@@ -180,6 +180,40 @@ TEST_F(RunSetTest, WhatIsThereIsKeptUnlessItsInputsDiffer) {
   EXPECT_FALSE(run({1})[0].kept);
 }
 
+// Its hash, and the last digits of its results, may be others.
+TEST_F(RunSetTest, WhatAnotherEnvironmentMadeRunsAgain) {
+  repeats_ = 2;
+  options_.run = [this](const ScenarioConfig& scenario, int threads, const RunOptions& options) {
+    RunOptions with_libraries = options;
+    with_libraries.libraries = options_.libraries(scenario);
+    return slide(scenario, threads, with_libraries);
+  };
+  const auto draws = [&](const char* renderer) {
+    options_.libraries = [renderer](const ScenarioConfig&) {
+      return NamedValues{{"renderer", renderer}};
+    };
+  };
+  draws("llvmpipe");
+  run({1});
+  EXPECT_TRUE(run({1})[1].kept);
+  draws("a GPU");
+  repeats_ = 1;
+  const SetRun again = run({1}).at(0);
+  EXPECT_FALSE(again.kept);
+  EXPECT_EQ(again.result.value().json["hash_environment"]["renderer"], "a GPU");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "fake/seed-1/repeat-2/metrics.json"));
+  EXPECT_TRUE(run({1})[0].kept);
+}
+
+// A program before it had the environment, or a file that was edited.
+TEST_F(RunSetTest, WhatHasNoEnvironmentRunsAgain) {
+  run({1});
+  Json metrics = read_stored_run(folder_ / "fake/seed-1/metrics.json").value().json;
+  metrics.erase("hash_environment");
+  folder_.write("fake/seed-1/metrics.json", metrics.dump());
+  EXPECT_FALSE(run({1})[0].kept);
+}
+
 TEST_F(RunSetTest, ARunThatCrashesIsAnErrorOfItsOwn) {
   options_.run = [](const ScenarioConfig& scenario, int threads, const RunOptions& options) {
     if (scenario.seed == 2) raise(SIGKILL);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "tests/support/compared_runs.h"
 #include "tests/support/set_runs.h"
 #include "tests/support/test_folder.h"
 
@@ -83,7 +84,7 @@ SetRun repeat_run(std::int64_t seed, int repeat, double ate, const std::string& 
   SetRun run = set_run(seed, ate);
   run.repeat = repeat;
   run.repeats = 3;
-  run.result->json["hash"] = hash;
+  run.result->json.update(test::hash_json(hash));
   return run;
 }
 
@@ -116,6 +117,16 @@ TEST(SetReportTest, TheBuiltInSystemsRepeatsMustAgree) {
   equal.erase(equal.begin() + 3, equal.begin() + 6);
   EXPECT_TRUE(summary_of(equal).repeat_checks.at(0).ok);
   EXPECT_THAT(format_repeats(std::vector{summary_of(equal)}), HasSubstr("repeats agree by hash"));
+}
+
+TEST(SetReportTest, RepeatsOfOtherEnvironmentsAreNotSaidToAgree) {
+  std::vector<SetRun> runs = repeated_runs();
+  runs.resize(3);
+  EXPECT_TRUE(summary_of(runs).repeat_checks.at(0).ok);
+  runs[1].result->json.update(test::hash_json("a", "glibc"));
+  const Check check = summary_of(runs).repeat_checks.at(0);
+  EXPECT_FALSE(check.ok);
+  EXPECT_EQ(check.measured, "their environments differ in libm");
 }
 
 TEST(SetReportTest, OtherSystemsMayDiffer) {
