@@ -13,61 +13,68 @@ namespace vinebench::harness {
 namespace {
 
 /// An effect, or an end of its interval.
-std::string effect_text(const FigureComparison& figure, double effect) {
-  switch (figure.method) {
+std::string effect_text(const MetricComparison& result, double effect) {
+  switch (result.method) {
     case Method::kRatio:
       return fmt::format("{:+.1f} %", 100 * std::expm1(effect));
     case Method::kDifference:
-      return fmt::format("{:+.{}f}", effect, figure.metric.decimals + 1);
+      return fmt::format("{:+.{}f}", effect, result.metric.decimals + 1);
     case Method::kOrdered:
       return fmt::format("{:+.0f} %", 100 * effect);
   }
   return "";
 }
 
-std::string interval_text(const FigureComparison& figure) {
-  if (!figure.interval) return "–";
-  return effect_text(figure, figure.interval->low) + " .. " +
-         effect_text(figure, figure.interval->high);
+std::string interval_text(const MetricComparison& result) {
+  if (!result.interval) return "–";
+  return effect_text(result, result.interval->low) + " .. " +
+         effect_text(result, result.interval->high);
 }
 
-std::string change_text(const FigureComparison& figure) {
-  if (figure.method != Method::kOrdered) return effect_text(figure, figure.effect);
-  return fmt::format("{} more, {} less", figure.counts.more, figure.counts.less);
+std::string change_text(const MetricComparison& result) {
+  if (result.method != Method::kOrdered) return effect_text(result, result.effect);
+  return fmt::format("{} more, {} less", result.counts.more, result.counts.less);
 }
 
-std::string margin_text(const FigureComparison& figure) {
-  switch (figure.method) {
+std::string margin_text(const MetricComparison& result) {
+  switch (result.method) {
     case Method::kRatio:
-      return fmt::format("{:g} %", std::round(1e6 * std::expm1(figure.margin)) / 1e4);
+      return fmt::format("{:g} %", std::round(1e6 * std::expm1(result.margin)) / 1e4);
     case Method::kDifference:
-      return fmt::format("{:g}", figure.margin);
+      return fmt::format("{:g}", result.margin);
     case Method::kOrdered:
-      return fmt::format("{:g} % of seeds", 100 * figure.margin);
+      return fmt::format("{:g} % of seeds", 100 * result.margin);
   }
   return "";
 }
 
-std::string verdict_text(const FigureComparison& figure) {
-  std::string text = name_of(figure.verdict);
-  if (figure.verdict != Verdict::kCannotTell) return text;
-  if (figure.needed) {
-    const std::size_t more = *figure.needed - figure.pairs();
-    return text + fmt::format(": {} more seed{}", more, more == 1 ? "" : "s");
+/// From 100 on to two digits: the spread is not known any better.
+std::string rounded_up(std::size_t seeds) {
+  std::size_t unit = 1;
+  while (seeds >= 100 * unit) unit *= 10;
+  return fmt::format("{}{}", unit > 1 ? "about " : "", (seeds + unit - 1) / unit * unit);
+}
+
+std::string verdict_text(const MetricComparison& result) {
+  std::string text = name_of(result.verdict);
+  if (result.verdict != Verdict::kCannotTell) return text;
+  if (result.needed) {
+    const std::size_t more = *result.needed - result.pairs();
+    return text + fmt::format(": {} more seed{}", rounded_up(more), more == 1 ? "" : "s");
   }
-  if (figure.pairs() < 2) return text + ": at least 1 more seed";
+  if (result.pairs() < 2) return text + ": at least 1 more seed";
   return text + fmt::format(": more than {} seeds", kMostPairs);
 }
 
-std::string comparison_table(const std::vector<FigureComparison>& figures, double alpha) {
-  std::vector<std::vector<std::string>> rows{{"figure", "pairs", "A", "B", "change",
+std::string comparison_table(const std::vector<MetricComparison>& results, double alpha) {
+  std::vector<std::vector<std::string>> rows{{"metric", "pairs", "A", "B", "change",
                                               fmt::format("{:g} % interval", 100 * (1 - alpha)),
                                               "margin", "verdict"}};
-  for (const FigureComparison& figure : figures) {
-    rows.push_back({figure.metric.title, std::to_string(figure.pairs()),
-                    format_value(figure.metric, figure.mean_before),
-                    format_value(figure.metric, figure.mean_after), change_text(figure),
-                    interval_text(figure), margin_text(figure), verdict_text(figure)});
+  for (const MetricComparison& result : results) {
+    rows.push_back({result.metric.title, std::to_string(result.pairs()),
+                    format_value(result.metric, result.mean_before),
+                    format_value(result.metric, result.mean_after), change_text(result),
+                    interval_text(result), margin_text(result), verdict_text(result)});
   }
   return markdown_table(rows, 1);
 }
@@ -92,19 +99,19 @@ std::string rate_text(const FailureRate& rate, double alpha) {
                      100 * interval.low, 100 * interval.high);
 }
 
-const FigureComparison* passed_figure(const std::vector<FigureComparison>& figures) {
-  for (const FigureComparison& figure : figures) {
-    if (figure.metric.key == kPassedKey) return &figure;
+const MetricComparison* passed_comparison(const std::vector<MetricComparison>& results) {
+  for (const MetricComparison& result : results) {
+    if (result.metric.key == kPassedKey) return &result;
   }
   return nullptr;
 }
 
-std::string failures_text(const std::vector<FigureComparison>& figures, double alpha) {
-  const FigureComparison* figure = passed_figure(figures);
-  if (figure == nullptr) return "";
+std::string failures_text(const std::vector<MetricComparison>& results, double alpha) {
+  const MetricComparison* result = passed_comparison(results);
+  if (result == nullptr) return "";
   return fmt::format("failing: A {}, B {}; exact test of McNemar p = {:.3g}\n",
-                     rate_text(failure_rate(figure->before), alpha),
-                     rate_text(failure_rate(figure->after), alpha), figure->p_difference);
+                     rate_text(failure_rate(result->before), alpha),
+                     rate_text(failure_rate(result->after), alpha), result->p_difference);
 }
 
 /// Repeats of one of the sides.
@@ -126,15 +133,15 @@ std::string repeats_text(const PairedRuns& runs) {
 }
 
 std::string heading(const std::string& name, const std::vector<RunPair>& pairs,
-                    const std::vector<FigureComparison>& figures) {
+                    const std::vector<MetricComparison>& results) {
   const std::string equal = compare_hashes(pairs).relation == HashRelation::kSame
                                 ? "; all runs are the same to the byte"
                                 : "";
-  const Verdict verdict = overall(figures);
+  const Verdict verdict = overall(results);
   const std::string text = verdict == Verdict::kCannotTell ? "cannot tell yet how B differs from A"
                            : verdict == Verdict::kEqual    ? "B is equal to A within the margins"
                                                         : fmt::format("B is {}", name_of(verdict));
-  return fmt::format("{}: {} (by the estimate's figures, {} pair{}{})", name, text, pairs.size(),
+  return fmt::format("{}: {} (by the estimate's metrics, {} pair{}{})", name, text, pairs.size(),
                      pairs.size() == 1 ? "" : "s", equal);
 }
 
@@ -142,39 +149,39 @@ Json interval_json(const std::optional<Interval>& interval) {
   return interval ? Json({interval->low, interval->high}) : Json();
 }
 
-Json figure_json(const FigureComparison& figure) {
-  Json json{{"figure", figure.metric.title},
-            {"key", name_of(figure.metric)},
-            {"method", name_of(figure.method)},
-            {"pairs", figure.pairs()},
-            {"a", figure.mean_before},
-            {"b", figure.mean_after},
-            {"difference", figure.mean_after - figure.mean_before},
-            {"values_a", figure.before},
-            {"values_b", figure.after},
-            {"differences", figure.differences},
-            {"spread", figure.sample.spread},
-            {"effect", figure.effect},
-            {"interval", interval_json(figure.interval)},
-            {"margin", figure.margin},
-            {"p_difference", figure.p_difference},
-            {"p_equivalence", figure.p_equivalence},
-            {"adjusted_p_difference", figure.adjusted_p_difference},
-            {"adjusted_p_equivalence", figure.adjusted_p_equivalence},
-            {"level", figure.level},
-            {"verdict", name_of(figure.verdict)},
-            {"pairs_needed", figure.needed ? Json(*figure.needed) : Json()}};
-  if (figure.method != Method::kOrdered) return json;
-  json["more"] = figure.counts.more;
-  json["less"] = figure.counts.less;
-  json["same"] = figure.counts.same;
-  json["tolerance"] = figure.tolerance;
+Json metric_json(const MetricComparison& result) {
+  Json json{{"metric", result.metric.title},
+            {"key", name_of(result.metric)},
+            {"method", name_of(result.method)},
+            {"pairs", result.pairs()},
+            {"a", result.mean_before},
+            {"b", result.mean_after},
+            {"difference", result.mean_after - result.mean_before},
+            {"values_a", result.before},
+            {"values_b", result.after},
+            {"differences", result.differences},
+            {"spread", result.sample.spread},
+            {"effect", result.effect},
+            {"interval", interval_json(result.interval)},
+            {"margin", result.margin},
+            {"p_difference", result.p_difference},
+            {"p_equivalence", result.p_equivalence},
+            {"adjusted_p_difference", result.adjusted_p_difference},
+            {"adjusted_p_equivalence", result.adjusted_p_equivalence},
+            {"level", result.level},
+            {"verdict", name_of(result.verdict)},
+            {"pairs_needed", result.needed ? Json(*result.needed) : Json()}};
+  if (result.method != Method::kOrdered) return json;
+  json["more"] = result.counts.more;
+  json["less"] = result.counts.less;
+  json["same"] = result.counts.same;
+  json["tolerance"] = result.tolerance;
   return json;
 }
 
-Json failures_json(const std::vector<FigureComparison>& figures, double alpha) {
-  const FigureComparison* figure = passed_figure(figures);
-  if (figure == nullptr) return {};
+Json failures_json(const std::vector<MetricComparison>& results, double alpha) {
+  const MetricComparison* result = passed_comparison(results);
+  if (result == nullptr) return {};
   const auto side = [&](const std::vector<double>& passed) {
     const FailureRate rate = failure_rate(passed);
     return Json{{"failed", rate.failed},
@@ -182,7 +189,7 @@ Json failures_json(const std::vector<FigureComparison>& figures, double alpha) {
                 {"interval", interval_json(rate.interval(alpha))}};
   };
   return {
-      {"a", side(figure->before)}, {"b", side(figure->after)}, {"p_mcnemar", figure->p_difference}};
+      {"a", side(result->before)}, {"b", side(result->after)}, {"p_mcnemar", result->p_difference}};
 }
 
 }  // namespace
@@ -190,10 +197,10 @@ Json failures_json(const std::vector<FigureComparison>& figures, double alpha) {
 std::string format_comparison(const PairedRuns& runs, const CompareSettings& settings) {
   std::string text;
   for (const auto& [name, pairs] : groups_of(runs)) {
-    const std::vector<FigureComparison> figures = compare_figures(pairs, settings);
-    text += fmt::format("\n{}\n\n{}{}", heading(name, pairs, figures),
-                        comparison_table(figures, settings.goal.alpha),
-                        failures_text(figures, settings.goal.alpha));
+    const std::vector<MetricComparison> results = compare_metrics(pairs, settings);
+    text += fmt::format("\n{}\n\n{}{}", heading(name, pairs, results),
+                        comparison_table(results, settings.goal.alpha),
+                        failures_text(results, settings.goal.alpha));
   }
   text += repeats_text(runs);
   if (const HashComparison hashes = compare_hashes(runs.pairs); !hashes.reason.empty()) {
@@ -209,9 +216,9 @@ std::string format_comparison(const PairedRuns& runs, const CompareSettings& set
 Json comparison_json(const PairedRuns& runs, const CompareSettings& settings) {
   Json groups = Json::array();
   for (const auto& [name, pairs] : groups_of(runs)) {
-    const std::vector<FigureComparison> figures = compare_figures(pairs, settings);
+    const std::vector<MetricComparison> results = compare_metrics(pairs, settings);
     Json list = Json::array();
-    for (const FigureComparison& figure : figures) list.push_back(figure_json(figure));
+    for (const MetricComparison& result : results) list.push_back(metric_json(result));
     Json seeds = Json::array();
     for (const RunPair& pair : pairs) {
       seeds.push_back({{"scenario", pair.before.scenario},
@@ -219,11 +226,11 @@ Json comparison_json(const PairedRuns& runs, const CompareSettings& settings) {
                        {"repeats", pair.before.repeats.size()}});
     }
     groups.push_back({{"name", name},
-                      {"verdict", name_of(overall(figures))},
+                      {"verdict", name_of(overall(results))},
                       {"identical", compare_hashes(pairs).relation == HashRelation::kSame},
                       {"pairs", seeds},
-                      {"figures", list},
-                      {"failures", failures_json(figures, settings.goal.alpha)}});
+                      {"metrics", list},
+                      {"failures", failures_json(results, settings.goal.alpha)}});
   }
   return {{"alpha", settings.goal.alpha},
           {"power", settings.goal.power},

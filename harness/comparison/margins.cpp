@@ -40,7 +40,7 @@ Margins parse_margins(const std::vector<std::string>& texts, const std::string& 
     const auto share = share_of(text);
     if (!share) {
       fail(
-          "{}: expected a percentage above 0% and below 100%, such as 5%, or FIGURE=VALUE, found "
+          "{}: expected a percentage above 0% and below 100%, such as 5%, or METRIC=VALUE, found "
           "'{}'",
           option, text);
     }
@@ -64,11 +64,11 @@ Margins parse_margins(const std::vector<std::string>& texts, const std::string& 
   return margins;
 }
 
-std::vector<Metric> parse_figures(const std::vector<std::string>& names) {
+std::vector<Metric> parse_metrics(const std::vector<std::string>& names) {
   std::vector<Metric> metrics;
   for (const std::string& name : names) {
     if (std::ranges::count(metrics, metric_named(name).key, &Metric::key) > 0) {
-      fail("figure '{}': is repeated", name);
+      fail("metric '{}': is repeated", name);
     }
     metrics.push_back(metric_named(name));
   }

@@ -11,9 +11,9 @@
 
 namespace vinebench::harness {
 
-/// Which difference of a figure matters.
+/// Which difference of a metric matters.
 struct Margin {
-  /// Of a ratio: 0.1 is B between A / 1.1 and A * 1.1. Of an ordered figure: of the seeds, in which
+  /// Of a ratio: 0.1 is B between A / 1.1 and A * 1.1. Of an ordered metric: of the seeds, in which
   /// B may have more, or less, than A.
   double share = 0.10;
   /// In the displayed unit. A ratio is then compared by its differences, by at most this on
@@ -21,7 +21,7 @@ struct Margin {
   std::optional<double> absolute{};
 };
 
-/// One for all figures, and those of single figures.
+/// One for all metrics, and those of single metrics.
 struct Margins {
   Margin common{};
   std::map<std::string, Margin> own{};  ///< by the metric's key
@@ -29,12 +29,12 @@ struct Margins {
   Margin of(const Metric& metric) const;
 };
 
-/// Each text is "5%" (all figures), "FIGURE=5%" or "FIGURE=2". Throws Error that names the option,
-/// for an unknown figure and for a value out of range.
+/// Each text is "5%" (all metrics), "METRIC=5%" or "METRIC=2". Throws Error that names the option,
+/// for an unknown metric and for a value out of range.
 Margins parse_margins(const std::vector<std::string>& texts, const std::string& option);
 
 /// The metrics of these names, those that comparisons show if there are none. Throws Error for an
 /// unknown name and one that is repeated.
-std::vector<Metric> parse_figures(const std::vector<std::string>& names);
+std::vector<Metric> parse_metrics(const std::vector<std::string>& names);
 
 }  // namespace vinebench::harness

@@ -35,27 +35,27 @@ std::optional<FailingSeed> failing_seed(const RepeatedSeed& seed) {
 }
 
 /// Values of each seed; logarithms if all are positive and the metric is a ratio's.
-std::optional<FigureVariance> variance_of(const Metric& metric,
+std::optional<MetricVariance> variance_of(const Metric& metric,
                                           const std::vector<RepeatedSeed>& seeds) {
-  FigureVariance figure{.metric = metric, .logarithmic = metric.compared_by == Scale::kRatio};
+  MetricVariance result{.metric = metric, .logarithmic = metric.compared_by == Scale::kRatio};
   std::vector<std::vector<double>> groups;
   for (const RepeatedSeed& seed : seeds) {
     std::vector<double>& group = groups.emplace_back();
     for (const StoredRun& run : seed.runs.repeats) {
       SeedRuns single{.repeats = {run}};
       if (const auto value = value_of(metric, single)) group.push_back(*value);
-      if (!group.empty() && group.back() <= 0) figure.logarithmic = false;
+      if (!group.empty() && group.back() <= 0) result.logarithmic = false;
     }
   }
-  if (figure.logarithmic) {
+  if (result.logarithmic) {
     for (auto& group : groups) {
       for (double& value : group) value = std::log(value);
     }
   }
   const auto components = variance_components(groups);
   if (!components) return std::nullopt;
-  figure.components = *components;
-  return figure;
+  result.components = *components;
+  return result;
 }
 
 RepeatsSummary summary_of(const std::vector<RepeatedSeed>& seeds) {
@@ -71,26 +71,26 @@ RepeatsSummary summary_of(const std::vector<RepeatedSeed>& seeds) {
     if (!hashes.reason.empty()) summary.not_comparable = hashes.reason;
   }
   for (const Metric& metric : shown_metrics()) {
-    if (auto figure = variance_of(metric, seeds)) summary.variances.push_back(std::move(*figure));
+    if (auto result = variance_of(metric, seeds)) summary.variances.push_back(std::move(*result));
   }
   return summary;
 }
 
-/// A standard deviation: a share of the value, or in the figure's unit.
-std::string deviation_text(const FigureVariance& figure, double variance) {
+/// A standard deviation: a share of the value, or in the metric's unit.
+std::string deviation_text(const MetricVariance& result, double variance) {
   const double deviation = std::sqrt(variance);
-  return figure.logarithmic ? fmt::format("{:.1f} %", 100 * std::expm1(deviation))
-                            : fmt::format("{:.{}f}", deviation, figure.metric.decimals + 1);
+  return result.logarithmic ? fmt::format("{:.1f} %", 100 * std::expm1(deviation))
+                            : fmt::format("{:.{}f}", deviation, result.metric.decimals + 1);
 }
 
-std::string variance_table(const std::vector<FigureVariance>& figures) {
+std::string variance_table(const std::vector<MetricVariance>& results) {
   std::vector<std::vector<std::string>> rows{
-      {"figure", "between repeats", "between seeds", "variance of the system"}};
-  for (const FigureVariance& figure : figures) {
-    const VarianceComponents& found = figure.components;
+      {"metric", "between repeats", "between seeds", "variance of the system"}};
+  for (const MetricVariance& result : results) {
+    const VarianceComponents& found = result.components;
     if (found.within + found.between <= 0) continue;
-    rows.push_back({figure.metric.title, deviation_text(figure, found.within),
-                    deviation_text(figure, found.between),
+    rows.push_back({result.metric.title, deviation_text(result, found.within),
+                    deviation_text(result, found.between),
                     fmt::format("{:.0f} %", 100 * found.share_within())});
   }
   return rows.size() == 1 ? "" : markdown_table(rows, 1);
@@ -160,9 +160,9 @@ Json repeats_json(const std::vector<RepeatsSummary>& summaries) {
                          {"failure_rate_95", {seed.rate.low, seed.rate.high}},
                          {"expectations", seed.checks}});
     }
-    Json figures = Json::array();
+    Json results = Json::array();
     for (const auto& [metric, logarithmic, found] : summary.variances) {
-      figures.push_back({{"figure", metric.title},
+      results.push_back({{"metric", metric.title},
                          {"key", name_of(metric)},
                          {"logarithmic", logarithmic},
                          {"seeds", found.groups},
@@ -182,7 +182,7 @@ Json repeats_json(const std::vector<RepeatsSummary>& summaries) {
                     {"differing_seeds", summary.differing},
                     {"hashes_not_comparable", summary.not_comparable},
                     {"failing", failing},
-                    {"figures", figures}});
+                    {"metrics", results}});
   }
   return list;
 }

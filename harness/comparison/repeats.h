@@ -22,9 +22,9 @@ struct FailingSeed {
   bool broken() const { return failed == repeats; }
 };
 
-/// A figure's variance between repeats, that of the system, apart from that between seeds, that of
+/// A metric's variance between repeats, that of the system, apart from that between seeds, that of
 /// the worlds.
-struct FigureVariance {
+struct MetricVariance {
   Metric metric{};
   bool logarithmic = false;  ///< of the logarithm: standard deviations are shares of the value
   VarianceComponents components{};
@@ -39,7 +39,7 @@ struct RepeatsSummary {
   std::vector<std::int64_t> differing{};  ///< seeds whose repeats have different hashes
   bool hashed = false;                    ///< every run has a hash
   std::string not_comparable{};           ///< why hashes of some seed's repeats are not; or empty
-  std::vector<FigureVariance> variances{};
+  std::vector<MetricVariance> variances{};
 
   bool deterministic() const { return hashed && differing.empty() && not_comparable.empty(); }
 };

@@ -58,7 +58,7 @@ std::optional<double> chance_of_more(const Values& values, double tolerance) {
 }
 
 /// The effect and the numbers of pairs by a spread or a rate that is known.
-FigurePlan completed(FigurePlan plan, const Margin& margin, const TestGoal& goal) {
+MetricPlan completed(MetricPlan plan, const Margin& margin, const TestGoal& goal) {
   const TestGoal single{.alpha = plan.level, .power = goal.power};
   if (plan.method == Method::kOrdered) {
     plan.effect = margin.share;
@@ -74,17 +74,18 @@ FigurePlan completed(FigurePlan plan, const Margin& margin, const TestGoal& goal
   return plan;
 }
 
-/// Plans of the figures that were measured; `measure` fills in the spread or the rate.
+/// Plans of the metrics that were measured; `measure` fills in the spread or the rate.
 template <class Measure>
-std::vector<FigurePlan> planned(const CompareSettings& settings, const Measure& measure) {
-  std::vector<FigurePlan> plans;
+std::vector<MetricPlan> planned(const CompareSettings& settings, const Measure& measure) {
+  std::vector<MetricPlan> plans;
   for (const Metric& metric : metrics_of(settings)) {
-    FigurePlan plan{.metric = metric};
+    MetricPlan plan{.metric = metric};
     if (measure(plan, settings.margins.of(metric))) plans.push_back(plan);
   }
-  if (plans.empty()) fail("expected two seeds of a scenario at least, which tell of the spread");
-  for (FigurePlan& plan : plans) {
-    const auto family = std::ranges::count_if(plans, [&](const FigurePlan& other) {
+  if (plans.empty())
+    fail("expected runs of at least two seeds of a scenario, to measure the spread");
+  for (MetricPlan& plan : plans) {
+    const auto family = std::ranges::count_if(plans, [&](const MetricPlan& other) {
       return other.metric.of_estimate == plan.metric.of_estimate;
     });
     plan.level = settings.goal.alpha / static_cast<double>(family);
@@ -93,7 +94,7 @@ std::vector<FigurePlan> planned(const CompareSettings& settings, const Measure& 
   return plans;
 }
 
-bool measure_pairs(FigurePlan& plan, const Margin& margin, const std::vector<RunPair>& pairs) {
+bool measure_pairs(MetricPlan& plan, const Margin& margin, const std::vector<RunPair>& pairs) {
   std::vector<std::pair<double, double>> values;
   for (const RunPair& pair : pairs) {
     const auto before = value_of(plan.metric, pair.before);
@@ -120,7 +121,7 @@ bool measure_pairs(FigurePlan& plan, const Margin& margin, const std::vector<Run
   return std::isfinite(plan.spread);
 }
 
-bool measure_set(FigurePlan& plan, const Margin& margin, const std::vector<SeedRuns>& runs) {
+bool measure_set(MetricPlan& plan, const Margin& margin, const std::vector<SeedRuns>& runs) {
   Values values;
   for (const SeedRuns& seed : runs) {
     const auto value = value_of(plan.metric, seed);
@@ -144,7 +145,7 @@ bool measure_set(FigurePlan& plan, const Margin& margin, const std::vector<SeedR
   return spread.has_value();
 }
 
-std::string spread_text(const FigurePlan& plan) {
+std::string spread_text(const MetricPlan& plan) {
   switch (plan.method) {
     case Method::kRatio:
       return fmt::format("{:.1f} %", 100 * std::expm1(plan.spread));
@@ -156,7 +157,7 @@ std::string spread_text(const FigurePlan& plan) {
   return "";
 }
 
-std::string detected_text(const FigurePlan& plan) {
+std::string detected_text(const MetricPlan& plan) {
   switch (plan.method) {
     case Method::kRatio:
       return fmt::format("{:g} %", std::round(1e6 * std::expm1(plan.effect)) / 1e4);
@@ -178,37 +179,37 @@ Json needed_json(const std::optional<std::size_t>& pairs) {
 
 }  // namespace
 
-std::vector<FigurePlan> plan_seeds(const std::vector<RunPair>& pairs,
+std::vector<MetricPlan> plan_seeds(const std::vector<RunPair>& pairs,
                                    const CompareSettings& settings) {
-  return planned(settings, [&](FigurePlan& plan, const Margin& margin) {
+  return planned(settings, [&](MetricPlan& plan, const Margin& margin) {
     return measure_pairs(plan, margin, pairs);
   });
 }
 
-std::vector<FigurePlan> plan_seeds(const std::vector<SeedRuns>& runs,
+std::vector<MetricPlan> plan_seeds(const std::vector<SeedRuns>& runs,
                                    const CompareSettings& settings) {
-  return planned(settings, [&](FigurePlan& plan, const Margin& margin) {
+  return planned(settings, [&](MetricPlan& plan, const Margin& margin) {
     return measure_set(plan, margin, runs);
   });
 }
 
-std::string format_plan(const std::vector<FigurePlan>& plans, const CompareSettings& settings) {
-  std::vector<std::vector<std::string>> rows{{"figure", "measured seeds", "spread of a pair",
+std::string format_plan(const std::vector<MetricPlan>& plans, const CompareSettings& settings) {
+  std::vector<std::vector<std::string>> rows{{"metric", "measured seeds", "spread of a pair",
                                               "change", "to detect it", "to show less than it"}};
-  for (const FigurePlan& plan : plans) {
+  for (const MetricPlan& plan : plans) {
     rows.push_back({plan.metric.title, std::to_string(plan.seeds), spread_text(plan),
                     detected_text(plan), needed_text(plan.to_detect),
                     needed_text(plan.to_show_equal)});
   }
   return markdown_table(rows, 1) +
-         fmt::format("seeds for a power of {:g} %, at alpha = {:g} for all figures together\n",
+         fmt::format("seeds for a power of {:g} %, at alpha = {:g} for all metrics together\n",
                      100 * settings.goal.power, settings.goal.alpha);
 }
 
-Json plan_json(const std::vector<FigurePlan>& plans, const CompareSettings& settings) {
+Json plan_json(const std::vector<MetricPlan>& plans, const CompareSettings& settings) {
   Json list = Json::array();
-  for (const FigurePlan& plan : plans) {
-    list.push_back({{"figure", plan.metric.title},
+  for (const MetricPlan& plan : plans) {
+    list.push_back({{"metric", plan.metric.title},
                     {"key", name_of(plan.metric)},
                     {"method", name_of(plan.method)},
                     {"measured_seeds", plan.seeds},
@@ -219,7 +220,7 @@ Json plan_json(const std::vector<FigurePlan>& plans, const CompareSettings& sett
                     {"seeds_to_detect", needed_json(plan.to_detect)},
                     {"seeds_to_show_equal", needed_json(plan.to_show_equal)}});
   }
-  return {{"alpha", settings.goal.alpha}, {"power", settings.goal.power}, {"figures", list}};
+  return {{"alpha", settings.goal.alpha}, {"power", settings.goal.power}, {"metrics", list}};
 }
 
 }  // namespace vinebench::harness

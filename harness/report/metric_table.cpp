@@ -84,7 +84,7 @@ const Metric& metric_named(const std::string& name) {
     if (name_of(metric) == name) return metric;
     names.push_back(name_of(metric));
   }
-  fail("figure '{}': expected one of {}{}", name, fmt::join(names, ", "),
+  fail("metric '{}': expected one of {}{}", name, fmt::join(names, ", "),
        did_you_mean(name, names));
 }
 

@@ -14,7 +14,7 @@ inline harness::SeedRuns seed_runs(std::int64_t seed, const std::map<std::string
   return {.scenario = "row", .seed = seed, .repeats = {run}};
 }
 
-/// Pairs of one figure, seed by seed.
+/// Pairs of one metric, seed by seed.
 inline std::vector<harness::RunPair> run_pairs(const std::string& key,
                                                const std::vector<double>& before,
                                                const std::vector<double>& after) {

@@ -157,7 +157,7 @@ mkdir -p "$work/a" "$work/b"
 echo '{"scenario": "row", "seed": 1, "ate_rmse_m": 0.01}' >"$work/a/metrics.json"
 echo '{"scenario": "row", "seed": 1, "ate_rmse_m": 0.02}' >"$work/b/metrics.json"
 expect 0 "comparison" "row: cannot tell yet" "at least 1 more seed" -- compare "$work/a" "$work/b"
-expect 2 "margin of no figure" "figure 'ate_rmse': " "did you mean 'ate_rmse_m'" -- \
+expect 2 "margin of no metric" "metric 'ate_rmse': " "did you mean 'ate_rmse_m'" -- \
   compare "$work/a" "$work/b" --margin ate_rmse=5%
 expect 2 "margin without a unit" "--margin: expected a percentage" -- \
   compare "$work/a" "$work/b" --margin 5
@@ -170,10 +170,10 @@ done
 expect 0 "comparison of two seeds" "row: B is equal to A within the margins" "| +1" -- \
   compare "$work/a3" "$work/b3" --margin ate_rmse_m=20% --json "$work/compared.json"
 grep -q '"adjusted_p_equivalence"' "$work/compared.json" || report "comparison: no p-values as JSON"
-expect 0 "plan by one system" "| ATE, mm |" "at most so many" -- plan "$work/a3" --detect 10%
+expect 0 "plan by one system" "| ATE, mm |" "usually an upper bound" -- plan "$work/a3" --detect 10%
 expect 0 "plan by two systems" "| ATE, mm |" -- \
-  plan "$work/a3" "$work/b3" --detect ate_rmse_m=1 --figure ate_rmse_m --power 0.9
-expect 2 "plan by one seed" "a: expected two seeds of a scenario" -- plan "$work/a" --detect 10%
+  plan "$work/a3" "$work/b3" --detect ate_rmse_m=1 --metric ate_rmse_m --power 0.9
+expect 2 "plan by one seed" "a: expected runs of at least two seeds of a scenario" -- plan "$work/a" --detect 10%
 expect 2 "plan without a change" "--detect is required" -- plan "$work/a3"
 expect 2 "plan of nothing" "none: expected a folder of runs" -- plan "$work/none" --detect 10%
 expect 2 "repeats of a recording" "--record: is for one scenario" -- \

@@ -52,10 +52,10 @@ Command compare_command() {
                    .required = true},
                   {.name = "--margin",
                    .target = &arguments->margins,
-                   .help = "Difference that does not matter, of all figures (5%) or of one "
+                   .help = "Difference that does not matter, of all metrics (5%) or of one "
                            "(ate_rmse_m=5%, or in its unit: ate_rmse_m=2); 10% by default; may be "
                            "repeated",
-                   .type = "[FIGURE=]VALUE"}},
+                   .type = "[METRIC=]VALUE"}},
       .run = [arguments] { return compare(*arguments); }};
   append(command.options, comparison_options(arguments->comparison));
   command.options.push_back({.name = "--json",

@@ -5,11 +5,11 @@
 namespace vinebench::tools {
 
 std::vector<Option> comparison_options(ComparisonArguments& arguments) {
-  return {{.name = "--figure",
-           .target = &arguments.figures,
-           .help = "Figure to look at, by its key in metrics.json (ate_rmse_m, "
+  return {{.name = "--metric",
+           .target = &arguments.metrics,
+           .help = "Metric to look at, by its key in metrics.json (ate_rmse_m, "
                    "loop_closures.wrong) or 'passed'; all of the table by default; may be repeated",
-           .type = "FIGURE"},
+           .type = "METRIC"},
           {.name = "--alpha",
            .target = &arguments.alpha,
            .help = "Probability of any false claim in a table",
@@ -25,7 +25,7 @@ std::vector<Option> comparison_options(ComparisonArguments& arguments) {
 harness::CompareSettings settings_of(const ComparisonArguments& arguments) {
   harness::CompareSettings settings;
   settings.goal = {.alpha = arguments.alpha, .power = arguments.power};
-  settings.metrics = harness::parse_figures(arguments.figures);
+  settings.metrics = harness::parse_metrics(arguments.metrics);
   return settings;
 }
 

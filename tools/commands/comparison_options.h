@@ -12,15 +12,15 @@ namespace vinebench::tools {
 
 /// What `compare` and `plan` have in common.
 struct ComparisonArguments {
-  std::vector<std::string> figures;
+  std::vector<std::string> metrics;
   double alpha = harness::TestGoal{}.alpha;
   double power = harness::TestGoal{}.power;
 };
 
-/// --figure, --alpha, --power.
+/// --metric, --alpha, --power.
 std::vector<Option> comparison_options(ComparisonArguments& arguments);
 
-/// Without margins. Throws Error for an unknown figure.
+/// Without margins. Throws Error for an unknown metric.
 harness::CompareSettings settings_of(const ComparisonArguments& arguments);
 
 }  // namespace vinebench::tools

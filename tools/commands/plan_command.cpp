@@ -23,7 +23,7 @@ struct PlanArguments {
   std::string json;
 };
 
-std::vector<harness::FigurePlan> plans_of(const PlanArguments& arguments,
+std::vector<harness::MetricPlan> plans_of(const PlanArguments& arguments,
                                           const harness::CompareSettings& settings) {
   try {
     return arguments.other.empty()
@@ -40,7 +40,7 @@ std::vector<harness::FigurePlan> plans_of(const PlanArguments& arguments,
 int plan(const PlanArguments& arguments) {
   harness::CompareSettings settings = settings_of(arguments.comparison);
   settings.margins = harness::parse_margins(arguments.detect, "--detect");
-  const std::vector<harness::FigurePlan> plans = plans_of(arguments, settings);
+  const std::vector<harness::MetricPlan> plans = plans_of(arguments, settings);
   if (!arguments.json.empty()) {
     write_file_atomically(arguments.json,
                           harness::json_text(harness::plan_json(plans, settings), 2) + "\n");
@@ -48,8 +48,8 @@ int plan(const PlanArguments& arguments) {
   fmt::print("{}", harness::format_plan(plans, settings));
   if (arguments.other.empty()) {
     fmt::print(
-        "by one system, as if the other had nothing in common with it: at most so many; "
-        "runs of both (plan A B) tell what the same worlds take out\n");
+        "from one system, as if the other had nothing in common with it: usually an upper bound; "
+        "`plan A B` measures the difference\n");
   }
   return 0;
 }
@@ -70,9 +70,9 @@ Command plan_command() {
                    .help = "Folder of another system's runs of the same scenarios and seeds"},
                   {.name = "--detect",
                    .target = &arguments->detect,
-                   .help = "Change to be detected, of all figures (10%) or of one "
+                   .help = "Change to be detected, of all metrics (10%) or of one "
                            "(ate_rmse_m=5%, or in its unit: ate_rmse_m=2); may be repeated",
-                   .type = "[FIGURE=]VALUE",
+                   .type = "[METRIC=]VALUE",
                    .required = true}},
       .run = [arguments] { return plan(*arguments); }};
   append(command.options, comparison_options(arguments->comparison));

@@ -17,35 +17,35 @@ using test::run_pairs;
 using testing::DoubleNear;
 using testing::ElementsAre;
 
-/// The one figure of these pairs.
-FigureComparison figure_of(const std::vector<RunPair>& pairs,
-                           const std::vector<std::string>& margins = {}) {
+/// The one metric of these pairs.
+MetricComparison comparison_of(const std::vector<RunPair>& pairs,
+                               const std::vector<std::string>& margins = {}) {
   const CompareSettings settings{.margins = parse_margins(margins, "--margin")};
-  return compare_figures(pairs, settings).at(0);
+  return compare_metrics(pairs, settings).at(0);
 }
 
 /// The ATE from some values to others, m.
-FigureComparison ate_of(const std::vector<double>& before, const std::vector<double>& after,
+MetricComparison ate_of(const std::vector<double>& before, const std::vector<double>& after,
                         const std::vector<std::string>& margins = {}) {
-  return figure_of(run_pairs("/ate_rmse_m", before, after), margins);
+  return comparison_of(run_pairs("/ate_rmse_m", before, after), margins);
 }
 
 // Twice, four times and twice: logarithms ln 2, 2 ln 2, ln 2 with the mean 4/3 ln 2 and the
 // standard deviation ln 2 / sqrt(3). t of two degrees is 4.30265: +- 4.30265 / 3 ln 2.
 TEST(CompareTest, ErrorsAreComparedByTheirRatios) {
-  const FigureComparison figure = ate_of({0.01, 0.02, 0.05}, {0.02, 0.08, 0.10});
-  EXPECT_EQ(figure.metric.title, "ATE, mm");
-  EXPECT_EQ(figure.method, Method::kRatio);
-  EXPECT_EQ(figure.pairs(), 3U);
+  const MetricComparison result = ate_of({0.01, 0.02, 0.05}, {0.02, 0.08, 0.10});
+  EXPECT_EQ(result.metric.title, "ATE, mm");
+  EXPECT_EQ(result.method, Method::kRatio);
+  EXPECT_EQ(result.pairs(), 3U);
   const double ln2 = std::log(2.0);
-  EXPECT_THAT(figure.differences, ElementsAre(DoubleNear(ln2, 1e-12), DoubleNear(2 * ln2, 1e-12),
+  EXPECT_THAT(result.differences, ElementsAre(DoubleNear(ln2, 1e-12), DoubleNear(2 * ln2, 1e-12),
                                               DoubleNear(ln2, 1e-12)));
-  EXPECT_NEAR(figure.mean_before, std::cbrt(10 * 20 * 50.0), 1e-9);  // geometric, mm
-  EXPECT_NEAR(figure.effect, 4 * ln2 / 3, 1e-12);
-  EXPECT_NEAR(figure.interval.value().low, (4 - 4.30265) * ln2 / 3, 1e-5);
-  EXPECT_NEAR(figure.interval.value().high, (4 + 4.30265) * ln2 / 3, 1e-5);
-  EXPECT_NEAR(figure.margin, std::log(1.1), 1e-12);
-  EXPECT_EQ(figure.verdict, Verdict::kCannotTell);
+  EXPECT_NEAR(result.mean_before, std::cbrt(10 * 20 * 50.0), 1e-9);  // geometric, mm
+  EXPECT_NEAR(result.effect, 4 * ln2 / 3, 1e-12);
+  EXPECT_NEAR(result.interval.value().low, (4 - 4.30265) * ln2 / 3, 1e-5);
+  EXPECT_NEAR(result.interval.value().high, (4 + 4.30265) * ln2 / 3, 1e-5);
+  EXPECT_NEAR(result.margin, std::log(1.1), 1e-12);
+  EXPECT_EQ(result.verdict, Verdict::kCannotTell);
 }
 
 // All of them twice as large but for 1 %.
@@ -67,36 +67,36 @@ TEST(CompareTest, ADifferenceWithinTheMarginIsEqual) {
 }
 
 // Differences 1, 2, 3 mm: mean 2, standard deviation 1, half width 4.30265 / sqrt(3).
-TEST(CompareTest, AMarginInTheFiguresUnitAsksForDifferences) {
-  const FigureComparison figure =
+TEST(CompareTest, AMarginInTheMetricsUnitAsksForDifferences) {
+  const MetricComparison result =
       ate_of({0.010, 0.011, 0.012}, {0.011, 0.013, 0.015}, {"ate_rmse_m=8"});
-  EXPECT_EQ(figure.method, Method::kDifference);
-  EXPECT_NEAR(figure.effect, 2, 1e-9);
-  EXPECT_NEAR(figure.interval.value().high, 2 + 4.30265 / std::sqrt(3.0), 1e-4);
-  EXPECT_EQ(figure.margin, 8);
-  EXPECT_EQ(figure.verdict, Verdict::kEqual);  // t of 0.95 is 2.92: the 90 % end is 3.7 mm
+  EXPECT_EQ(result.method, Method::kDifference);
+  EXPECT_NEAR(result.effect, 2, 1e-9);
+  EXPECT_NEAR(result.interval.value().high, 2 + 4.30265 / std::sqrt(3.0), 1e-4);
+  EXPECT_EQ(result.margin, 8);
+  EXPECT_EQ(result.verdict, Verdict::kEqual);  // t of 0.95 is 2.92: the 90 % end is 3.7 mm
 }
 
 TEST(CompareTest, OnePairTellsNothing) {
-  const FigureComparison figure = ate_of({0.01}, {0.02});
-  EXPECT_FALSE(figure.interval);
-  EXPECT_FALSE(figure.needed);
-  EXPECT_EQ(figure.verdict, Verdict::kCannotTell);
+  const MetricComparison result = ate_of({0.01}, {0.02});
+  EXPECT_FALSE(result.interval);
+  EXPECT_FALSE(result.needed);
+  EXPECT_EQ(result.verdict, Verdict::kCannotTell);
   EXPECT_EQ(ate_of({0.01}, {0.01}).verdict, Verdict::kCannotTell);
 }
 
 // An error of zero has no ratio: B has less in one pair of two.
 TEST(CompareTest, ValuesThatAreNotPositiveAreOrdered) {
-  const FigureComparison figure = ate_of({0.01, 0.02}, {0.0, 0.02});
-  EXPECT_EQ(figure.method, Method::kOrdered);
-  EXPECT_EQ(figure.counts.less, 1U);
-  EXPECT_EQ(figure.counts.same, 1U);
+  const MetricComparison result = ate_of({0.01, 0.02}, {0.0, 0.02});
+  EXPECT_EQ(result.method, Method::kOrdered);
+  EXPECT_EQ(result.counts.less, 1U);
+  EXPECT_EQ(result.counts.same, 1U);
 }
 
 // Fewer losses in 8 of 8 pairs: 2 / 2^8 = 0.8 %. In 5 of 5 pairs: 6 %.
 TEST(CompareTest, CountsAreComparedBySigns) {
   const auto losses = [](std::size_t pairs) {
-    return figure_of(
+    return comparison_of(
         run_pairs("/losses", std::vector<double>(pairs, 3), std::vector<double>(pairs, 1)));
   };
   EXPECT_NEAR(losses(8).p_difference, 2.0 / 256, 1e-12);
@@ -108,7 +108,7 @@ TEST(CompareTest, CountsAreComparedBySigns) {
 // Without any loss, 29 pairs show that less than a tenth have more or less: 0.9^29 = 4.7 %.
 TEST(CompareTest, RareEventsNeedManySeedsToBeEqual) {
   const auto none = [](std::size_t pairs) {
-    return figure_of(
+    return comparison_of(
         run_pairs("/losses", std::vector<double>(pairs, 0), std::vector<double>(pairs, 0)));
   };
   EXPECT_EQ(none(29).verdict, Verdict::kEqual);
@@ -116,7 +116,7 @@ TEST(CompareTest, RareEventsNeedManySeedsToBeEqual) {
   EXPECT_EQ(none(28).needed.value(), 29U);
 }
 
-// Fewer losses in all of 5 pairs, as one of four figures: 2 / 2^n must fall to 1.25 %, with 8
+// Fewer losses in all of 5 pairs, as one of four metrics: 2 / 2^n must fall to 1.25 %, with 8
 // pairs. One of 5 less may be chance: the net share of 20 % less its error, sqrt((0.2 - 0.04) / 5)
 // = 18 %, is below the margin.
 TEST(CompareTest, SeedsAreAskedForByTheEffectLessItsError) {
@@ -127,10 +127,10 @@ TEST(CompareTest, SeedsAreAskedForByTheEffectLessItsError) {
         pair.before.repeats[0].values[key] = pair.after.repeats[0].values[key] = 0;
       }
     }
-    const auto figures = compare_figures(pairs, {});
-    EXPECT_EQ(figures[1].metric.title, "losses");
-    EXPECT_DOUBLE_EQ(figures[1].level, 0.05 / 4);
-    return figures[1].needed;
+    const auto results = compare_metrics(pairs, {});
+    EXPECT_EQ(results[1].metric.title, "losses");
+    EXPECT_DOUBLE_EQ(results[1].level, 0.05 / 4);
+    return results[1].needed;
   };
   EXPECT_EQ(needed({1, 1, 1, 1, 1}), 8U);
   const TestGoal goal{.alpha = 0.05 / 4};
@@ -140,14 +140,14 @@ TEST(CompareTest, SeedsAreAskedForByTheEffectLessItsError) {
 // 5 % measured, with a standard error of 0.04 / sqrt(3) = 2.3 %: below 10 %.
 TEST(CompareTest, SmallEffectsAreToBeShownEqual) {
   CompareSettings settings;
-  settings.metrics = parse_figures({"ate_rmse_m"});
+  settings.metrics = parse_metrics({"ate_rmse_m"});
   settings.goal.alpha = 0.001;  // three pairs do not tell
   const auto pairs =
       run_pairs("/ate_rmse_m", {0.01, 0.01, 0.01},
                 {0.01 * std::exp(0.01), 0.01 * std::exp(0.05), 0.01 * std::exp(0.09)});
-  const FigureComparison figure = compare_figures(pairs, settings).at(0);
-  EXPECT_NEAR(figure.sample.spread, 0.04, 1e-12);
-  EXPECT_EQ(figure.needed,
+  const MetricComparison result = compare_metrics(pairs, settings).at(0);
+  EXPECT_NEAR(result.sample.spread, 0.04, 1e-12);
+  EXPECT_EQ(result.needed,
             pairs_to_show_equal(std::log(1.1) / 0.04, (0.05 + 0.04 / std::sqrt(3.0)) / 0.04,
                                 settings.goal));
 }
@@ -155,21 +155,21 @@ TEST(CompareTest, SmallEffectsAreToBeShownEqual) {
 // The ratios 1, 2, 4, 2: mean ln 2, standard deviation ln 2 sqrt(2 / 3), standard error half of it;
 // the rest is (1 - 0.408) ln 2, 0.725 standard deviations.
 TEST(CompareTest, LargeEffectsAreToBeDetected) {
-  const FigureComparison figure = ate_of({0.01, 0.01, 0.01, 0.01}, {0.01, 0.02, 0.04, 0.02});
-  EXPECT_EQ(figure.verdict, Verdict::kCannotTell);
+  const MetricComparison result = ate_of({0.01, 0.01, 0.01, 0.01}, {0.01, 0.02, 0.04, 0.02});
+  EXPECT_EQ(result.verdict, Verdict::kCannotTell);
   const double root = std::sqrt(2.0 / 3);
-  EXPECT_EQ(figure.needed, pairs_to_detect((1 - root / 2) / root, TestGoal{}));
+  EXPECT_EQ(result.needed, pairs_to_detect((1 - root / 2) / root, TestGoal{}));
 }
 
 // A coverage within half a percent is the same; a named tolerance takes its place.
 TEST(CompareTest, OrderedValuesHaveATolerance) {
   const auto pairs = run_pairs("/coverage", {0.99, 0.90}, {0.994, 0.95});
-  EXPECT_EQ(figure_of(pairs).counts.same, 1U);
-  EXPECT_EQ(figure_of(pairs).counts.more, 1U);
-  EXPECT_EQ(figure_of(pairs, {"coverage=6"}).counts.same, 2U);
+  EXPECT_EQ(comparison_of(pairs).counts.same, 1U);
+  EXPECT_EQ(comparison_of(pairs).counts.more, 1U);
+  EXPECT_EQ(comparison_of(pairs, {"coverage=6"}).counts.same, 2U);
 }
 
-// All runs have the same bytes; two seeds suffice, in every figure of the estimate.
+// All runs have the same bytes; two seeds suffice, in every metric of the estimate.
 TEST(CompareTest, IdenticalRunsAreEqual) {
   std::vector<RunPair> pairs;
   for (const std::int64_t seed : {1, 2}) {
@@ -177,12 +177,13 @@ TEST(CompareTest, IdenticalRunsAreEqual) {
     runs.repeats[0].json = test::hash_json("abc");
     pairs.push_back({runs, runs});
   }
-  for (const FigureComparison& figure : compare_figures(pairs, {})) {
-    EXPECT_EQ(figure.verdict, Verdict::kEqual) << figure.metric.title;
+  for (const MetricComparison& result : compare_metrics(pairs, {})) {
+    EXPECT_EQ(result.verdict, Verdict::kEqual) << result.metric.title;
+    EXPECT_EQ(result.interval.value().high, 0) << result.metric.title;
   }
   for (const Json& other : {test::hash_json("abd"), test::hash_json("abc", "glibc")}) {
     pairs[1].after.repeats[0].json = other;
-    EXPECT_EQ(compare_figures(pairs, {}).back().verdict, Verdict::kCannotTell) << other;  // losses
+    EXPECT_EQ(compare_metrics(pairs, {}).back().verdict, Verdict::kCannotTell) << other;  // losses
   }
 }
 
@@ -206,7 +207,7 @@ struct Change {
   double loss = 0.1;     ///< probability of a loss in B; 0.1 in A
 };
 
-/// Worlds multiply both systems' errors (three figures, which have the world in common); each
+/// Worlds multiply both systems' errors (three metrics, which have the world in common); each
 /// system adds 10 % of its own.
 std::vector<RunPair> simulate(RandomSequence& random, std::size_t seeds, const Change& change) {
   std::vector<RunPair> pairs;
@@ -226,10 +227,10 @@ std::vector<RunPair> simulate(RandomSequence& random, std::size_t seeds, const C
   return pairs;
 }
 
-/// Share of simulated comparisons in which any figure of the key's method has the verdict.
+/// Share of simulated comparisons in which any metric of the key's method has the verdict.
 struct VerdictRates {
-  double different = 0;  ///< better or worse, any figure
-  double equal = 0;      ///< any figure
+  double different = 0;  ///< better or worse, any metric
+  double equal = 0;      ///< any metric
   double right = 0;      ///< all errors are worse
 };
 
@@ -241,10 +242,10 @@ VerdictRates verdict_rates(const char* stream, std::size_t seeds, const Change& 
     bool different = false;
     bool equal = false;
     int worse = 0;
-    for (const FigureComparison& figure : compare_figures(simulate(random, seeds, change), {})) {
-      different |= figure.verdict == Verdict::kBetter || figure.verdict == Verdict::kWorse;
-      equal |= figure.verdict == Verdict::kEqual;
-      worse += figure.verdict == Verdict::kWorse && figure.method == Method::kRatio;
+    for (const MetricComparison& result : compare_metrics(simulate(random, seeds, change), {})) {
+      different |= result.verdict == Verdict::kBetter || result.verdict == Verdict::kWorse;
+      equal |= result.verdict == Verdict::kEqual;
+      worse += result.verdict == Verdict::kWorse && result.method == Method::kRatio;
     }
     rates.different += different / double(comparisons);
     rates.equal += equal / double(comparisons);
@@ -253,7 +254,7 @@ VerdictRates verdict_rates(const char* stream, std::size_t seeds, const Change& 
   return rates;
 }
 
-// Without any difference, a false "better" or "worse" in any of four figures has a probability of
+// Without any difference, a false "better" or "worse" in any of four metrics has a probability of
 // 5 % at most. Four standard deviations over 2,000 comparisons: 2 %.
 TEST(CompareSimulationTest, FalseDifferencesAreRare) {
   EXPECT_LE(verdict_rates("no difference", 6, Change{}, 2000).different, 0.05 + 0.02);
@@ -277,12 +278,12 @@ TEST(CompareSimulationTest, TheSeedsAskedForTell) {
   RandomSequence random(RandomStream(1, "seeds asked for"));
   CompareSettings settings;
   settings.margins = parse_margins({"3%"}, "--margin");
-  settings.metrics = parse_figures({"ate_rmse_m"});
+  settings.metrics = parse_metrics({"ate_rmse_m"});
   const auto verdict = [&](std::size_t seeds, double ratio) {
     const Change change{.log_ratio = std::log(ratio)};
-    return compare_figures(simulate(random, seeds, change), settings).at(0);
+    return compare_metrics(simulate(random, seeds, change), settings).at(0);
   };
-  const FigureComparison first = verdict(40, 1.015);
+  const MetricComparison first = verdict(40, 1.015);
   ASSERT_EQ(first.needed, std::max(pairs_to_detect(first.margin / first.sample.spread, {}),
                                    pairs_to_show_equal(first.margin / first.sample.spread, 0, {})));
   int equal = 0;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/comparison/comparison_report.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +35,7 @@ TEST(ComparisonReportTest, SaysWhatItIsSureOf) {
   runs.differing = {"row, seed 1: world.sun"};
   EXPECT_THAT(
       format_comparison(runs, {}),
-      AllOf(HasSubstr("row: B is worse (by the estimate's figures, 3 pairs)"),
+      AllOf(HasSubstr("row: B is worse (by the estimate's metrics, 3 pairs)"),
             HasSubstr("| ATE, mm |     3 | 46.42 | 92.98 | +100.3 % |"),
             HasSubstr("|   10 % |   worse |"), HasSubstr("not compared: row, seed 9 (only in a)\n"),
             HasSubstr("warning: not the same experiment: row, seed 1: world.sun\n"),
@@ -49,6 +50,17 @@ TEST(ComparisonReportTest, AsksForSeeds) {
                     HasSubstr("| cannot tell yet: 2 more seeds |"), HasSubstr("10 % of seeds")));
   runs.pairs = test::run_pairs("/ate_rmse_m", {0.01}, {0.02});
   EXPECT_THAT(format_comparison(runs, {}), HasSubstr("cannot tell yet: at least 1 more seed "));
+}
+
+// Some hundreds: rounded up to tens.
+TEST(ComparisonReportTest, ManySeedsAreRounded) {
+  PairedRuns runs;
+  runs.pairs = test::run_pairs("/ate_rmse_m", {0.01, 0.01, 0.01}, {0.012, 0.007, 0.014});
+  const std::size_t more = compare_metrics(runs.pairs, {}).at(0).needed.value() - 3;
+  ASSERT_GE(more, 100U);
+  ASSERT_LT(more, 1000U);
+  const std::string text = fmt::format("yet: about {:.0f}0 more seeds |", std::ceil(more / 10.0));
+  EXPECT_THAT(format_comparison(runs, {}), HasSubstr(text));
 }
 
 // 3 of 20: Clopper and Pearson have 3.2 .. 37.9 %, 0 of 20 has 1 - 0.025^(1/20) = 16.8 %. McNemar:
@@ -70,22 +82,22 @@ TEST(ComparisonReportTest, TheDataHasAllNumbers) {
   CompareSettings settings{.margins = parse_margins({"ate_rmse_m=5"}, "--margin")};
   const Json json = comparison_json(runs, settings);
   EXPECT_EQ(json["alpha"], 0.05);
-  const Json& figure = json["groups"][0]["figures"][0];
-  EXPECT_EQ(figure["key"], "ate_rmse_m");
-  EXPECT_EQ(figure["method"], "difference");
-  EXPECT_NEAR(figure["effect"].get<double>(), 2, 1e-9);
-  EXPECT_NEAR(figure["difference"].get<double>(), 2, 1e-9);
-  EXPECT_NEAR(figure["spread"].get<double>(), std::sqrt(2.0), 1e-9);
-  EXPECT_NEAR(figure["values_b"][1].get<double>(), 21, 1e-9);
-  EXPECT_NEAR(figure["differences"][0].get<double>(), 3, 1e-9);
+  const Json& result = json["groups"][0]["metrics"][0];
+  EXPECT_EQ(result["key"], "ate_rmse_m");
+  EXPECT_EQ(result["method"], "difference");
+  EXPECT_NEAR(result["effect"].get<double>(), 2, 1e-9);
+  EXPECT_NEAR(result["difference"].get<double>(), 2, 1e-9);
+  EXPECT_NEAR(result["spread"].get<double>(), std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(result["values_b"][1].get<double>(), 21, 1e-9);
+  EXPECT_NEAR(result["differences"][0].get<double>(), 3, 1e-9);
   // t of one degree is Cauchy's: the ends are 2 +- tan(pi 0.475) = 2 +- 12.7062.
-  EXPECT_NEAR(figure["interval"][0].get<double>(), 2 - 12.7062, 1e-4);
+  EXPECT_NEAR(result["interval"][0].get<double>(), 2 - 12.7062, 1e-4);
   // t = 2: p = 1 - 2 atan(2) / pi; t = (2 - 5): 1/2 - atan(3) / pi.
-  EXPECT_NEAR(figure["p_difference"].get<double>(), 1 - 2 * std::atan(2) / M_PI, 1e-9);
-  EXPECT_NEAR(figure["p_equivalence"].get<double>(), 0.5 - std::atan(3) / M_PI, 1e-9);
-  EXPECT_EQ(figure["adjusted_p_difference"], figure["p_difference"]);
-  EXPECT_EQ(figure["verdict"], "cannot tell yet");
-  EXPECT_GT(figure["pairs_needed"], 2);
+  EXPECT_NEAR(result["p_difference"].get<double>(), 1 - 2 * std::atan(2) / M_PI, 1e-9);
+  EXPECT_NEAR(result["p_equivalence"].get<double>(), 0.5 - std::atan(3) / M_PI, 1e-9);
+  EXPECT_EQ(result["adjusted_p_difference"], result["p_difference"]);
+  EXPECT_EQ(result["verdict"], "cannot tell yet");
+  EXPECT_GT(result["pairs_needed"], 2);
 }
 
 TEST(ComparisonReportTest, HashesOfOtherEnvironmentsAreNotCompared) {

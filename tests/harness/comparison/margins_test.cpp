@@ -28,7 +28,7 @@ TEST(MarginsTest, WhatIsNoMarginIsAnError) {
   const auto error = [](const std::string& text) {
     return test::error_of([&] { parse_margins({text}, "--margin"); });
   };
-  EXPECT_THAT(error("5"), AllOf(HasSubstr("--margin"), HasSubstr("FIGURE=VALUE, found '5'")));
+  EXPECT_THAT(error("5"), AllOf(HasSubstr("--margin"), HasSubstr("METRIC=VALUE, found '5'")));
   for (const char* text : {"0%", "-1%", "100%", "nan%", "%", "", "5 %", "1e999%"}) {
     EXPECT_THAT(error(text), HasSubstr("expected a percentage")) << text;
   }
@@ -41,12 +41,12 @@ TEST(MarginsTest, WhatIsNoMarginIsAnError) {
   EXPECT_THAT(error("ate_rmse=5%"), HasSubstr("did you mean 'ate_rmse_m'?"));
 }
 
-TEST(MarginsTest, FiguresByName) {
-  EXPECT_EQ(parse_figures({}).size(), shown_metrics().size() + 1);
-  EXPECT_EQ(parse_figures({}).front().key, kPassedKey);
-  EXPECT_EQ(parse_figures({"loop_closures.wrong"}).at(0).title, "loops wrong");
-  EXPECT_THAT(test::error_of([] { parse_figures({"losses", "losses"}); }), HasSubstr("repeated"));
-  EXPECT_THAT(test::error_of([] { parse_figures({"nothing"}); }), HasSubstr("expected one of"));
+TEST(MarginsTest, MetricsByName) {
+  EXPECT_EQ(parse_metrics({}).size(), shown_metrics().size() + 1);
+  EXPECT_EQ(parse_metrics({}).front().key, kPassedKey);
+  EXPECT_EQ(parse_metrics({"loop_closures.wrong"}).at(0).title, "loops wrong");
+  EXPECT_THAT(test::error_of([] { parse_metrics({"losses", "losses"}); }), HasSubstr("repeated"));
+  EXPECT_THAT(test::error_of([] { parse_metrics({"nothing"}); }), HasSubstr("expected one of"));
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ TEST(RepeatsTest, VariancesAreThoseOfLogarithms) {
       summarise_repeats({seed_of(1, {repeat(1, 0.01, true, "a"), repeat(1, 0.02, true, "b")}),
                          seed_of(2, {repeat(2, 0.04, true, "c"), repeat(2, 0.08, true, "d")})});
   ASSERT_EQ(summaries.at(0).variances.size(), 1u);
-  const FigureVariance& ate = summaries[0].variances[0];
+  const MetricVariance& ate = summaries[0].variances[0];
   EXPECT_TRUE(ate.logarithmic);
   const double square = std::log(2.0) * std::log(2.0);
   EXPECT_NEAR(ate.components.within, square / 2, 1e-12);

@@ -17,8 +17,8 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 CompareSettings detect(const std::vector<std::string>& changes,
-                       const std::vector<std::string>& figures = {}) {
-  return {.margins = parse_margins(changes, "--detect"), .metrics = parse_figures(figures)};
+                       const std::vector<std::string>& results = {}) {
+  return {.margins = parse_margins(changes, "--detect"), .metrics = parse_metrics(results)};
 }
 
 std::vector<SeedRuns> seeds_with(const std::string& key, const std::vector<double>& values) {
@@ -56,7 +56,7 @@ TEST(SeedPlanTest, OneSystemGivesAnUpperBound) {
 }
 
 // One failure in four: of the 12 ordered pairs, 3 have the failure second.
-TEST(SeedPlanTest, ChanceIsCountedForOrderedFigures) {
+TEST(SeedPlanTest, ChanceIsCountedForOrderedMetrics) {
   const auto plans = plan_seeds(seeds_with("/passed", {1, 0, 1, 1}), detect({"20%"}));
   EXPECT_EQ(plans.at(0).method, Method::kOrdered);
   EXPECT_NEAR(plans[0].rate, 0.25, 1e-12);
@@ -64,8 +64,8 @@ TEST(SeedPlanTest, ChanceIsCountedForOrderedFigures) {
   EXPECT_FALSE(plans[0].to_show_equal);  // chance alone is above 20 %
 }
 
-// Two figures of the estimate share alpha.
-TEST(SeedPlanTest, FiguresShareAlpha) {
+// Two metrics of the estimate share alpha.
+TEST(SeedPlanTest, MetricsShareAlpha) {
   std::vector<SeedRuns> runs = seeds_with("/ate_rmse_m", {0.01, 0.02, 0.03});
   for (SeedRuns& seed : runs)
     seed.repeats[0].values["/ate_origin_rmse_m"] = 0.1 + 0.01 * double(seed.seed);
@@ -80,10 +80,10 @@ TEST(SeedPlanTest, FiguresShareAlpha) {
 
 TEST(SeedPlanTest, ASingleSeedHasNoSpread) {
   EXPECT_THAT(test::error_of([] { plan_seeds(seeds_with("/ate_rmse_m", {1}), detect({"5%"})); }),
-              HasSubstr("expected two seeds of a scenario"));
+              HasSubstr("expected runs of at least two seeds of a scenario"));
   EXPECT_THAT(
       test::error_of([] { plan_seeds(test::run_pairs("/ate_rmse_m", {1}, {2}), detect({"5%"})); }),
-      HasSubstr("expected two seeds of a scenario"));
+      HasSubstr("expected runs of at least two seeds of a scenario"));
 }
 
 // A spread of zero needs the two pairs of a standard deviation.
@@ -99,8 +99,8 @@ TEST(SeedPlanTest, IsATableAndData) {
               AllOf(HasSubstr("| passed, % |              4 |    50 % of seeds |"),
                     HasSubstr("power of 80 %, at alpha = 0.05")));
   const Json json = plan_json(plans, settings);
-  EXPECT_EQ(json["figures"][0]["seeds_to_detect"], plans[0].to_detect.value());
-  EXPECT_TRUE(json["figures"][0]["seeds_to_show_equal"].is_null());
+  EXPECT_EQ(json["metrics"][0]["seeds_to_detect"], plans[0].to_detect.value());
+  EXPECT_TRUE(json["metrics"][0]["seeds_to_show_equal"].is_null());
 }
 
 }  // namespace

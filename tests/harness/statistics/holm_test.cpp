@@ -28,7 +28,7 @@ TEST(HolmTest, StaysAProbability) {
   EXPECT_THAT(holm_adjusted({}), IsEmpty());
 }
 
-// Of ten figures seven have no difference (uniform p-values) and three have a large one. Any false
+// Of ten metrics seven have no difference (uniform p-values) and three have a large one. Any false
 // claim among the seven: at most 5 %, and 1 - 0.95^7 = 30 % without the correction. Four standard
 // deviations over 10,000 trials are 0.9 %.
 TEST(HolmTest, AnyFalseClaimIsRare) {
