@@ -107,16 +107,14 @@ bool measure_pairs(MetricPlan& plan, const Margin& margin, const std::vector<Run
       values, [](const auto& pair) { return pair.first > 0 && pair.second > 0; });
   plan.method = planned_method(plan.metric, margin, positive);
   std::vector<double> differences;
-  std::size_t more = 0;
-  std::size_t less = 0;
+  std::size_t differing = 0;
   const double tolerance = margin.absolute.value_or(plan.metric.tolerance);
   for (const auto& [before, after] : values) {
     differences.push_back(plan.method == Method::kRatio ? std::log(after / before)
                                                         : after - before);
-    more += after - before > tolerance ? 1 : 0;
-    less += before - after > tolerance ? 1 : 0;
+    differing += std::abs(after - before) > tolerance ? 1 : 0;
   }
-  plan.rate = static_cast<double>(std::min(more, less)) / static_cast<double>(values.size());
+  plan.rate = static_cast<double>(differing) / static_cast<double>(2 * values.size());
   plan.spread = paired_mean(differences).spread;
   return std::isfinite(plan.spread);
 }

@@ -23,7 +23,8 @@ struct MetricPlan {
   std::optional<std::size_t> to_show_equal{};  ///< likewise; or if chance alone is above the effect
 };
 
-/// By the spread of the pairs' differences; for shares, by what is rarer, more or less.
+/// By the spread of the pairs' differences; of ordered metrics, as if those that differ did so by
+/// chance, as many in either direction.
 /// `settings.margins` has the effects to detect. Throws Error if no metric was measured for two
 /// seeds of a scenario.
 std::vector<MetricPlan> plan_seeds(const std::vector<RunPair>& pairs,

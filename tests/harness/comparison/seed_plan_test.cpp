@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "core/util/random.h"
 #include "tests/support/compared_runs.h"
 #include "tests/support/test_folder.h"
 
@@ -17,8 +18,8 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 CompareSettings detect(const std::vector<std::string>& changes,
-                       const std::vector<std::string>& results = {}) {
-  return {.margins = parse_margins(changes, "--detect"), .metrics = parse_metrics(results)};
+                       const std::vector<std::string>& metrics = {}) {
+  return {.margins = parse_margins(changes, "--detect"), .metrics = parse_metrics(metrics)};
 }
 
 std::vector<SeedRuns> seeds_with(const std::string& key, const std::vector<double>& values) {
@@ -62,6 +63,65 @@ TEST(SeedPlanTest, ChanceIsCountedForOrderedMetrics) {
   EXPECT_NEAR(plans[0].rate, 0.25, 1e-12);
   EXPECT_EQ(plans[0].to_detect, pairs_to_detect(PairRates{0.45, 0.25}, TestGoal{}));
   EXPECT_FALSE(plans[0].to_show_equal);  // chance alone is above 20 %
+}
+
+// B has more in two pairs of four: a quarter each way if that is chance.
+TEST(SeedPlanTest, PairsThatDifferAreTakenAsChance) {
+  const auto plans =
+      plan_seeds(test::run_pairs("/losses", {0, 0, 0, 0}, {1, 0, 2, 0}), detect({"20%"}));
+  EXPECT_NEAR(plans.at(0).rate, 0.25, 1e-12);
+  EXPECT_EQ(plans[0].to_detect, pairs_to_detect(PairRates{0.45, 0.25}, TestGoal{}));
+}
+
+/// Pairs with errors that have 14 % of noise in their ratio, and losses with these probabilities.
+std::vector<RunPair> simulated_pairs(RandomSequence& random, std::size_t seeds, double ratio,
+                                     const PairRates& losses) {
+  std::vector<RunPair> pairs;
+  for (std::size_t i = 0; i < seeds; ++i) {
+    const auto error = [&] { return std::exp(random.normal(-4, 0.1)); };
+    const double draw = random.uniform();
+    const auto seed = static_cast<std::int64_t>(i);
+    const double more = draw < losses.more ? 1 : 0;
+    const double less = draw >= losses.more && draw < losses.more + losses.less ? 1 : 0;
+    pairs.push_back({test::seed_runs(seed, {{"/ate_rmse_m", error()}, {"/losses", less}}),
+                     test::seed_runs(seed, {{"/ate_rmse_m", ratio * error()}, {"/losses", more}})});
+  }
+  return pairs;
+}
+
+/// A hundred pairs with just the spread and the chance of simulated_pairs().
+std::vector<RunPair> measured_pairs() {
+  std::vector<RunPair> pairs;
+  for (int i = 0; i < 100; ++i) {
+    const double ratio = std::exp((i % 2 == 0 ? 0.1 : -0.1) * std::sqrt(2.0));
+    pairs.push_back({test::seed_runs(i, {{"/ate_rmse_m", 0.01}, {"/losses", i < 5 ? 1 : 0}}),
+                     test::seed_runs(i, {{"/ate_rmse_m", ratio * 0.01},
+                                         {"/losses", i >= 5 && i < 10 ? 1 : 0}})});
+  }
+  return pairs;
+}
+
+// 500 trials of 80 % have a standard deviation of 1.8 %; four are 7.2 %.
+TEST(SeedPlanTest, PlannedSeedsReachTheirPower) {
+  RandomSequence random(RandomStream(1, "planned seeds"));
+  for (const char* metric : {"ate_rmse_m", "losses"}) {
+    CompareSettings settings = detect({"20%"}, {metric});
+    const MetricPlan planned = plan_seeds(measured_pairs(), settings).at(0);
+    settings.goal.power = 1e-9;  // seeds that a verdict asks for are of no interest here
+    const PairRates chance{0.05, 0.05};
+    constexpr int kTrials = 500;
+    int worse = 0;
+    int equal = 0;
+    for (int i = 0; i < kTrials; ++i) {
+      const auto tested = [&](std::size_t seeds, double ratio, const PairRates& rates) {
+        return compare_metrics(simulated_pairs(random, seeds, ratio, rates), settings).at(0);
+      };
+      worse += tested(planned.to_detect.value(), 1.2, {0.25, 0.05}).p_difference <= 0.05;
+      equal += tested(planned.to_show_equal.value(), 1, chance).p_equivalence <= 0.05;
+    }
+    EXPECT_GE(worse, (0.8 - 0.072) * kTrials) << metric;
+    EXPECT_GE(equal, (0.8 - 0.072) * kTrials) << metric;
+  }
 }
 
 // Two metrics of the estimate share alpha.
