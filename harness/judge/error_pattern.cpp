@@ -18,6 +18,10 @@ constexpr double kShareExplained = 0.6;  // of the squared error, at least
 constexpr double kVisible = 0.001;       // m RMS that a fit explains, at least
 constexpr double kLeastStep = 0.005;     // m
 constexpr double kTimesMedian = 10;      // the median change of the error
+constexpr double kLeastNoise = 0.002;    // m RMS
+constexpr double kUncorrelated = 0.3;    // autocorrelation of neighbouring frames, at most
+constexpr double kLeastTilt = 0.25 * kRadiansPerDegree;
+constexpr double kEvenTilt = 2;  // worst frame over RMS, at most
 constexpr double kLeastTurn = 0.5 * kRadiansPerDegree;
 constexpr double kInconsistent = 4;      // times the expected NEES
 constexpr double kDegreesOfFreedom = 6;  // of a pose
@@ -110,6 +114,28 @@ void add_step(const RunRecord& record, const RunResults& results,
   }
 }
 
+void add_noise(const Vectors& error, std::vector<ErrorPattern>& patterns) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& e : error) mean += e / static_cast<double>(error.size());
+  double squares = 0;
+  double products = 0;
+  for (std::size_t i = 0; i < error.size(); ++i) {
+    squares += (error[i] - mean).squaredNorm();
+    if (i > 0) products += (error[i] - mean).dot(error[i - 1] - mean);
+  }
+  const double rms = std::sqrt(squares / static_cast<double>(error.size()));
+  if (rms >= kLeastNoise && products <= kUncorrelated * squares) {
+    patterns.push_back({ErrorPatternKind::kNoise, rms});
+  }
+}
+
+void add_tilt(const OrientationErrors& orientation, std::vector<ErrorPattern>& patterns) {
+  const AngleStatistics& tilt = orientation.tilt;
+  if (tilt.rmse >= kLeastTilt && tilt.max <= kEvenTilt * tilt.rmse) {
+    patterns.push_back({ErrorPatternKind::kTilted, tilt.rmse});
+  }
+}
+
 /// In the world: what aligning the first poses takes away.
 void add_world(const std::vector<PosePair>& pairs, const std::optional<Pose>& T_world_map,
                std::vector<ErrorPattern>& patterns) {
@@ -150,6 +176,10 @@ const char* name_of(ErrorPatternKind kind) {
       return "climbing";
     case ErrorPatternKind::kStep:
       return "step";
+    case ErrorPatternKind::kNoise:
+      return "noise";
+    case ErrorPatternKind::kTilted:
+      return "tilted";
     case ErrorPatternKind::kWorldOffset:
       return "world_offset";
     case ErrorPatternKind::kWorldTurn:
@@ -175,10 +205,13 @@ std::vector<ErrorPattern> error_patterns(const RunRecord& record, const RunResul
   add_count(ErrorPatternKind::kMissedLoop, std::ssize(results.loops.missed), patterns);
   const auto pairs = associate(true_trajectory(record), record.summary.trajectory);
   if (pairs.size() >= 3) {
-    add_fits(course_of(pairs, align_first(pairs)), patterns);
+    const Course course = course_of(pairs, align_first(pairs));
+    add_fits(course, patterns);
+    add_noise(course.error, patterns);
     add_step(record, results, patterns);
     add_world(pairs, record.summary.T_world_map, patterns);
   }
+  if (results.corrected) add_tilt(results.corrected->orientation, patterns);
   add_consistency(results, patterns);
   return patterns;
 }
@@ -198,6 +231,10 @@ std::string text_of(const ErrorPattern& pattern) {
       return fmt::format("climbing {:+.1f} % of the path{}", 100 * size, share);
     case ErrorPatternKind::kStep:
       return fmt::format("a step of {:.0f} mm at {:.2f} s", 1000 * size, to_seconds(pattern.stamp));
+    case ErrorPatternKind::kNoise:
+      return fmt::format("noise of {:.0f} mm", 1000 * size);
+    case ErrorPatternKind::kTilted:
+      return fmt::format("tilted by {:.2f} deg", size / kRadiansPerDegree);
     case ErrorPatternKind::kWorldOffset:
       return fmt::format("map {:.0f} mm off in the world{}", 1000 * size, share);
     case ErrorPatternKind::kWorldTurn:

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/mutants/course.h"
 
+#include <algorithm>
+
+#include "harness/experiment/known_discrepancies.h"
 #include "harness/judge/results.h"
 #include "harness/run/lockstep.h"
 #include "sim/world/world_layout.h"
@@ -25,12 +28,14 @@ std::unique_ptr<SimulatedSource> Course::simulate(const harness::ScenarioConfig&
 Outcome Course::run(const Mutant& mutant) {
   if (mutant.settings.empty()) {
     frames_->rewind();
-    return judge(*frames_, mutant);
+    return judge(*frames_, scenario_, mutant);
   }
-  return judge(*simulate(harness::load_scenario(file_, mutant.settings)), mutant);
+  const harness::ScenarioConfig changed = harness::load_scenario(file_, mutant.settings);
+  return judge(*simulate(changed), changed, mutant);
 }
 
-Outcome Course::judge(FrameSource& source, const Mutant& mutant) {
+Outcome Course::judge(FrameSource& source, const harness::ScenarioConfig& simulated,
+                      const Mutant& mutant) {
   Told told{source.rig(), sim::registered_tags(scenario_.simulation.world), scenario_.slam};
   if (mutant.tell) mutant.tell(told);
   const auto honest = slam::make_slam(told.config, told.rig, told.tags, pool_);
@@ -48,6 +53,13 @@ Outcome Course::judge(FrameSource& source, const Mutant& mutant) {
     if (!check.ok) outcome.failed.push_back(std::move(check));
   }
   outcome.patterns = harness::error_patterns(recorder.record(), results);
+  outcome.segments = harness::diagnose(recorder.record(), results, trial);
+  outcome.discrepancies = harness::known_discrepancies(simulated, told.rig, told.tags);
+  std::erase_if(outcome.discrepancies, [&](const harness::Discrepancy& d) {
+    return std::ranges::any_of(trial.discrepancies, [&d](const harness::Discrepancy& own) {
+      return own.of == d.of && own.what == d.what && own.size == d.size;
+    });
+  });
   return outcome;
 }
 

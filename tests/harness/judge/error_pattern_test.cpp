@@ -149,6 +149,38 @@ TEST_F(ErrorPatternTest, AScaleIsNoOffsetInTheWorld) {
             found.end());
 }
 
+// 4 mm up and 4 mm down in turns.
+TEST_F(ErrorPatternTest, ErrorsThatDoNotLastAreNoise) {
+  const auto up_and_down = [](double size) {
+    return [size](std::int64_t frame) {
+      Pose pose = truth_at(frame);
+      pose.translation.z() += frame % 2 == 0 ? size : -size;
+      return pose;
+    };
+  };
+  const auto found = patterns(up_and_down(0.004));
+  ASSERT_THAT(found, testing::Not(testing::IsEmpty()));
+  EXPECT_EQ(found[0].kind, ErrorPatternKind::kNoise);
+  EXPECT_NEAR(found[0].size, 0.004, 1e-5);  // m; 46 up and 45 down: the mean is not quite zero
+  EXPECT_TRUE(patterns(up_and_down(0.0019)).empty());
+}
+
+// About the forward axis; positions are right.
+TEST_F(ErrorPatternTest, ARollThatStaysIsTilted) {
+  const auto rolled = [](double degrees) {
+    return [degrees](std::int64_t frame) {
+      Pose pose = truth_at(frame);
+      if (frame > 0) pose.rotation = exp_so3({degrees * std::numbers::pi / 180, 0, 0});
+      return pose;
+    };
+  };
+  const auto found = patterns(rolled(0.5));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].kind, ErrorPatternKind::kTilted);
+  EXPECT_NEAR(found[0].size, 0.5 * std::numbers::pi / 180 * std::sqrt(90.0 / 91), 1e-6);
+  EXPECT_TRUE(patterns(rolled(0.2)).empty());
+}
+
 // A mean NEES of 24 is four times the six degrees of freedom.
 TEST_F(ErrorPatternTest, CovariancesThatDoNotFitTheErrorsAreNamed) {
   results_.consistency = Consistency{.frames = 91, .nees_mean = 24};

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "harness/experiment/scenario.h"
+#include "harness/judge/discrepancy.h"
+
+namespace vinebench::harness {
+
+/// What a SLAM system that is told this rig and these tags is told wrong about the scenario's world
+/// and sensors: calibration, survey, and the instants of images. The one that moves the images most
+/// comes first. For the judge alone.
+std::vector<Discrepancy> known_discrepancies(const ScenarioConfig& scenario, const Rig& told,
+                                             const std::vector<RegisteredTag>& tags);
+
+}  // namespace vinebench::harness
