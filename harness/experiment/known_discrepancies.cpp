@@ -49,11 +49,11 @@ void add_timing(const sim::FrameTimingConfig& timing, const Rig& rig, double spe
 
 }  // namespace
 
-std::vector<Discrepancy> known_discrepancies(const ScenarioConfig& scenario, const Rig& told,
+std::vector<Discrepancy> known_discrepancies(const sim::SimulationConfig& simulation,
+                                             std::uint64_t seed, const Rig& told,
                                              const std::vector<RegisteredTag>& tags) {
-  const sim::SimulationConfig& simulation = scenario.simulation;
-  const Rig truth = sim::true_rig(load_rig(simulation.rover.rig), simulation.sensors.calibration,
-                                  static_cast<std::uint64_t>(scenario.seed));
+  const Rig truth =
+      sim::true_rig(load_rig(simulation.rover.rig), simulation.sensors.calibration, seed);
   std::vector<Discrepancy> list = rig_discrepancies(told, truth);
   const int reader = truth.tag_cameras.empty() ? 0 : truth.tag_cameras.front();
   const double focal = truth.cameras[static_cast<std::size_t>(reader)].model.fx;

@@ -2,17 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
-#include "harness/experiment/scenario.h"
-#include "harness/judge/discrepancy.h"
+#include "harness/judge/findings/discrepancy.h"
+#include "sim/simulation.h"
 
 namespace vinebench::harness {
 
-/// What a SLAM system that is told this rig and these tags is told wrong about the scenario's world
+/// What a SLAM system that is told this rig and these tags is told wrong about the simulated world
 /// and sensors: calibration, survey, and the instants of images. The one that moves the images most
 /// comes first. For the judge alone.
-std::vector<Discrepancy> known_discrepancies(const ScenarioConfig& scenario, const Rig& told,
+std::vector<Discrepancy> known_discrepancies(const sim::SimulationConfig& simulation,
+                                             std::uint64_t seed, const Rig& told,
                                              const std::vector<RegisteredTag>& tags);
 
 }  // namespace vinebench::harness

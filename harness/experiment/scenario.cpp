@@ -100,8 +100,9 @@ Trial trial_of(const ScenarioConfig& scenario) {
   const auto& waypoints = scenario.simulation.route.waypoints;
   if (!waypoints.empty()) trial.route_end = waypoints.back().position;
   trial.miscalibrated = scenario.simulation.sensors.calibration.any();
-  trial.discrepancies = known_discrepancies(scenario, load_rig(scenario.simulation.rover.rig),
-                                            sim::registered_tags(scenario.simulation.world));
+  trial.discrepancies = known_discrepancies(
+      scenario.simulation, static_cast<std::uint64_t>(scenario.seed),
+      load_rig(scenario.simulation.rover.rig), sim::registered_tags(scenario.simulation.world));
   return trial;
 }
 

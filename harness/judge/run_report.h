@@ -9,8 +9,8 @@
 
 #include "core/util/arithmetic.h"
 #include "harness/judge/degraded_segments.h"
-#include "harness/judge/discrepancy.h"
-#include "harness/judge/error_pattern.h"
+#include "harness/judge/findings/discrepancy.h"
+#include "harness/judge/findings/error_pattern.h"
 #include "harness/judge/verdict.h"
 #include "harness/run/run_cost.h"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/truth/site.h"
-#include "harness/judge/discrepancy.h"
 #include "harness/judge/expectations.h"
+#include "harness/judge/findings/discrepancy.h"
 
 namespace vinebench::harness {
 

@@ -8,8 +8,8 @@
 #include "core/util/worker_pool.h"
 #include "harness/experiment/scenario.h"
 #include "harness/judge/diagnosis.h"
-#include "harness/judge/discrepancy.h"
-#include "harness/judge/error_pattern.h"
+#include "harness/judge/findings/discrepancy.h"
+#include "harness/judge/findings/error_pattern.h"
 #include "harness/judge/verdict.h"
 #include "harness/machine.h"
 #include "tests/mutants/kept_frames.h"
@@ -40,6 +40,8 @@ class Course {
   std::unique_ptr<SimulatedSource> simulate(const harness::ScenarioConfig& scenario);
   Outcome judge(FrameSource& source, const harness::ScenarioConfig& simulated,
                 const Mutant& mutant);
+  void drive(FrameSource& source, SlamSystem& honest, const Mutant& mutant,
+             const harness::Trial& trial, Outcome& outcome) const;
 
   std::filesystem::path file_;
   harness::ScenarioConfig scenario_;

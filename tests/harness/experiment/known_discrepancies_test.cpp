@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/experiment/scenario.h"
+
 namespace vinebench::harness {
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "harness/judge/error_pattern.h"
+#include "harness/judge/findings/error_pattern.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
