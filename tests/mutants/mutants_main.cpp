@@ -125,8 +125,8 @@ std::vector<Mutant> chosen(const std::vector<std::string>& names) {
 int run(int argc, char** argv) {
   CLI::App app("Plants faults and prints which gates of the scenarios fail");
   const std::string root = VINEBENCH_SOURCE_DIR "/scenarios/";
-  std::vector<std::string> scenarios{root + "quick-loop.yaml", root + "short/csl-1-short.yaml",
-                                     root + "short/many-rows-short.yaml"};
+  std::vector<std::string> scenarios{root + "quick-loop.yaml", root + "short/many-rows-short.yaml",
+                                     root + "short/csl-1-short.yaml"};
   std::vector<std::string> only;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   app.add_option("SCENARIO", scenarios, "files of scenarios")->check(CLI::ExistingFile);

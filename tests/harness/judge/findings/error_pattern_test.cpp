@@ -106,6 +106,35 @@ TEST_F(ErrorPatternTest, HeightThatGrowsWithThePathIsClimbing) {
   EXPECT_NEAR(found[0].size, 0.01, 1e-9);
 }
 
+// 4 m of path: 4 cm to the left at the end.
+TEST_F(ErrorPatternTest, AnErrorThatGrowsInOneDirectionIsDrifting) {
+  const auto found = patterns([](std::int64_t i) {
+    Pose pose = truth_at(i);
+    pose.translation.y() += 0.01 * (truth_at(i).translation.x() + truth_at(i).translation.y());
+    return pose;
+  });
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0].kind, ErrorPatternKind::kDrifting);
+  EXPECT_NEAR(found[0].size, 0.01, 1e-9);
+}
+
+// 4 m of path: 0.4 degrees at the end, and 0.2, which is not enough.
+TEST_F(ErrorPatternTest, AHeadingWhoseErrorGrowsIsTurning) {
+  const auto turning = [](double degrees_a_metre) {
+    return [=](std::int64_t i) {
+      Pose pose = truth_at(i);
+      const double path = pose.translation.x() + pose.translation.y();
+      pose.rotation = exp_so3({0, 0, degrees_a_metre * path * std::numbers::pi / 180});
+      return pose;
+    };
+  };
+  const auto found = patterns(turning(0.1));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].kind, ErrorPatternKind::kTurning);
+  EXPECT_NEAR(found[0].size, 0.1 * std::numbers::pi / 180, 1e-9);
+  EXPECT_TRUE(patterns(turning(0.05)).empty());
+}
+
 TEST_F(ErrorPatternTest, AStepHasItsSizeAndTime) {
   const auto found = patterns([](std::int64_t i) {
     Pose pose = truth_at(i);
