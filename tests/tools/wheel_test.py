@@ -49,11 +49,12 @@ def main(vinebench, root, work):
     # The settings of run.sh: its program is none here.
     (work / "sh").mkdir()
     subprocess.run([example / "run.sh", "/bin/true", words[0], recording, work / "sh"], check=True)
-    for settings in (recording / "settings/orbslam3_rectified.yaml",
-                     recording / "settings/orbslam3_raw.yaml", work / "sh/settings.yaml"):
+    for settings, more in ((recording / "settings/orbslam3_rectified.yaml", []),
+                           (recording / "settings/orbslam3_raw.yaml", ["--no-wait"]),
+                           (work / "sh/settings.yaml", ["--no-loops"])):
         output = work / f"output-{settings.stem}"
         done = subprocess.run([python, example / "run_wheel.py", recording, output, "--vocabulary",
-                               words[0], "--settings", settings], capture_output=True, text=True)
+                               words[0], "--settings", settings, *more], capture_output=True, text=True)
         check(f"{settings.name}: {done.returncode} {done.stderr.strip()}",
               (done.returncode, done.stdout + done.stderr) == (0, ""))
         if done.returncode == 0:
