@@ -211,9 +211,9 @@ def table(settings):
         for system, name in NAMES.items():
             found = {seed: row for seed in settings.seeds
                      if (row := measured(settings, scenario, seed, system))}
-            if found and system == AGAIN:  # beside the first run of the same seed
-                lines.append(line(scenario, NAMES[PEER], {
-                    seed: measured(settings, scenario, seed, PEER) for seed in found}))
+            if system == AGAIN:  # beside the first run of the same seed
+                first = {seed: measured(settings, scenario, seed, PEER) for seed in found}
+                lines += [line(scenario, NAMES[PEER], first)] if all(first.values()) and first else []
             if found:
                 lines.append(line(scenario, name, found))
     return "\n".join(lines) + "\n"

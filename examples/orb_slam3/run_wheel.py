@@ -72,13 +72,12 @@ def stereo_frames(recording):
 
 def write_settings(options):
     """A copy of the settings in the output folder."""
-    found = [options.settings] if options.settings else [
-        file for name in SETTINGS if (file := options.recording / "settings" / name).is_file()]
-    try:
-        text = found[0].read_text()
-    except (IndexError, OSError) as error:
-        raise InputError(f"{options.recording}/settings: no {SETTINGS[0]}; give --settings"
-                         if isinstance(error, IndexError) else f"{found[0]}: {error}") from None
+    written = (options.recording / "settings" / name for name in SETTINGS)
+    source = options.settings or next(filter(Path.is_file, written), None)
+    if not source or not source.is_file():
+        raise InputError(f"{source or options.recording / 'settings'}: no settings of ORB-SLAM3; give "
+                         "--settings")
+    text = source.read_text()
     if options.no_loops:
         text += "loopClosing: 0\n"
     file = options.output / "settings.yaml"
