@@ -64,13 +64,17 @@ class Settings:
         return self.out / Path(scenario).stem / "bench.json"
 
 
-def call(settings, *command, allowed=(0,)):
-    """Runs a command; what it prints is in OUT/log.txt."""
-    with open(settings.out / "log.txt", "w") as log:
-        done = subprocess.run([str(part) for part in command], stdout=log, stderr=log, cwd=ROOT)
+def call(*command, allowed=(0,)):
+    """Runs a command; returns what it prints."""
+    name = Path(command[0]).name
+    try:
+        done = subprocess.run([str(part) for part in command], stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, errors="replace", cwd=ROOT)
+    except OSError as error:
+        stop(f"{name}: {error.strerror}", 1)
     if done.returncode not in allowed:
-        text = (settings.out / "log.txt").read_text().strip()
-        stop(f"{Path(command[0]).name}: exit code {done.returncode}: {text[-1000:]}", 1)
+        stop(f"{name}: exit code {done.returncode}: {done.stdout.strip()[-1000:]}", 1)
+    return done.stdout
 
 
 def environment(settings):
@@ -78,8 +82,8 @@ def environment(settings):
     python = settings.out / "venv/bin/python3"
     ready = settings.out / "venv/packages.txt"
     if not ready.is_file() or ready.read_text() != "\n".join(PACKAGES):
-        call(settings, settings.python, "-m", "venv", settings.out / "venv")
-        call(settings, python, "-m", "pip", "install", "--quiet", *PACKAGES)
+        call(settings.python, "-m", "venv", settings.out / "venv")
+        call(python, "-m", "pip", "install", "--quiet", *PACKAGES)
         ready.write_text("\n".join(PACKAGES))
     return python
 
@@ -90,9 +94,9 @@ def vocabulary(settings, python):
     file = settings.out / f"vocabulary-{settings.training_seed}.txt"
     if not file.is_file():
         data = settings.out / "training"
-        call(settings, settings.vinebench, "record", "quick-loop", "--set",
+        call(settings.vinebench, "record", "quick-loop", "--set",
              f"seed={settings.training_seed}", "--format", "euroc", "--out", data)
-        call(settings, python, ROOT / "examples/orb_slam3/train_vocabulary.py", data / "euroc", file)
+        call(python, ROOT / "examples/orb_slam3/train_vocabulary.py", data / "euroc", file)
         shutil.rmtree(data)
     return file
 
@@ -107,13 +111,33 @@ def run_peer(settings, folder, scenario, seed, python, words):
     options = [part for key, value in values.items()
                for part in ("--set", f"slam.external.{key}={value}")]
     # 1: it has failed, or the scenario's expectations are not met.
-    call(settings, settings.vinebench, "run", scenario, "--set", f"seed={seed}", *options, "--out",
+    call(settings.vinebench, "run", scenario, "--set", f"seed={seed}", *options, "--out",
          folder, allowed=(0, 1))
 
 
 def run_ours(settings, folder, recording, truth, changes):
-    call(settings, settings.vinebench, "replay", recording, "--groundtruth", truth, "--out", folder,
+    call(settings.vinebench, "replay", recording, "--groundtruth", truth, "--out", folder,
          *[part for change in changes for part in ("--set", change)])
+
+
+def errors_on_peers_frames(settings, folders):
+    """Ours over the frames in the peer's trajectory alone, as far as there are any."""
+
+    def lines_of(folder):
+        lines = (folder / "estimate.tum").read_text().splitlines()
+        return [line for line in lines if line and not line.startswith("#")]
+
+    stamps = {line.split()[0] for line in lines_of(folders[PEER])}
+    for system in OURS:
+        result = folders[system] / "common.json"
+        common = [line for line in lines_of(folders[system]) if line.split()[0] in stamps]
+        if result.is_file() or len(common) < 3:
+            continue
+        trajectory = folders[system] / "common.tum"
+        trajectory.write_text("\n".join(common) + "\n")
+        found = call(settings.vinebench, "eval", folders[PEER] / "groundtruth.tum", trajectory)
+        rows = (line.split() for line in found.splitlines())
+        result.write_text(json.dumps({row[0]: float(row[1]) for row in rows if len(row) == 2}))
 
 
 def run_case(settings, scenario, seed, python, words):
@@ -122,6 +146,7 @@ def run_case(settings, scenario, seed, python, words):
     bench = settings.bench(scenario)
     with_bench = settings.frames > 0 and seed == settings.seeds[0] and not bench.is_file()
     if not with_bench and all((f / "metrics.json").is_file() for f in folders.values()):
+        errors_on_peers_frames(settings, folders)
         return
     recording = folders[PEER] / RECORDING
     if not (recording / "mav0").is_dir() or not (folders[PEER] / "metrics.json").is_file():
@@ -130,9 +155,10 @@ def run_case(settings, scenario, seed, python, words):
         if not (folders[system] / "metrics.json").is_file():
             run_ours(settings, folders[system], recording, folders[PEER] / "groundtruth.tum", changes)
     if with_bench:
-        call(settings, settings.vinebench, "bench", "slam", recording, "--frames", settings.frames,
+        call(settings.vinebench, "bench", "slam", recording, "--frames", settings.frames,
              "--json", bench)
     shutil.rmtree(recording, ignore_errors=True)
+    errors_on_peers_frames(settings, folders)
 
 
 def run_again(settings, python, words):
@@ -169,15 +195,19 @@ def measured(settings, scenario, seed, system):
         loops = metrics["loop_closures"]
         row |= {"tracked": row["coverage"], "right": loops["correct"], "wrong": loops["wrong"],
                 "memory": metrics["peak_rss_mib"], "step": largest_step(folder / "estimate_live.tum")}
+        if (folder / "common.json").is_file():
+            common = json.loads((folder / "common.json").read_text())
+            row["common"] = scaled(common["ate_rmse_m"], 1e3)
         bench = settings.bench(scenario)
         if bench.is_file():
             rows = json.loads(bench.read_text())["runs"]
             row["cpu"] = rows[BENCHED[system]]["cpu_ms"]["mean"]
     elif (folder / "external/wheel.json").is_file():
+        row["common"] = row["ate"]
         wheel = json.loads((folder / "external/wheel.json").read_text())
-        row |= {"tracked": 100 * wheel["tracked"] / wheel["frames"], "cpu": wheel["cpu_ms_a_frame"],
-                "changes": len(wheel["map_changes"]), "memory": wheel["peak_rss_mib"],
-                "step": largest_step(folder / "external/live.txt")}
+        row |= {"tracked": 100 * wheel["tracked"] / wheel["frames"], "losses": wheel["losses"],
+                "cpu": wheel["cpu_ms_a_frame"], "changes": len(wheel["map_changes"]),
+                "memory": wheel["peak_rss_mib"], "step": largest_step(folder / "external/live.txt")}
     row["step"] = scaled(row.get("step"), 1e3)
     return row
 
@@ -191,7 +221,8 @@ def median(rows, key, digits):
     return "none" if math.isinf(middle) else f"{middle:.{digits}f}"
 
 
-COLUMNS = {"ATE origin, mm": ("origin", 1), "ATE, mm": ("ate", 1), "coverage, %": ("coverage", 1),
+COLUMNS = {"ATE origin, mm": ("origin", 1), "ATE, mm": ("ate", 1),
+           "ATE on ORB-SLAM3's frames, mm": ("common", 1), "coverage, %": ("coverage", 1),
            "tracked, %": ("tracked", 1), "losses": ("losses", 0), "largest live step, mm": ("step", 0),
            "loops right": ("right", 0), "loops wrong": ("wrong", 0), "map changes": ("changes", 0),
            "CPU a frame, ms": ("cpu", 0), "memory, MiB": ("memory", 0)}
