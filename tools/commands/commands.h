@@ -15,6 +15,7 @@ Command check_command();
 Command eval_command();
 Command compare_command();
 Command guard_command(const Surroundings& surroundings);
+Command explain_command(const Surroundings& surroundings);
 Command render_command(const Surroundings& surroundings);
 Command world_command();
 Command list_command(const Surroundings& surroundings);
