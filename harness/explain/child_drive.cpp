@@ -43,7 +43,7 @@ Pose read_pose(MessageReader& message) {
 void add_image(MessageWriter& message, const cv::Mat& image) {
   message.add(image.rows);
   message.add(image.cols);
-  message.add(image.type());
+  message.add(image.empty() ? 0 : image.type());  // a released one keeps its own
   const cv::Mat whole = image.isContinuous() ? image : image.clone();
   message.add_list(whole.data, whole.total() * whole.elemSize());
 }

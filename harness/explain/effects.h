@@ -28,25 +28,42 @@ struct StretchDrift {
 /// it with a pose. Dead reckoning counts as a pose. Zeros without any.
 StretchDrift drift_of(const std::vector<Step>& steps, const Stretch& stretch, std::int64_t aligned);
 
-/// What chance alone makes of a value: of runs that differ in the draw of the noise alone.
-struct Chance {
-  double mean = 0;
-  double deviation = 0;  ///< standard deviation, of n - 1
-  int runs = 0;
+/// What chance alone makes of a value that is not negative: of runs that differ in the draw of the
+/// noise alone. Drift spreads in proportion to its size, so that its logarithm is compared.
+class Chance {
+ public:
+  Chance() = default;
+  /// `floor` is added to each value: what is much smaller makes no difference.
+  Chance(const std::vector<double>& values, double floor);
 
-  /// What a difference between the mean and one more run exceeds in one of a hundred cases by
-  /// chance, by Student's t. Or that of a sum of so many reruns and the mean times `means`.
-  double limit(int reruns = 1, int means = 1) const;
+  int runs() const { return runs_; }
+  double typical() const { return typical_; }      ///< the median: a rare loss weighs little
+  double deviation() const { return deviation_; }  ///< standard deviation, of n - 1
+
+  /// By how much the mean of some reruns must be smaller so that chance does it in one of a hundred
+  /// cases only, by Student's t on one side. The deviation counts as at least a tenth.
+  double limit(std::size_t reruns = 1) const;
+  /// Whether it is.
+  bool is_exceeded_by(const std::vector<double>& reruns) const;
+
+ private:
+  double log_limit(std::size_t reruns) const;
+
+  int runs_ = 0;
+  double typical_ = 0;
+  double deviation_ = 0;
+  double floor_ = 0;
+  double log_mean_ = 0;
+  double log_deviation_ = 0;
 };
 
-Chance chance_of(const std::vector<double>& values);
-
-/// What a rerun without something took away.
+/// What reruns without something took away.
 struct Effect {
   double metres = 0;             ///< of the drift; negative where it was worse without
   double lost = 0;               ///< frames
   bool drift_is_caused = false;  ///< beyond chance, and not little
   bool losses_are_caused = false;
+  bool is_open = false;  ///< not little, but chance could do it: more reruns may decide
 
   bool is_cause() const { return drift_is_caused || losses_are_caused; }
 };
@@ -59,21 +76,23 @@ struct AsItWas {
 AsItWas as_it_was(const std::vector<StretchDrift>& drifts);
 
 /// A cause takes away more than chance could, and at least a millimetre and a fifth of the drift,
-/// or two frames and a fifth of those lost.
-Effect effect_of(const AsItWas& was, const StretchDrift& without);
+/// or two frames and a fifth of those lost. `without`: at least one rerun.
+Effect effect_of(const AsItWas& was, const std::vector<StretchDrift>& without);
 
-/// By how much a pair's effect exceeds the sum of the two, m. Negative: each alone takes away what
-/// both share. `certain` if it is beyond chance, and not little.
+/// By how much a pair's effect exceeds the sum of the two. Negative: each alone takes away what
+/// both cause together only. Positive: each alone would do.
 struct Interaction {
   double metres = 0;
   double lost = 0;  ///< frames
-  bool certain = false;
 };
-Interaction interaction_of(const AsItWas& was, const Effect& one, const Effect& other,
-                           const Effect& both);
+Interaction interaction_of(const Effect& one, const Effect& other, const Effect& both);
 
-/// Whether the singles' sum misses the effect of all together by more than chance and 30 % of the
-/// drift: pairs are then tried.
+/// Whether a pair is a cause that its two are not: together they take away more than either alone,
+/// by 30 % of the drift or of the lost frames, and more than chance could.
+bool is_joint_cause(const AsItWas& was, const Effect& one, const Effect& other, const Effect& both);
+
+/// Whether the effect of all together is one beyond chance and the singles' sum misses it by 30 %
+/// of the drift or of the lost frames: pairs are then tried.
 bool do_not_add_up(const AsItWas& was, const std::vector<Effect>& singles, const Effect& all);
 
 }  // namespace vinebench::harness

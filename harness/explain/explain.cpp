@@ -37,7 +37,7 @@ void check_can_be_repeated(const ExplainRequest& request) {
   if (scenario.simulation.route.steering == sim::Steering::kEstimate) {
     fail("{}: explain needs route.steering: truth, found estimate", scenario.name);
   }
-  if (request.placebos < 1) fail("expected at least one placebo, found {}", request.placebos);
+  if (request.placebos < 2) fail("expected at least two placebos, found {}", request.placebos);
 }
 
 /// Repeats a run and parts of it.
@@ -190,15 +190,12 @@ class Explainer {
     std::vector<Job> jobs;
     const std::size_t count = result_.factors.size();
     for (std::size_t i = 0; i < count; ++i) jobs.push_back(without({i}));
+    explanation.singles = effects(jobs, explanation);
     if (count > 1) {
       std::vector<std::size_t> all(count);
       std::iota(all.begin(), all.end(), 0);
-      jobs.push_back(without(all));
-    }
-    explanation.singles = effects(jobs, explanation);
-    if (count > 1) {
-      explanation.all = explanation.singles.back();
-      explanation.singles.pop_back();
+      std::vector<Job> together{without(all)};
+      explanation.all = effects(together, explanation)[0];
       try_pairs(explanation);
     }
     explanation.causes = causes_of(explanation);
@@ -210,7 +207,7 @@ class Explainer {
     std::vector<Job> jobs{{.name = "as it was", .variant = original_}};
     for (int i = 1; i <= request_.placebos; ++i) {
       jobs.push_back(
-          {.name = fmt::format("placebo {}", i), .variant = placebo(request_.scenario, i)});
+          {.name = fmt::format("placebo {}", i), .variant = with_other_noise(original_, i)});
     }
     const std::vector<Rerun> reruns = make(jobs, explanation.stretch);
     std::ranges::for_each(reruns[0].steps, [&](const Step& step) { known_.check(step); });
@@ -223,15 +220,35 @@ class Explainer {
   }
 
   std::vector<FactorEffect> effects(std::vector<Job>& jobs, const StretchExplanation& explanation) {
-    const std::vector<Rerun> reruns = make(jobs, explanation.stretch);
-    std::vector<FactorEffect> list;
+    std::vector<FactorEffect> list(jobs.size());
+    add_reruns(jobs, explanation, list);
+    std::vector<Job> again;
+    std::vector<std::size_t> of;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
-      FactorEffect one{.factors = jobs[i].factors, .from_start = jobs[i].from_start};
-      one.without = drift(reruns[i], explanation);
-      one.effect = effect_of(explanation.chance, one.without);
-      list.push_back(std::move(one));
+      for (int k = 1; list[i].effect.is_open && k <= request_.repeats; ++k) {
+        again.push_back(jobs[i]);
+        again.back().name += fmt::format(", again {}", k);
+        again.back().variant = with_other_noise(jobs[i].variant, k);
+        of.push_back(i);
+      }
     }
+    const std::vector<Rerun> reruns = make(again, explanation.stretch);
+    for (std::size_t i = 0; i < again.size(); ++i) {
+      list[of[i]].without.push_back(drift(reruns[i], explanation));
+    }
+    for (FactorEffect& one : list) one.effect = effect_of(explanation.chance, one.without);
     return list;
+  }
+
+  void add_reruns(std::vector<Job>& jobs, const StretchExplanation& explanation,
+                  std::vector<FactorEffect>& list) {
+    const std::vector<Rerun> reruns = make(jobs, explanation.stretch);
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+      list[i].factors = jobs[i].factors;
+      list[i].from_start = jobs[i].from_start;
+      list[i].without.push_back(drift(reruns[i], explanation));
+      list[i].effect = effect_of(explanation.chance, list[i].without);
+    }
   }
 
   void try_pairs(StretchExplanation& explanation) {
@@ -253,8 +270,8 @@ class Explainer {
     }
     explanation.pairs = effects(jobs, explanation);
     for (FactorEffect& pair : explanation.pairs) {
-      pair.interaction = interaction_of(explanation.chance, singles[pair.factors[0]],
-                                        singles[pair.factors[1]], pair.effect);
+      pair.interaction =
+          interaction_of(singles[pair.factors[0]], singles[pair.factors[1]], pair.effect);
     }
   }
 
@@ -281,25 +298,29 @@ Explanation explain(const ExplainRequest& request) {
 }
 
 std::vector<std::size_t> causes_of(const StretchExplanation& stretch) {
-  const double drift = std::max(stretch.chance.metres.mean, 1e-9);
-  const double lost = std::max(stretch.chance.lost.mean, 1e-9);
-  std::map<std::size_t, double> shares;
-  const auto add = [&](const FactorEffect& one) {
-    double share = 0;
-    if (one.effect.drift_is_caused) share = one.effect.metres / drift;
-    if (one.effect.losses_are_caused) share = std::max(share, one.effect.lost / lost);
-    for (const std::size_t i : one.factors) shares[i] = std::max(shares[i], share);
+  const AsItWas& was = stretch.chance;
+  const auto share = [&](const Effect& effect) {
+    double most = 0;
+    if (effect.drift_is_caused) most = effect.metres / was.metres.typical();
+    if (effect.losses_are_caused) most = std::max(most, effect.lost / was.lost.typical());
+    return most;
   };
+  std::map<std::size_t, double> shares;
   for (const FactorEffect& single : stretch.singles) {
-    if (single.effect.is_cause()) add(single);
+    if (single.effect.is_cause()) shares[single.factors[0]] = share(single.effect);
   }
-  // Either alone would do: each is a cause only together with the other.
+  const FactorEffect* joint = nullptr;
   for (const FactorEffect& pair : stretch.pairs) {
-    const bool redundant = pair.interaction.metres > 0 || pair.interaction.lost > 0;
-    if (pair.interaction.certain && redundant && pair.effect.is_cause()) add(pair);
+    const Effect& one = stretch.singles[pair.factors[0]].effect;
+    const Effect& other = stretch.singles[pair.factors[1]].effect;
+    if (!is_joint_cause(was, one, other, pair.effect)) continue;
+    if (joint == nullptr || share(pair.effect) > share(joint->effect)) joint = &pair;
+  }
+  if (joint != nullptr) {
+    for (const std::size_t i : joint->factors) shares[i] = share(joint->effect);
   }
   std::vector<std::size_t> causes;
-  for (const auto& [factor, share] : shares) causes.push_back(factor);
+  for (const auto& [factor, ignored] : shares) causes.push_back(factor);
   std::ranges::stable_sort(causes, std::greater(), [&](std::size_t i) { return shares[i]; });
   return causes;
 }

@@ -21,7 +21,8 @@ struct ExplainRequest {
   std::vector<Stretch> stretches;  ///< in order of their first frames
   Machine machine;
   double lead = 2;   ///< s before a stretch at which factors are taken away
-  int placebos = 4;  ///< reruns with another noise, at least 1
+  int placebos = 4;  ///< reruns with another noise, at least 2
+  int repeats = 2;   ///< further reruns, with other noise, where chance could explain an effect
   int pairs = 10;    ///< pairs to try at most; 0: none
   int at_once = 1;   ///< reruns side by side
   std::ostream* progress = nullptr;
@@ -31,7 +32,7 @@ struct ExplainRequest {
 struct FactorEffect {
   std::vector<std::size_t> factors;  ///< of Explanation::factors
   bool from_start = false;           ///< taken away from the drive's start on
-  StretchDrift without{};
+  std::vector<StretchDrift> without{};
   Effect effect{};
   Interaction interaction{};  ///< of two
 };
@@ -61,8 +62,8 @@ struct Explanation {
 /// systems. Requires that this process has one thread and no GL context.
 Explanation explain(const ExplainRequest& request);
 
-/// The factors that cause the drift or the lost frames: singles, and of pairs that interact those
-/// whose removal together takes away more than chance. The strongest first.
+/// The factors that cause the drift or the lost frames, the strongest first: singles, and the pair
+/// that takes away most of what its two do not take away alone.
 std::vector<std::size_t> causes_of(const StretchExplanation& stretch);
 
 }  // namespace vinebench::harness

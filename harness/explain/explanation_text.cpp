@@ -13,7 +13,7 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 double share_of(const StretchExplanation& stretch, const Effect& effect) {
-  const double drift = stretch.chance.metres.mean;
+  const double drift = stretch.chance.metres.typical();
   return drift > 0 ? effect.metres / drift : 0;
 }
 
@@ -38,16 +38,19 @@ std::string cause_sentence(const Explanation& explanation, const StretchExplanat
                                      : "no factor explains it beyond chance";
 }
 
+const char* verdict_of(const Effect& effect) {
+  if (effect.is_cause()) return "cause";
+  return effect.is_open ? "chance could do it" : "";
+}
+
 std::string row(const Explanation& explanation, const StretchExplanation& stretch,
                 const FactorEffect& one) {
   std::string text =
       fmt::format("  {:<32} {:>9.1f} {:>7.0f} % {:>7.1f}   {}{}", names(explanation, one.factors),
                   1e3 * one.effect.metres, 100 * share_of(stretch, one.effect), one.effect.lost,
-                  one.effect.is_cause() ? "cause" : "chance could do it",
-                  one.from_start ? ", from the start" : "");
+                  verdict_of(one.effect), one.from_start ? ", from the start" : "");
   if (one.factors.size() == 2) {
-    text += fmt::format("; interaction {:+.1f} mm{}", 1e3 * one.interaction.metres,
-                        one.interaction.certain ? "" : ", within chance");
+    text += fmt::format("; interaction {:+.1f} mm", 1e3 * one.interaction.metres);
   }
   return text + "\n";
 }
@@ -68,8 +71,9 @@ std::string format_stretch(const Explanation& explanation, const StretchExplanat
   text += fmt::format(
       "  drift since {:.2f} s: {:.1f} mm (with other noise {:.1f} +- {:.1f} mm), {:.0f} frames "
       "lost; beyond chance: {:.1f} mm\n",
-      seconds(stretch.aligned), 1e3 * stretch.was.metres, 1e3 * stretch.chance.metres.mean,
-      1e3 * stretch.chance.metres.deviation, stretch.was.lost, 1e3 * stretch.chance.metres.limit());
+      seconds(stretch.aligned), 1e3 * stretch.was.metres, 1e3 * stretch.chance.metres.typical(),
+      1e3 * stretch.chance.metres.deviation(), stretch.was.lost,
+      1e3 * stretch.chance.metres.limit());
   if (!stretch.stretch.coincide.empty()) {
     text += fmt::format("  what coincides: {}\n", fmt::join(stretch.stretch.coincide, ", "));
   }
@@ -94,15 +98,15 @@ OrderedJson effect_json(const Explanation& explanation, const FactorEffect& one)
   OrderedJson json;
   for (const std::size_t i : one.factors) json["without"].push_back(explanation.factors[i].name);
   json["from_start"] = one.from_start;
-  json["drift_m"] = one.without.metres;
-  json["end_drift_m"] = one.without.end;
-  json["lost_frames"] = one.without.lost;
+  for (const StretchDrift& drift : one.without) {
+    json["reruns"].push_back(
+        {{"drift_m", drift.metres}, {"end_drift_m", drift.end}, {"lost_frames", drift.lost}});
+  }
   json["caused_m"] = one.effect.metres;
   json["caused_lost_frames"] = one.effect.lost;
   json["cause"] = one.effect.is_cause();
   if (one.factors.size() == 2) {
     json["interaction_m"] = one.interaction.metres;
-    json["interaction_certain"] = one.interaction.certain;
   }
   return json;
 }
@@ -120,9 +124,9 @@ OrderedJson stretch_json(const Explanation& explanation, const StretchExplanatio
                    {"end_drift_m", stretch.was.end},
                    {"lost_frames", stretch.was.lost},
                    {"chance",
-                    {{"runs", stretch.chance.metres.runs},
-                     {"mean_m", stretch.chance.metres.mean},
-                     {"deviation_m", stretch.chance.metres.deviation},
+                    {{"runs", stretch.chance.metres.runs()},
+                     {"median_m", stretch.chance.metres.typical()},
+                     {"deviation_m", stretch.chance.metres.deviation()},
                      {"limit_m", stretch.chance.metres.limit()}}},
                    {"factors", OrderedJson::array()},
                    {"pairs", OrderedJson::array()}};

@@ -226,8 +226,7 @@ std::vector<Factor> factors_of(const ScenarioConfig& scenario) {
   return list;
 }
 
-Variant placebo(const ScenarioConfig& scenario, int number) {
-  Variant variant{scenario};
+Variant with_other_noise(Variant variant, int number) {
   sim::PhotonTransferConfig& noise = sensors_of(variant).camera.noise;
   if (!noise.enabled) noise = {.enabled = true, .full_well = 1e7, .read_noise = 9000};
   noise.pattern = number;

@@ -31,8 +31,8 @@ struct Factor {
 /// if the rig's file cannot be read.
 std::vector<Factor> factors_of(const ScenarioConfig& scenario);
 
-/// The scenario with another draw of the images' noise: what changes then is chance. Without noise,
-/// with one of a quarter of a grey level.
-Variant placebo(const ScenarioConfig& scenario, int number);
+/// A placebo: another draw of the images' noise; what changes then is chance. Without noise, one of
+/// a quarter of a grey level.
+Variant with_other_noise(Variant variant, int number);
 
 }  // namespace vinebench::harness

@@ -21,6 +21,7 @@
 #include "harness/explain/explanation_text.h"
 #include "harness/explain/run_to_explain.h"
 #include "harness/jobs/run_scenario.h"
+#include "harness/judge/diagnosis.h"
 #include "harness/sets/child_process.h"
 #include "harness/sets/seed_list.h"
 #include "tests/planted_causes/planted_cause.h"
@@ -223,7 +224,8 @@ void print_table(const std::vector<Case>& cases, const std::vector<Verdict>& ver
 std::vector<Case> make_cases(const std::vector<std::string>& only,
                              const std::vector<std::int64_t>& seeds, int pairs, int controls) {
   const auto is_chosen = [&](std::size_t cause) {
-    return only.empty() || std::ranges::count(only, all_causes()[cause].name) > 0;
+    return all_causes()[cause].plant &&
+           (only.empty() || std::ranges::count(only, all_causes()[cause].name) > 0);
   };
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < all_causes().size(); ++i) {

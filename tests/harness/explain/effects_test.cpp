@@ -67,61 +67,85 @@ TEST(EffectsTest, NothingIsKnownWithoutAPose) {
   EXPECT_EQ(drift_of(steps, kStretch, 4).lost, 4);
 }
 
-// Student's t of 99 % with 4 degrees of freedom is 4.60; the difference of one more run and the
-// mean of five has a deviation of sqrt(1 + 1 / 5) times that of a run.
-TEST(EffectsTest, TheLimitOfChanceIsStudents) {
-  const Chance chance = chance_of({4, 5, 6, 4, 6});
-  EXPECT_DOUBLE_EQ(chance.mean, 5);
-  EXPECT_DOUBLE_EQ(chance.deviation, 1);
-  EXPECT_NEAR(chance.limit(), 4.60 * std::sqrt(1.2), 1e-9);
-  EXPECT_NEAR(chance.limit(3), 4.60 * std::sqrt(3.2), 1e-9);
-  EXPECT_NEAR(chance.limit(3, 2), 4.60 * std::sqrt(3.8), 1e-9);
-  EXPECT_TRUE(std::isinf(chance_of({4}).limit()) || std::isnan(chance_of({4}).limit()));
-}
-
 StretchDrift drifted(double metres, double lost = 0) {
   return {.metres = metres, .end = metres, .lost = lost};
 }
 
-/// 20 mm with a deviation of 0.5 mm: the limit of chance is 2.5 mm, a fifth is 4 mm.
-AsItWas twenty_millimetres() {
-  return as_it_was({drifted(0.020), drifted(0.0205), drifted(0.0195), drifted(0.0205),
-                    drifted(0.0195)});
+// Values of which the logarithms are 4, 5, 6, 4 and 6: their mean is 5, their deviation 1.
+// Student's t on one side, 99 % and 4 degrees of freedom, is 3.75; the difference of the mean of r
+// more runs and that of the five has a deviation of sqrt(1 / r + 1 / 5).
+TEST(EffectsTest, TheLimitOfChanceIsStudentsOnLogarithms) {
+  const auto e = [](double x) { return std::exp(x) - 0.5; };
+  const Chance chance({e(4), e(5), e(6), e(4), e(6)}, 0.5);
+  EXPECT_EQ(chance.runs(), 5);
+  EXPECT_NEAR(chance.typical(), e(5), 1e-9);
+  const double one = 3.75 * std::sqrt(1.2);
+  EXPECT_NEAR(chance.limit(), std::exp(5) - std::exp(5 - one), 1e-9);
+  EXPECT_TRUE(chance.is_exceeded_by({e(5 - one - 0.01)}));
+  EXPECT_FALSE(chance.is_exceeded_by({e(5 - one + 0.01)}));
+  const double three = 3.75 * std::sqrt(1.0 / 3 + 0.2);
+  EXPECT_TRUE(chance.is_exceeded_by({e(4.8 - three), e(4.9 - three), e(5.2 - three)}));
+  EXPECT_FALSE(chance.is_exceeded_by({e(4.9 - three), e(5.0 - three), e(5.2 - three)}));
 }
 
+// Equal placebos count as spread by a tenth: t of 99 % with 2 degrees of freedom is 6.96.
+TEST(EffectsTest, EqualPlacebosProveLittle) {
+  const Chance chance({0.02, 0.02, 0.02}, 0);
+  EXPECT_EQ(chance.deviation(), 0);
+  const double limit = 0.02 * std::exp(-6.96 * 0.1 * std::sqrt(4.0 / 3));
+  EXPECT_TRUE(chance.is_exceeded_by({0.99 * limit}));
+  EXPECT_FALSE(chance.is_exceeded_by({1.01 * limit}));
+  EXPECT_FALSE(Chance({0.02}, 0).is_exceeded_by({1e-9}));  // one run has no spread
+}
+
+/// 20 mm, give or take half a millimetre.
+AsItWas twenty_millimetres() {
+  return as_it_was(
+      {drifted(0.020), drifted(0.0205), drifted(0.0195), drifted(0.0205), drifted(0.0195)});
+}
+
+// Five runs with a deviation of a tenth: a single rerun must have less than exp(-0.41) = 0.66 times
+// the 21 mm (with the floor of 1 mm), 13 mm.
 TEST(EffectsTest, ACauseIsBeyondChanceAndNotLittle) {
   const AsItWas was = twenty_millimetres();
-  EXPECT_NEAR(was.metres.mean, 0.020, 1e-12);
-  EXPECT_TRUE(effect_of(was, drifted(0.015)).is_cause());
-  EXPECT_NEAR(effect_of(was, drifted(0.015)).metres, 0.005, 1e-12);
-  EXPECT_FALSE(effect_of(was, drifted(0.017)).is_cause());  // 3 mm are less than a fifth
-  EXPECT_FALSE(effect_of(was, drifted(0.030)).is_cause());  // worse without it
-  const AsItWas wild = as_it_was({drifted(0.010), drifted(0.030), drifted(0.020)});
-  EXPECT_FALSE(effect_of(wild, drifted(0)).is_cause());
+  EXPECT_NEAR(was.metres.typical(), 0.020, 1e-12);
+  EXPECT_TRUE(effect_of(was, {drifted(0.012)}).is_cause());
+  EXPECT_NEAR(effect_of(was, {drifted(0.012)}).metres, 0.008, 1e-12);
+  EXPECT_FALSE(effect_of(was, {drifted(0.014)}).is_cause());
+  EXPECT_TRUE(effect_of(was, {drifted(0.014)}).is_open);
+  EXPECT_FALSE(effect_of(was, {drifted(0.017)}).is_open);  // 3 mm are less than a fifth
+  EXPECT_FALSE(effect_of(was, {drifted(0.030)}).is_open);  // worse without it
+  const AsItWas wild = as_it_was({drifted(0.010), drifted(0.040), drifted(0.020)});
+  EXPECT_FALSE(effect_of(wild, {drifted(0.002)}).is_cause());
   const AsItWas tiny = as_it_was({drifted(0.0008), drifted(0.0008), drifted(0.0008)});
-  EXPECT_FALSE(effect_of(tiny, drifted(0)).is_cause());  // 0.8 mm
+  EXPECT_FALSE(effect_of(tiny, {drifted(0)}).is_open);  // 0.8 mm
+}
+
+// Three reruns need exp(-3.75 * 0.1 * sqrt(1 / 3 + 1 / 5)) = 0.76 times, 15 mm.
+TEST(EffectsTest, MoreRerunsDecide) {
+  const AsItWas was = twenty_millimetres();
+  EXPECT_TRUE(effect_of(was, {drifted(0.014), drifted(0.014), drifted(0.0145)}).is_cause());
 }
 
 TEST(EffectsTest, LostFramesHaveACauseToo) {
   const AsItWas was = as_it_was({drifted(0.01, 10), drifted(0.01, 10), drifted(0.01, 10)});
-  EXPECT_TRUE(effect_of(was, drifted(0.01, 0)).losses_are_caused);
-  EXPECT_FALSE(effect_of(was, drifted(0.01, 0)).drift_is_caused);
-  EXPECT_FALSE(effect_of(was, drifted(0.01, 9)).is_cause());  // one frame
+  EXPECT_TRUE(effect_of(was, {drifted(0.01, 0)}).losses_are_caused);
+  EXPECT_FALSE(effect_of(was, {drifted(0.01, 0)}).drift_is_caused);
+  EXPECT_FALSE(effect_of(was, {drifted(0.01, 9)}).is_open);  // one frame
 }
 
 // Each alone takes nothing away, both take away 15 of 20 mm: either would do.
-TEST(EffectsTest, PairsInteractWhereSinglesDoNotAddUp) {
+TEST(EffectsTest, PairsAreCausesWhereSinglesAreNot) {
   const AsItWas was = twenty_millimetres();
-  const Effect nothing = effect_of(was, drifted(0.020));
-  const Effect both = effect_of(was, drifted(0.005));
+  const Effect nothing = effect_of(was, {drifted(0.020)});
+  const Effect both = effect_of(was, {drifted(0.005)});
   EXPECT_TRUE(do_not_add_up(was, {nothing, nothing}, both));
-  const Interaction interaction = interaction_of(was, nothing, nothing, both);
-  EXPECT_TRUE(interaction.certain);
-  EXPECT_NEAR(interaction.metres, 0.015, 1e-12);
-  const Effect half = effect_of(was, drifted(0.0125));
+  EXPECT_TRUE(is_joint_cause(was, nothing, nothing, both));
+  EXPECT_NEAR(interaction_of(nothing, nothing, both).metres, 0.015, 1e-12);
+  EXPECT_FALSE(is_joint_cause(was, both, nothing, both));  // one alone does it
+  const Effect half = effect_of(was, {drifted(0.0125)});
   EXPECT_FALSE(do_not_add_up(was, {half, half}, both));
-  EXPECT_FALSE(interaction_of(was, half, half, both).certain);
-  EXPECT_NEAR(interaction_of(was, both, both, both).metres, -0.015, 1e-12);
+  EXPECT_NEAR(interaction_of(both, both, both).metres, -0.015, 1e-12);
 }
 
 }  // namespace

@@ -167,12 +167,12 @@ cameras:
 // 9000 of 1e7 electrons are 9e-4 of white; at mid grey (code 127, light 0.22) a code is 3.7e-3 of
 // white, so that the noise is 0.24 codes and changes every 25th.
 TEST_F(FactorsTest, APlaceboIsAnotherNoise) {
-  const Variant weak = placebo(calm_, 3);
+  const Variant weak = with_other_noise({calm_}, 3);
   EXPECT_TRUE(weak.scenario.simulation.sensors.camera.noise.enabled);
   EXPECT_EQ(weak.scenario.simulation.sensors.camera.noise.read_noise, 9000);
   EXPECT_EQ(weak.scenario.simulation.sensors.camera.noise.pattern, 3);
   calm_.simulation.sensors.camera.noise.enabled = true;
-  const Variant usual = placebo(calm_, 3);
+  const Variant usual = with_other_noise({calm_}, 3);
   EXPECT_EQ(usual.scenario.simulation.sensors.camera.noise.read_noise, 2.5);
 }
 

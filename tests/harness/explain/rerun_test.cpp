@@ -15,8 +15,8 @@ TEST_F(RerunTest, SurvivesItsMessage) {
   Rerun rerun{.same_drive = false, .seconds = 2.5};
   const Pose pose{from_roll_pitch_yaw({0.1, 0.2, 0.3}), {1, 2, 3}};
   rerun.steps.push_back({.index = 4, .stamp = 5, .T_world_body = pose});
-  rerun.steps.push_back({.index = 5, .stamp = 6, .T_world_body = {}, .T_map_body = pose,
-                         .tracked = true});
+  rerun.steps.push_back(
+      {.index = 5, .stamp = 6, .T_world_body = {}, .T_map_body = pose, .tracked = true});
   const Rerun received = unpack_rerun(pack_rerun(rerun));
   EXPECT_EQ(pack_rerun(received), pack_rerun(rerun));
   EXPECT_FALSE(received.same_drive);
@@ -29,6 +29,7 @@ TEST_F(RerunTest, SurvivesItsMessage) {
 
 // The same estimator's state, the same frames: the same poses to the bit, by either way.
 TEST_F(RerunTest, GoesOnWithTheEstimatorThatItIsGiven) {
+  write_large_rig();
   const Rerun whole = run_variant({scenario()}, {}, kFrames - 1, machine(), nullptr);
   ASSERT_EQ(whole.steps.size(), static_cast<std::size_t>(kFrames));
   EXPECT_GT(whole.seconds, 0);
