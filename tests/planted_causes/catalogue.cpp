@@ -87,10 +87,6 @@ void add_image_causes(std::vector<PlantedCause>& list) {
 }
 
 void add_sensor_causes(std::vector<PlantedCause>& list) {
-  list.push_back({"rolling-shutter", [](ScenarioConfig& scenario, RandomSequence& draw) {
-                    camera(scenario).readout_time = draw.uniform(0.03, 0.06);
-                    camera(scenario).readout_bands = 6;
-                  }});
   list.push_back(
       {"triggers",
        [](ScenarioConfig& scenario, RandomSequence& draw) {
