@@ -80,6 +80,7 @@ RunOutcome run_lockstep_and_judge(const Trial& trial, FrameSource& source, SlamS
       format_diagnosis(record, report.diagnosis) + format_left_out(report.results.consistency);
   if (report.checks.empty() || !all_hold(report.checks)) {
     outcome.summary += format_patterns(report.patterns);
+    outcome.summary += format_discrepancies(report.discrepancies);
   }
   // A system that runs after the last frame may be stopped there.
   const bool whole = report.frames == source.size() && !record.summary.trajectory.empty();

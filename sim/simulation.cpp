@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "core/config/validate.h"
 #include "sim/render/engine_pool.h"
@@ -52,6 +53,7 @@ class Simulation : public SimulatedSource {
                             scene.light);
     }
     engines_.emplace(static_cast<int>(lanes()),
+                     static_cast<int>(std::thread::hardware_concurrency()),
                      [&] { return make_render_engine(scene, config.renderer); });
     const double route_seconds = to_seconds(rover_.route().duration());
     const double seconds = std::min(config.duration.value_or(route_seconds), route_seconds);

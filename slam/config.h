@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/config/config_field.h"
+#include "slam/camera/measurement_noise.h"
 #include "slam/features/orb_extractor.h"
 #include "slam/loop/loop_config.h"
 #include "slam/mapping/mapping_config.h"
@@ -18,8 +19,29 @@
 
 namespace vinebench::slam {
 
+/// What the other settings are where a file does not give them.
+enum class Preset {
+  kDefault,
+  kPaper,  ///< the paper's core as published, as far as its text says: paper_settings()
+};
+inline std::vector<std::string> yaml_names(Preset) {
+  return {"default", "paper"};
+}
+
+struct SlamConfig;
+
+/// Sect. III of the paper: features at FAST's pixels without patches, stereo matches between
+/// features, Huber's loss, keyframes by the number of tracked landmarks, no calibration by the
+/// core. What the text leaves open (thresholds, losses of track, wheels while blind, a tag's
+/// corners in place of its pose in the global adjustment) is as in the default.
+void paper_settings(SlamConfig& config);
+
+/// Whether any of these settings is left.
+bool has_paper_setting(const SlamConfig& config);
+
 /// All settings of the SLAM core; each stage is given its own part.
 struct SlamConfig {
+  Preset preset = Preset::kDefault;
   /// Names of the stereo pairs and tag cameras in use; all of the rig where empty.
   std::vector<std::string> cameras;
   OrbConfig features;
@@ -31,9 +53,14 @@ struct SlamConfig {
   DeadReckoningConfig dead_reckoning;
   TagDetectorConfig tags;
   LoopConfig loop;
+  ResidualLoss loss = ResidualLoss::kCauchy;
 
   template <class Archive>
   void serialize(Archive& archive) {
+    archive("preset", preset);
+    if constexpr (requires { Archive::kReads; }) {
+      if (preset == Preset::kPaper) paper_settings(*this);
+    }
     archive("cameras", cameras);
     archive("features", features);
     archive("stereo", stereo);
@@ -44,6 +71,10 @@ struct SlamConfig {
     archive("dead_reckoning", dead_reckoning);
     archive("tags", tags);
     archive("loop", loop);
+    archive("loss", loss);
+    archive.require(preset == Preset::kDefault || has_paper_setting(*this), "preset",
+                    "expected some of the keys that it sets to be left to it; all are given, as in "
+                    "settings that a run has written out");
   }
 };
 

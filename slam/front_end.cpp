@@ -26,7 +26,7 @@ FrontEnd::FrontEnd(const FrontEndSettings& settings, const StereoRig& rig,
     detectors_.emplace_back(settings.tags, tags);
   }
   left_.resize(rig_.pairs.size());
-  right_pyramids_.resize(rig_.pairs.size());
+  right_.resize(rig_.pairs.size());
   sightings_.resize(rig_.tag_cameras.size());
 }
 
@@ -49,6 +49,11 @@ cv::Mat FrontEnd::grey(const Frame& frame, int camera) const {
   cv::Mat converted;
   cv::cvtColor(image, converted, cv::COLOR_RGB2GRAY);
   return converted;
+}
+
+Extraction FrontEnd::extract_right(const cv::Mat& image) const {
+  if (stereo_.search == StereoSearch::kFeatures) return extractor_.extract(image);
+  return {{}, extractor_.pyramid(image)};
 }
 
 void FrontEnd::extract(const Frame& frame, StageTimes& times) {
@@ -74,7 +79,7 @@ void FrontEnd::extract(const Frame& frame, StageTimes& times) {
       if (rectify != nullptr && !right.empty()) right = rectify->right(right);
       left_[p] = left.empty() ? Extraction{} : extractor_.extract(left);
       if (rectify != nullptr) rectify->drop_unseen(left_[p].features, extractor_);
-      right_pyramids_[p] = right.empty() ? std::vector<cv::Mat>{} : extractor_.pyramid(right);
+      right_[p] = right.empty() ? Extraction{} : extract_right(right);
     }
     spent[job] = milliseconds_since(start);
   });
@@ -95,13 +100,12 @@ void FrontEnd::match(FrameFeatures& features, StageTimes& times) {
     StereoView& view = features.views[p];
     const RectifiedPair& pair = rig_.pairs[p];
     view.stereo.assign(left.features.size(), StereoMatch{});
-    if (!left.pyramid.empty() && !right_pyramids_[p].empty()) {
-      view.stereo =
-          match_stereo(left, right_pyramids_[p], pair.lens, pair.baseline, extractor_, stereo_);
+    if (!left.pyramid.empty() && !right_[p].pyramid.empty()) {
+      view.stereo = match_stereo(left, right_[p], pair.lens, pair.baseline, extractor_, stereo_);
     }
     view.features = std::move(left.features);
     features.pyramids[p] = std::move(left.pyramid);
-    features.right_pyramids[p] = std::move(right_pyramids_[p]);
+    features.right_pyramids[p] = std::move(right_[p].pyramid);
     view.grid = FeatureGrid(view.features.keypoints, pair.lens.width, pair.lens.height);
     spent[p] = milliseconds_since(start);
   });

@@ -37,6 +37,7 @@ class FrontEnd {
 
  private:
   cv::Mat grey(const Frame& frame, int camera) const;
+  Extraction extract_right(const cv::Mat& image) const;
   void extract(const Frame& frame, StageTimes& times);
   void match(FrameFeatures& features, StageTimes& times);
 
@@ -46,9 +47,9 @@ class FrontEnd {
   std::optional<WheelOdometry> odometry_;
   std::vector<TagDetector> detectors_;  ///< one for each tag camera
   WorkerPool& pool_;
-  std::vector<Extraction> left_;                      ///< of each pair
-  std::vector<std::vector<cv::Mat>> right_pyramids_;  ///< of each pair
-  std::vector<std::vector<TagSighting>> sightings_;   ///< of each tag camera
+  std::vector<Extraction> left_;   ///< of each pair
+  std::vector<Extraction> right_;  ///< of each pair; without features where none are needed
+  std::vector<std::vector<TagSighting>> sightings_;  ///< of each tag camera
 };
 
 }  // namespace vinebench::slam

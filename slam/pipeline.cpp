@@ -65,6 +65,7 @@ Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
       loop_closer_({config.loop, config.tags.size, config.mapping.global_iterations},
                    rig_.tag_cameras, tags) {
   rig_.wheels = config.dead_reckoning.wheels;
+  rig_.noise.loss = config.loss;
 }
 
 void Pipeline::continue_from(Map map) {

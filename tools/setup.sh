@@ -15,6 +15,8 @@ packages=(
   libmujoco-dev libqhull-dev libosmesa6-dev libgl-dev libegl-dev libegl-mesa0 libgl1-mesa-dri libassimp-dev libtinygltf-dev
   # vision and optimisation
   libopencv-dev libeigen3-dev libceres-dev libapriltag-dev
+  # statistics
+  libboost-math-dev
   # files, text, command line
   libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libxxhash-dev libdeflate-dev
   # the Python module

@@ -75,6 +75,8 @@ class YamlDocument {
 /// Reads a struct from a document and collects every violation. See config_field.h.
 class YamlReader {
  public:
+  static constexpr bool kReads = true;  ///< for presets: what follows is read over their values
+
   YamlReader(const YamlDocument& document, YAML::Node node, std::string prefix,
              std::vector<std::string>& violations)
       : document_(document),

@@ -8,6 +8,7 @@
 #include "core/config/yaml.h"
 #include "core/config/yaml_writer.h"
 #include "core/util/error.h"
+#include "harness/experiment/known_discrepancies.h"
 #include "harness/judge/occlusion.h"
 #include "harness/systems/external_slam.h"
 #include "sim/world/world_layout.h"
@@ -99,6 +100,9 @@ Trial trial_of(const ScenarioConfig& scenario) {
   const auto& waypoints = scenario.simulation.route.waypoints;
   if (!waypoints.empty()) trial.route_end = waypoints.back().position;
   trial.miscalibrated = scenario.simulation.sensors.calibration.any();
+  trial.discrepancies = known_discrepancies(
+      scenario.simulation, static_cast<std::uint64_t>(scenario.seed),
+      load_rig(scenario.simulation.rover.rig), sim::registered_tags(scenario.simulation.world));
   return trial;
 }
 

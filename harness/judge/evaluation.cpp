@@ -35,13 +35,6 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// From one body's x axis to the other's, seen from above, -pi to pi.
-double heading_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
-  const Eigen::Vector3d a = from * Eigen::Vector3d::UnitX();
-  const Eigen::Vector3d b = to * Eigen::Vector3d::UnitX();
-  return std::atan2(a.x() * b.y() - a.y() * b.x(), a.x() * b.x() + a.y() * b.y());
-}
-
 /// Its square to the sum in `rmse`.
 void add(double angle, AngleStatistics& statistics) {
   statistics.rmse += angle * angle;
@@ -125,6 +118,12 @@ std::optional<double> relative_error_percent(const std::vector<PosePair>& pairs,
   }
   if (segments == 0) return std::nullopt;
   return 100 * sum / (segments * delta);
+}
+
+double heading_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
+  const Eigen::Vector3d a = from * Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d b = to * Eigen::Vector3d::UnitX();
+  return std::atan2(a.x() * b.y() - a.y() * b.x(), a.x() * b.x() + a.y() * b.y());
 }
 
 OrientationErrors orientation_errors(const std::vector<PosePair>& pairs, const Pose& T_world_map) {

@@ -47,6 +47,9 @@ ErrorStatistics position_errors(const std::vector<PosePair>& pairs, const Pose& 
 /// --pairs_from_reference`. Empty if the path is too short.
 std::optional<double> relative_error_percent(const std::vector<PosePair>& pairs, double delta = 1);
 
+/// From one body's x axis to the other's, seen from above, rad, -pi to pi.
+double heading_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to);
+
 /// Of angles, rad.
 struct AngleStatistics {
   double rmse = 0;

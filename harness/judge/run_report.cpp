@@ -68,6 +68,7 @@ RunReport judge(const RunRecord& record, const Trial& trial) {
   report.input_faults = count_faults(record);
   report.diagnosis = diagnose(record, report.results, trial);
   report.patterns = error_patterns(record, report.results);
+  report.discrepancies = trial.discrepancies;
   report.failure = record.failure;
   if (report.failure) report.checks.push_back(check_of(*report.failure));
   std::ranges::move(check_trial(trial, report.results), std::back_inserter(report.checks));

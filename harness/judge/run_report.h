@@ -9,7 +9,8 @@
 
 #include "core/util/arithmetic.h"
 #include "harness/judge/degraded_segments.h"
-#include "harness/judge/error_pattern.h"
+#include "harness/judge/findings/discrepancy.h"
+#include "harness/judge/findings/error_pattern.h"
 #include "harness/judge/verdict.h"
 #include "harness/run/run_cost.h"
 
@@ -41,7 +42,8 @@ struct RunReport {
   std::vector<FaultCount> input_faults;  ///< in order of the first of each kind
   std::vector<DegradedSegment> diagnosis;
   std::vector<ErrorPattern> patterns;
-  std::optional<SlamFailure> failure;  ///< of the system under test
+  std::vector<Discrepancy> discrepancies;  ///< of the trial
+  std::optional<SlamFailure> failure;      ///< of the system under test
   std::vector<Check> checks;  ///< of the scenario's expectations, and of no failure if there is one
   RunCost cost;               ///< filled by the run loop, as the hash
   std::string hash;  ///< of inputs, estimates and results; empty if the run was interrupted

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/truth/site.h"
 #include "harness/judge/expectations.h"
+#include "harness/judge/findings/discrepancy.h"
 
 namespace vinebench::harness {
 
@@ -23,6 +25,7 @@ struct Trial {
   Site site;
   std::optional<Eigen::Vector2d> route_end;  ///< m, world; end of the route, if there is one
   bool miscalibrated = false;                ///< the true rig differs from the nominal one
+  std::vector<Discrepancy> discrepancies;    ///< what the system under test is told wrong
 
   /// The occlusion that one of the three asks for, null if none does.
   const Expectations::Blind* blind() const {

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/report/metric_table.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+
+#include "core/util/error.h"
+#include "core/util/suggestion.h"
 
 namespace vinebench::harness {
 namespace {
@@ -28,11 +31,16 @@ const std::vector<Metric>& shown_metrics() {
        .title = "coverage, %",
        .scale = 100,
        .decimals = 2,
-       .larger_is_better = true},
-      {.key = "/losses", .title = "losses"},
-      {.key = "/loop_closures/correct", .title = "loops right", .larger_is_better = true},
-      {.key = "/loop_closures/wrong", .title = "loops wrong"},
-      {.key = "/loop_closures/missed", .title = "loops missed"},
+       .larger_is_better = true,
+       .compared_by = Scale::kOrdered,
+       .tolerance = 0.5},
+      {.key = "/losses", .title = "losses", .compared_by = Scale::kOrdered},
+      {.key = "/loop_closures/correct",
+       .title = "loops right",
+       .larger_is_better = true,
+       .compared_by = Scale::kOrdered},
+      {.key = "/loop_closures/wrong", .title = "loops wrong", .compared_by = Scale::kOrdered},
+      {.key = "/loop_closures/missed", .title = "loops missed", .compared_by = Scale::kOrdered},
       {.key = "/real_time_factor",
        .title = "real time",
        .decimals = 3,
@@ -41,6 +49,43 @@ const std::vector<Metric>& shown_metrics() {
       {.key = "/cpu_seconds", .title = "CPU, s", .decimals = 1, .of_estimate = false},
   };
   return list;
+}
+
+const std::vector<Metric>& known_metrics() {
+  static const std::vector<Metric> list = [] {
+    std::vector<Metric> all{{.key = kPassedKey,
+                             .title = "passed, %",
+                             .scale = 100,
+                             .larger_is_better = true,
+                             .compared_by = Scale::kOrdered}};
+    all.insert(all.end(), shown_metrics().begin(), shown_metrics().end());
+    const std::vector<Metric> others{
+        {.key = "/ate_max_m", .title = "ATE max, mm", .scale = 1e3, .decimals = 2},
+        {.key = "/ate_live_rmse_m", .title = "ATE live, mm", .scale = 1e3, .decimals = 2},
+        {.key = "/end_error_m", .title = "end error, mm", .scale = 1e3, .decimals = 1},
+        {.key = "/lost_frames", .title = "lost frames", .compared_by = Scale::kOrdered},
+        {.key = "/wall_seconds", .title = "wall, s", .decimals = 1, .of_estimate = false},
+        {.key = "/peak_rss_mib", .title = "memory, MiB", .of_estimate = false}};
+    all.insert(all.end(), others.begin(), others.end());
+    return all;
+  }();
+  return list;
+}
+
+std::string name_of(const Metric& metric) {
+  std::string name = metric.key.substr(1);
+  std::ranges::replace(name, '/', '.');
+  return name;
+}
+
+const Metric& metric_named(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Metric& metric : known_metrics()) {
+    if (name_of(metric) == name) return metric;
+    names.push_back(name_of(metric));
+  }
+  fail("metric '{}': expected one of {}{}", name, fmt::join(names, ", "),
+       did_you_mean(name, names));
 }
 
 std::optional<double> value_of(const Metric& metric, const StoredRun& run) {

@@ -97,6 +97,15 @@ Json patterns_json(const std::vector<ErrorPattern>& patterns) {
   return list;
 }
 
+Json discrepancies_json(const std::vector<Discrepancy>& discrepancies) {
+  Json list = Json::array();
+  for (const Discrepancy& d : discrepancies) {
+    list.push_back(
+        {{"of", d.of}, {"what", d.what}, {"size", d.size}, {"unit", d.unit}, {"px", d.pixels}});
+  }
+  return list;
+}
+
 void add_unhashed(const RunReport& report, Json& metrics) {
   const RunResults& results = report.results;
   if (report.failure) metrics["failure"] = failure_json(*report.failure);
@@ -105,6 +114,7 @@ void add_unhashed(const RunReport& report, Json& metrics) {
   if (results.consistency) metrics["nees_left_out"] = results.consistency->not_invertible;
   add_gate_metrics(results, metrics);
   metrics["error_patterns"] = patterns_json(report.patterns);
+  metrics["discrepancies"] = discrepancies_json(report.discrepancies);
 }
 
 }  // namespace

@@ -13,6 +13,9 @@ namespace vinebench::harness {
 /// In the folder of a set's run: the fingerprint of its inputs (run_inputs.h).
 inline constexpr const char* kInputsFile = "inputs.txt";
 
+/// Before the number of a folder of repeats: seed-1/repeat-2. The first is seed-1 itself.
+inline constexpr const char* kRepeatFolder = "repeat-";
+
 /// Creates the folder of a run, writes its settings to a file of the given name and removes results
 /// of an earlier run that would remain (metrics.json and images of frames). The folder belongs to
 /// this process while the lock lives. Throws Error if the folder is not writable or another process

@@ -12,6 +12,21 @@ std::optional<double> StoredRun::value(const std::string& pointer) const {
   return found == values.end() ? std::nullopt : std::optional(found->second);
 }
 
+std::string StoredRun::hash() const {
+  const auto found = json.find("hash");
+  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+NamedValues StoredRun::hash_environment() const {
+  NamedValues environment;
+  const auto found = json.find("hash_environment");
+  if (found == json.end() || !found->is_object()) return environment;
+  for (const auto& [name, value] : found->items()) {
+    environment.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  return environment;
+}
+
 std::optional<StoredRun> stored_run(Json metrics) {
   StoredRun run;
   try {
@@ -26,6 +41,7 @@ std::optional<StoredRun> stored_run(Json metrics) {
   for (const auto& [pointer, value] : numbers.items()) {
     if (value.is_number()) run.values[pointer] = value.get<double>();
   }
+  if (!run.checks.empty()) run.values[kPassedKey] = all_hold(run.checks) ? 1 : 0;
   run.json = std::move(metrics);
   return run;
 }

@@ -18,6 +18,9 @@ namespace {
 
 constexpr int kDigits = 3;
 
+/// Degrees of freedom of a pose: covariances that become consistent fail no guard.
+constexpr double kConsistentNees = 6;
+
 /// Away from the median, to kDigits.
 double rounded(double value, bool down) {
   if (value == 0) return 0;
@@ -45,7 +48,8 @@ double value_of(const GuardBound& of) {
   const double ratio = of.worst / of.median;
   const double margin = least ? 1 / kGuardMargin : kGuardMargin;
   const double factor = least ? std::min(ratio * ratio, margin) : std::max(ratio * ratio, margin);
-  return rounded(of.median * factor, least);
+  const double value = rounded(of.median * factor, least);
+  return least ? std::min(value, kConsistentNees) : value;
 }
 
 /// Of every run, or none.

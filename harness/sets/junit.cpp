@@ -34,6 +34,11 @@ std::string test_case(const std::string& scenario, const std::string& name, doub
       xml_escaped(scenario), xml_escaped(name), seconds, outcome);
 }
 
+std::string case_name(const SetRun& run) {
+  const std::string seed = fmt::format("seed-{}", run.seed);
+  return run.repeats > 1 ? fmt::format("{}/repeat-{}", seed, run.repeat) : seed;
+}
+
 std::string test_suite(const SeedsSummary& summary) {
   std::string cases;
   double seconds = 0;
@@ -41,22 +46,24 @@ std::string test_suite(const SeedsSummary& summary) {
     const std::string outcome =
         run.result ? failure_of(run.result->checks)
                    : fmt::format("      <error message=\"{}\"/>\n", xml_escaped(run.error));
-    cases +=
-        test_case(summary.scenario, fmt::format("seed-{}", run.seed), seconds_of(run), outcome);
+    cases += test_case(summary.scenario, case_name(run), seconds_of(run), outcome);
     seconds += seconds_of(run);
   }
-  if (!summary.checks.empty()) {
-    cases += test_case(summary.scenario, "median", 0, failure_of(summary.checks));
+  std::size_t tests = summary.runs.size();
+  long failures = std::ranges::count_if(summary.runs, &SetRun::failed);
+  for (const auto& [name, checks] :
+       {std::pair("median", summary.checks), std::pair("repeats", summary.repeat_checks)}) {
+    if (checks.empty()) continue;
+    cases += test_case(summary.scenario, name, 0, failure_of(checks));
+    ++tests;
+    failures += all_hold(checks) ? 0 : 1;
   }
   const auto errors =
       std::ranges::count_if(summary.runs, [](const SetRun& run) { return !run.error.empty(); });
-  const auto failures =
-      std::ranges::count_if(summary.runs, &SetRun::failed) + (all_hold(summary.checks) ? 0 : 1);
   return fmt::format(
       "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.3f}\">\n{}"
       "  </testsuite>\n",
-      xml_escaped(summary.scenario), summary.runs.size() + (summary.checks.empty() ? 0 : 1),
-      failures, errors, seconds, cases);
+      xml_escaped(summary.scenario), tests, failures, errors, seconds, cases);
 }
 
 }  // namespace

@@ -14,8 +14,10 @@
 #include "core/files/output_file.h"
 #include "core/files/output_folder.h"
 #include "core/util/error.h"
+#include "harness/datasets/files/json_file.h"
 #include "harness/jobs/run_scenario.h"
 #include "harness/report/run_folder.h"
+#include "harness/run/hash_environment.h"
 #include "harness/sets/child_process.h"
 #include "harness/sets/run_inputs.h"
 
@@ -25,13 +27,64 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string name_of(const PlannedRun& run) {
-  return fmt::format("{}, seed {}", run.scenario.name, run.scenario.seed);
+  return fmt::format("{}, {}", run.scenario.name,
+                     seed_text(run.scenario.seed, run.repeat, run.repeats));
 }
 
 bool has_inputs(const fs::path& folder, const std::string& fingerprint) {
   std::error_code ignored;
   return fs::is_regular_file(folder / kInputsFile, ignored) &&
          read_file(folder / kInputsFile) == fingerprint + "\n";
+}
+
+/// Environments of the runs' hashes in this process, by scenario.
+class Environments {
+ public:
+  explicit Environments(const SetOptions& options) : options_(options) {}
+
+  /// OpenGL starts in a child, because no child can use that of its parent.
+  const NamedValues& of(const ScenarioConfig& scenario) {
+    const auto found = known_.find(scenario.name);
+    if (found != known_.end()) return found->second;
+    const std::string text = run_in_child(scenario.name, [&] {
+      return json_text(Json(
+          hash_environment(options_.libraries ? options_.libraries(scenario) : NamedValues())));
+    });
+    return known_.emplace(scenario.name, Json::parse(text).get<NamedValues>()).first->second;
+  }
+
+ private:
+  const SetOptions& options_;
+  std::map<std::string, NamedValues> known_;
+};
+
+/// The results in a folder, if they are what this run would have.
+std::optional<StoredRun> same_run(const fs::path& folder, const ScenarioConfig& scenario,
+                                  const std::string& fingerprint, Environments& environments) {
+  if (!has_inputs(folder, fingerprint)) return std::nullopt;
+  std::optional<StoredRun> run = read_stored_run(folder / "metrics.json");
+  if (!run) return std::nullopt;
+  const std::string names =
+      environment_differences(run->hash_environment(), environments.of(scenario));
+  return names.empty() ? std::move(run) : std::nullopt;
+}
+
+/// Comparisons take all repeats of a seed as runs of one system.
+void remove_other_repeats(const PlannedRun& first, const std::string& fingerprint,
+                          Environments& environments) {
+  std::error_code ignored;
+  for (const fs::path& folder : {first.folder, first.folder.parent_path()}) {
+    if (fs::is_symlink(folder, ignored)) return;
+  }
+  for (const auto& entry : fs::directory_iterator(first.folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(kRepeatFolder) || !entry.is_directory(ignored)) continue;
+    if (entry.is_symlink(ignored)) continue;
+    if (same_run(entry.path(), first.scenario, fingerprint, environments)) continue;
+    for (const char* file : {"metrics.json", kInputsFile}) {
+      fs::remove(entry.path() / file, ignored);
+    }
+  }
 }
 
 /// Redirects the output of this process to the file.
@@ -43,6 +96,7 @@ void write_messages_to(const fs::path& file) {
 
 /// In a child process.
 std::string run_planned(const PlannedRun& run, const SetOptions& options, int threads) {
+  if (run.repeat > 1) create_inner_folder(run.folder.parent_path().parent_path());
   create_inner_folder(run.folder.parent_path());
   create_inner_folder(run.folder);
   const FolderLock lock = prepare_scenario_folder(run.folder, run.scenario);
@@ -66,11 +120,17 @@ class RunningSet {
  public:
   RunningSet(const std::vector<PlannedRun>& plan, const SetOptions& options)
       : plan_(plan), options_(options) {
+    Environments environments(options);
     for (std::size_t i = 0; i < plan.size(); ++i) {
       const PlannedRun& run = plan[i];
-      outcome_.runs.push_back(
-          {.scenario = run.scenario.name, .seed = run.scenario.seed, .folder = run.folder});
-      if (!options.force && keep(outcome_.runs.back(), run)) {
+      outcome_.runs.push_back({.scenario = run.scenario.name,
+                               .seed = run.scenario.seed,
+                               .folder = run.folder,
+                               .repeat = run.repeat,
+                               .repeats = run.repeats});
+      const std::string fingerprint = fingerprint_of_inputs(run.scenario);
+      if (run.repeat == 1) remove_other_repeats(run, fingerprint, environments);
+      if (!options.force && keep(outcome_.runs.back(), run, fingerprint, environments)) {
         tell(outcome_.runs.back());
       } else {
         to_run_.push_back(i);
@@ -95,9 +155,9 @@ class RunningSet {
   }
 
  private:
-  bool keep(SetRun& result, const PlannedRun& run) {
-    if (!has_inputs(run.folder, fingerprint_of_inputs(run.scenario))) return false;
-    result.result = read_metrics(result);
+  static bool keep(SetRun& result, const PlannedRun& run, const std::string& fingerprint,
+                   Environments& environments) {
+    result.result = same_run(run.folder, run.scenario, fingerprint, environments);
     result.kept = result.result.has_value();
     return result.kept;
   }
@@ -123,8 +183,8 @@ class RunningSet {
   void tell(const SetRun& run) {
     ++done_;
     if (options_.progress == nullptr) return;
-    std::string text =
-        fmt::format("[{}/{}] {}, seed {}: ", done_, plan_.size(), run.scenario, run.seed);
+    std::string text = fmt::format("[{}/{}] {}, {}: ", done_, plan_.size(), run.scenario,
+                                   seed_text(run.seed, run.repeat, run.repeats));
     if (!run.error.empty()) {
       text += "ERROR, " + run.error;
     } else {
@@ -157,7 +217,8 @@ class RunningSet {
 }  // namespace
 
 std::vector<PlannedRun> plan_set(const std::vector<ScenarioConfig>& scenarios,
-                                 const std::vector<std::int64_t>& seeds, const fs::path& out) {
+                                 const std::vector<std::int64_t>& seeds, const fs::path& out,
+                                 int repeats) {
   std::vector<PlannedRun> plan;
   std::map<std::string, int> names;
   for (const ScenarioConfig& scenario : scenarios) {
@@ -166,12 +227,21 @@ std::vector<PlannedRun> plan_set(const std::vector<ScenarioConfig>& scenarios,
     }
     const std::vector<std::int64_t> own{scenario.seed};
     for (const std::int64_t seed : seeds.empty() ? own : seeds) {
-      PlannedRun run{scenario, out / scenario.name / fmt::format("seed-{}", seed)};
+      PlannedRun run{scenario, out / scenario.name / fmt::format("seed-{}", seed), 1, repeats};
       run.scenario.seed = seed;
-      plan.push_back(std::move(run));
+      plan.push_back(run);
+      for (run.repeat = 2; run.repeat <= repeats; ++run.repeat) {
+        plan.push_back(run);
+        plan.back().folder /= fmt::format("{}{}", kRepeatFolder, run.repeat);
+      }
     }
   }
   return plan;
+}
+
+std::string seed_text(std::int64_t seed, int repeat, int repeats) {
+  return repeats > 1 ? fmt::format("seed {}, repeat {}", seed, repeat)
+                     : fmt::format("seed {}", seed);
 }
 
 SetOutcome run_set(const std::vector<PlannedRun>& plan, const SetOptions& options) {

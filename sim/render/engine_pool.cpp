@@ -7,8 +7,9 @@
 
 namespace vinebench::sim {
 
-EnginePool::EnginePool(int users, const std::function<std::unique_ptr<RenderEngine>()>& make) {
-  for (int i = 0; i < std::clamp(users, 1, kMost); ++i) {
+EnginePool::EnginePool(int users, int processors,
+                       const std::function<std::unique_ptr<RenderEngine>()>& make) {
+  for (int i = 0; i < std::clamp(std::min(users, processors), 1, kMost); ++i) {
     engines_.push_back(make());
     free_.push_back(engines_.back().get());
   }

@@ -13,13 +13,15 @@
 namespace vinebench::sim {
 
 /// A few engines of one scene, borrowed by more threads than there are engines: each costs memory
-/// and time for its copy of the scene, and beyond a few of them no image is finished sooner.
+/// and time for its copy of the scene, and beyond a few of them, or one for each processor, no
+/// image is finished sooner.
 class EnginePool {
  public:
   static constexpr int kMost = 3;
 
-  /// As many engines as `users`, the threads that draw at the same time, up to kMost.
-  EnginePool(int users, const std::function<std::unique_ptr<RenderEngine>()>& make);
+  /// As many engines as `users`, the threads that draw at the same time, or `processors`, if these
+  /// are fewer; one to kMost.
+  EnginePool(int users, int processors, const std::function<std::unique_ptr<RenderEngine>()>& make);
 
   /// Lends an engine to `use`; waits until one is free.
   void with_engine(const std::function<void(RenderEngine&)>& use);

@@ -2,11 +2,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 namespace vinebench::slam {
 
-/// Standard deviations of what the cameras measure.
+/// Loss of a reprojection error near the solution.
+enum class ResidualLoss {
+  /// The errors of patches have long tails, since some straddle a stem and the ground behind it,
+  /// and
+  /// those tails point one way: what lies behind moves less. This loss lets go of them.
+  kCauchy,
+  kHuber,  ///< the paper's, Eq. (1): each of them pulls as hard as a good one
+};
+inline std::vector<std::string> yaml_names(ResidualLoss) {
+  return {"cauchy", "huber"};
+}
+
+/// How the cameras' measurements err.
 struct MeasurementNoise {
   /// Pixels of level 0 to a pixel of each pyramid level: the standard deviation of a corner there.
   std::vector<double> level_scales;
@@ -16,6 +29,7 @@ struct MeasurementNoise {
   /// The outliers' limit of such a feature in multiples of the usual one: its errors have long
   /// tails.
   double placed_tolerance = 2.3;
+  ResidualLoss loss = ResidualLoss::kCauchy;
 };
 
 }  // namespace vinebench::slam

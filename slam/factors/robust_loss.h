@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "slam/camera/measurement_noise.h"
+
 namespace vinebench::slam {
 
 /// A loss of the squared norm s of a residual (in standard deviations): what it costs, and the
@@ -29,10 +31,14 @@ class RobustLoss {
   bool cauchy_;
 };
 
-/// Loss of a reprojection error near the solution, in standard deviations. The errors of patches
-/// have long tails, since some straddle a stem and the ground behind it, and those tails point one
-/// way: what lies behind moves less. Huber's loss, which the paper uses, lets each of them pull as
-/// hard as a good one; this one lets go of them.
+// Scales in standard deviations; Huber's is the 95 % of chi-square of a pixel.
 inline constexpr double kCauchyScale = 1;
+inline constexpr double kHuberScale = 2.4477;
+
+/// Of a reprojection error near the solution.
+inline RobustLoss residual_loss(ResidualLoss kind) {
+  return kind == ResidualLoss::kHuber ? RobustLoss::huber(kHuberScale)
+                                      : RobustLoss::cauchy(kCauchyScale);
+}
 
 }  // namespace vinebench::slam

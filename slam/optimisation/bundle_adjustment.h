@@ -47,7 +47,7 @@ class AdjustmentJob {
 };
 
 /// Bundle adjustment, Eq. (4), (5): poses of the window's keyframes and positions of the landmarks
-/// that they see, Huber loss, weights by octave; tags seen by a keyframe take part with their
+/// that they see, the rig's loss, weights by octave; tags seen by a keyframe take part with their
 /// corners. Observations that are outliers in the end (95 % chi-square) are removed from the map.
 void adjust(Map& map, const AdjustmentWindow& window, const EstimatorRig& rig,
             const AdjustmentOptions& options);

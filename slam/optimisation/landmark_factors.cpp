@@ -2,11 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/optimisation/landmark_factors.h"
 
+#include "slam/factors/robust_loss.h"
 #include "slam/frame/measurements.h"
 
 namespace vinebench::slam {
 
 namespace {
+
+std::unique_ptr<ceres::LossFunction> make_loss(ResidualLoss kind) {
+  if (kind == ResidualLoss::kHuber) return std::make_unique<ceres::HuberLoss>(kHuberScale);
+  return std::make_unique<ceres::CauchyLoss>(kCauchyScale);
+}
 
 /// Landmarks that these keyframes see, ascending.
 std::vector<int> landmarks_of(const std::vector<int>& keyframes, const Map& map) {
@@ -28,7 +34,7 @@ std::vector<int> landmarks_of(const std::vector<int>& keyframes, const Map& map)
 }  // namespace
 
 LandmarkFactors::LandmarkFactors(const EstimatorRig& rig, bool offsets_unknown)
-    : rig_(rig), offsets_unknown_(offsets_unknown) {
+    : rig_(rig), offsets_unknown_(offsets_unknown), loss_(make_loss(rig.noise.loss)) {
   for (const StereoCameraModel& camera : rig.left_cameras) {
     offsets_.push_back(camera.disparity_offset);
   }
@@ -55,7 +61,7 @@ void LandmarkFactors::add_landmark(const Landmark& landmark, const Map& map,
     factors_.emplace_back(rig_.left_cameras[v], m, with_offset);
     std::vector<double*> blocks{problem.pose_of(o.keyframe), point};
     if (with_offset) blocks.push_back(offset_of(v, problem));
-    problem.add_factor(factors_.back(), &cauchy_, blocks);
+    problem.add_factor(factors_.back(), loss_.get(), blocks);
     terms_.push_back({landmark.id, o, &factors_.back(), chi_squared_limit(m)});
   }
 }

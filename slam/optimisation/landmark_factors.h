@@ -3,11 +3,11 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <vector>
 
 #include "slam/camera/estimator_rig.h"
 #include "slam/factors/reprojection_factor.h"
-#include "slam/factors/robust_loss.h"
 #include "slam/optimisation/problem_builder.h"
 
 namespace vinebench::slam {
@@ -42,7 +42,7 @@ class LandmarkFactors : public FactorSource {
 
   const EstimatorRig& rig_;
   bool offsets_unknown_;
-  ceres::CauchyLoss cauchy_{kCauchyScale};
+  std::unique_ptr<ceres::LossFunction> loss_;
   std::vector<int> landmark_ids_;  ///< ascending
   std::vector<Eigen::Vector3d> points_;
   std::deque<ReprojectionFactor> factors_;

@@ -13,7 +13,6 @@ namespace vinebench::slam {
 namespace {
 
 const RobustLoss kFar = RobustLoss::huber(std::sqrt(kChiSquared2));
-const RobustLoss kNear = RobustLoss::cauchy(kCauchyScale);
 
 struct Match {
   Match(std::size_t v, std::size_t f, const StereoCameraModel& camera, const PixelMeasurement& m,
@@ -116,12 +115,12 @@ Classes classify(Matches& matches, const Pose& T_map_body) {
 
 /// Rounds of adjustment and removal of outliers: one that bears a far prediction, and then so many
 /// that hardly any match changes its class, which takes more than three where many are wrong.
-void adjust_in_rounds(Matches& matches, MotionEstimate& estimate) {
+void adjust_in_rounds(Matches& matches, const RobustLoss& near, MotionEstimate& estimate) {
   constexpr int kLeastRounds = 4;
   constexpr int kMostRounds = 12;
   constexpr double kAtRest = 0.01;  // share of the matches
   for (int round = 0; round < kMostRounds; ++round) {
-    const RobustLoss loss = round == 0 ? kFar : kNear;
+    const RobustLoss& loss = round == 0 ? kFar : near;
     estimate.T_map_body = adjust(matches, estimate.T_map_body, loss, estimate.information);
     const Classes classes = classify(matches, estimate.T_map_body);
     estimate.inliers = classes.inliers;
@@ -166,12 +165,13 @@ MotionEstimate estimate_motion(const Map& map, const FrameFeatures& frame, const
     return estimate;
   }
 
-  adjust_in_rounds(matches, estimate);
+  const RobustLoss near = residual_loss(rig.noise.loss);
+  adjust_in_rounds(matches, near, estimate);
   count_views(matches, estimate);
   const std::vector<char> doubtful = doubtful_views(estimate, min_inlier_share);
   if (std::find(doubtful.begin(), doubtful.end(), 1) != doubtful.end()) {
     for (Match& match : matches) match.inlier &= !doubtful[match.view];
-    estimate.T_map_body = adjust(matches, estimate.T_map_body, kNear, estimate.information);
+    estimate.T_map_body = adjust(matches, estimate.T_map_body, near, estimate.information);
     estimate.inliers = classify(matches, estimate.T_map_body).inliers;
     for (Match& match : matches) {
       estimate.inliers -= match.inlier && doubtful[match.view];

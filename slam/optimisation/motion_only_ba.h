@@ -20,9 +20,9 @@ struct MotionEstimate {
 };
 
 /// Motion-only bundle adjustment, Eq. (1)-(3): the body pose that minimises the reprojection errors
-/// of all associated landmarks over all cameras of the rig, landmarks held fixed; Huber loss,
-/// weights by octave. Rounds of adjustment and removal of outliers (95 % chi-square); associations
-/// that are outliers in the end are untied.
+/// of all associated landmarks over all cameras of the rig, landmarks held fixed;
+/// first Huber's, then the rig's loss, weights by octave. Rounds of adjustment and removal of
+/// outliers (95 % chi-square); associations that are outliers in the end are untied.
 ///
 /// A view whose share of inliers stays below `min_inlier_share` while another's does not is not
 /// believed: its associations are all untied and the pose is adjusted without it.

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/util/error.h"
+#include "slam/stereo/feature_search.h"
 #include "slam/stereo/row_search.h"
 
 namespace vinebench::slam {
@@ -33,21 +35,22 @@ int search_disparity(const LevelPair& level, int x, int y, double uniqueness) {
   return mutual ? std::max(0, x - there.column) : -1;
 }
 
-}  // namespace
+/// A feature's place in the right image.
+struct Found {
+  double disparity;    ///< px of level 0
+  double slope_x = 0;  ///< change of the disparity, px a px
+  double slope_y = 0;
+};
 
-std::vector<StereoMatch> match_stereo(const Extraction& left,
-                                      const std::vector<cv::Mat>& right_pyramid,
-                                      const PinholeCamera& camera, double baseline,
-                                      const OrbExtractor& extractor, const StereoConfig& config) {
-  if (!(baseline > 0)) fail("stereo matching: expected a baseline above 0 m, found {}", baseline);
-  if (left.pyramid.empty() || right_pyramid.empty() ||
-      left.pyramid.front().size() != right_pyramid.front().size()) {
-    fail("stereo matching: expected two images of the same size");
-  }
-  const double focal_baseline = camera.fx * baseline;
-  std::vector<StereoMatch> matches(left.features.size());
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    const Keypoint& seen = left.features.keypoints[i];
+/// Pyramids of a pair and what they show.
+struct WindowSearch {
+  const std::vector<cv::Mat>& left;
+  const std::vector<cv::Mat>& right;
+  double focal_baseline;  ///< px m
+  const OrbExtractor& extractor;
+  const StereoConfig& config;
+
+  std::optional<Found> find(const Keypoint& seen) const {
     const auto l = static_cast<std::size_t>(seen.level);
     const double scale = extractor.scale_of(seen.level);
     const auto on_level = [scale](float v) {
@@ -56,17 +59,42 @@ std::vector<StereoMatch> match_stereo(const Extraction& left,
     const int x = on_level(seen.x);
     const int y = on_level(seen.y);
     const int farthest = static_cast<int>(focal_baseline / (config.min_depth * scale));
-    const int whole =
-        search_disparity({left.pyramid[l], right_pyramid[l], farthest}, x, y, config.uniqueness);
-    if (whole < 0) continue;
-    const auto aligned = align_patch(left.pyramid[l], right_pyramid[l], x, y, whole);
-    if (!aligned || !config.accepts(*aligned)) continue;
-    const double disparity = aligned->shift * scale;
-    if (disparity <= 0) continue;
-    const double depth = focal_baseline / disparity;
-    matches[i].x_right = static_cast<float>(static_cast<double>(seen.x) - disparity);
-    matches[i].slant_x = static_cast<float>(aligned->slope_x / disparity);
-    matches[i].slant_y = static_cast<float>(aligned->slope_y / disparity);
+    const int whole = search_disparity({left[l], right[l], farthest}, x, y, config.uniqueness);
+    if (whole < 0) return std::nullopt;
+    const auto aligned = align_patch(left[l], right[l], x, y, whole);
+    if (!aligned || !config.accepts(*aligned)) return std::nullopt;
+    return Found{aligned->shift * scale, aligned->slope_x, aligned->slope_y};
+  }
+};
+
+}  // namespace
+
+std::vector<StereoMatch> match_stereo(const Extraction& left, const Extraction& right,
+                                      const PinholeCamera& camera, double baseline,
+                                      const OrbExtractor& extractor, const StereoConfig& config) {
+  if (!(baseline > 0)) fail("stereo matching: expected a baseline above 0 m, found {}", baseline);
+  if (left.pyramid.empty() || right.pyramid.empty() ||
+      left.pyramid.front().size() != right.pyramid.front().size()) {
+    fail("stereo matching: expected two images of the same size");
+  }
+  const double focal_baseline = camera.fx * baseline;
+  const WindowSearch windows{left.pyramid, right.pyramid, focal_baseline, extractor, config};
+  const FeatureSearch features(right.features, left.pyramid.front().rows, extractor);
+  std::vector<StereoMatch> matches(left.features.size());
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const Keypoint& seen = left.features.keypoints[i];
+    std::optional<Found> found;
+    if (config.search == StereoSearch::kWindows) {
+      found = windows.find(seen);
+    } else if (const auto disparity = features.disparity_of(seen, left.features.descriptors[i],
+                                                            focal_baseline / config.min_depth)) {
+      found = Found{*disparity};
+    }
+    if (!found || found->disparity <= 0) continue;
+    const double depth = focal_baseline / found->disparity;
+    matches[i].x_right = static_cast<float>(static_cast<double>(seen.x) - found->disparity);
+    matches[i].slant_x = static_cast<float>(found->slope_x / found->disparity);
+    matches[i].slant_y = static_cast<float>(found->slope_y / found->disparity);
     if (depth < config.max_depth_baselines * baseline) matches[i].depth = static_cast<float>(depth);
   }
   return matches;

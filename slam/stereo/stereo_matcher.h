@@ -3,6 +3,7 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
+#include <string>
 #include <vector>
 
 #include "core/config/config_field.h"
@@ -12,7 +13,17 @@
 
 namespace vinebench::slam {
 
+/// How a feature's place in the right image is found.
+enum class StereoSearch {
+  kWindows,   ///< where the image looks alike, aligned to a fraction of a pixel
+  kFeatures,  ///< the most alike of the right image's own features, as in the paper
+};
+inline std::vector<std::string> yaml_names(StereoSearch) {
+  return {"windows", "features"};
+}
+
 struct StereoConfig {
+  StereoSearch search = StereoSearch::kWindows;
   double max_depth_baselines = 40;  ///< farther depths are not used (paper, Sect. III-A)
   /// Where a map begins and fewer than this are near enough, on a road say, those beyond take part
   /// too, up to far_depth_baselines.
@@ -33,6 +44,7 @@ struct StereoConfig {
   }
   template <class Archive>
   void serialize(Archive& archive) {
+    archive("search", search);
     archive("max_depth_baselines", max_depth_baselines, Range::positive());
     archive("few", few, Range::non_negative());
     archive("far_depth_baselines", far_depth_baselines, Range::positive());
@@ -56,12 +68,13 @@ struct StereoMatch {
 /// Finds the left image's keypoints in the right one of a rectified pair (same lens, same rows):
 /// search of the window about each along the epipolar line on its pyramid level, accepted where the
 /// place is unique and the search back from there finds the keypoint again; then sub-pixel
-/// alignment.
+/// alignment. With StereoSearch::kFeatures by FeatureSearch; only then the right image's features
+/// are read.
 ///
-/// The search reads the right image itself, not features extracted there: a plant's corners are
-/// often found in one camera only, and two thirds of the left ones would stay without a partner.
-std::vector<StereoMatch> match_stereo(const Extraction& left,
-                                      const std::vector<cv::Mat>& right_pyramid,
+/// The window search reads the right image itself, not features extracted there: a plant's corners
+/// are often found in one camera only, and two thirds of the left ones would stay without a
+/// partner.
+std::vector<StereoMatch> match_stereo(const Extraction& left, const Extraction& right,
                                       const PinholeCamera& camera, double baseline,
                                       const OrbExtractor& extractor, const StereoConfig& config);
 

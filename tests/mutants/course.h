@@ -7,7 +7,9 @@
 
 #include "core/util/worker_pool.h"
 #include "harness/experiment/scenario.h"
-#include "harness/judge/error_pattern.h"
+#include "harness/judge/diagnosis.h"
+#include "harness/judge/findings/discrepancy.h"
+#include "harness/judge/findings/error_pattern.h"
 #include "harness/judge/verdict.h"
 #include "harness/machine.h"
 #include "tests/mutants/kept_frames.h"
@@ -19,6 +21,8 @@ namespace vinebench::mutants {
 struct Outcome {
   std::vector<harness::Check> failed;
   std::vector<harness::ErrorPattern> patterns;
+  std::vector<harness::DegradedSegment> segments;
+  std::vector<harness::Discrepancy> discrepancies;  ///< without those of the scenario itself
 };
 
 /// A scenario that mutants run through. The drive without a fault is drawn once.
@@ -34,7 +38,10 @@ class Course {
 
  private:
   std::unique_ptr<SimulatedSource> simulate(const harness::ScenarioConfig& scenario);
-  Outcome judge(FrameSource& source, const Mutant& mutant);
+  Outcome judge(FrameSource& source, const harness::ScenarioConfig& simulated,
+                const Mutant& mutant);
+  void drive(FrameSource& source, SlamSystem& honest, const Mutant& mutant,
+             const harness::Trial& trial, Outcome& outcome) const;
 
   std::filesystem::path file_;
   harness::ScenarioConfig scenario_;

@@ -36,4 +36,8 @@ struct Mutant {
 /// "front_left" and so on, the tag camera "side", and at least one registered tag.
 std::vector<Mutant> all_mutants();
 
+/// What the diagnosis must name: a discrepancy ("front pair: baseline"), a pattern of the error
+/// ("late"), a cause of degraded segments, or one of several, with "|" between them.
+std::string cause_of(const std::string& mutant);
+
 }  // namespace vinebench::mutants

@@ -156,7 +156,28 @@ expect 2 "comparison of no runs" "empty: contains no run" -- compare "$work/empt
 mkdir -p "$work/a" "$work/b"
 echo '{"scenario": "row", "seed": 1, "ate_rmse_m": 0.01}' >"$work/a/metrics.json"
 echo '{"scenario": "row", "seed": 1, "ate_rmse_m": 0.02}' >"$work/b/metrics.json"
-expect 0 "comparison" "row: B is unknown" "one pair" -- compare "$work/a" "$work/b"
+expect 0 "comparison" "row: cannot tell yet" "at least 1 more seed" -- compare "$work/a" "$work/b"
+expect 2 "margin of no metric" "metric 'ate_rmse': " "did you mean 'ate_rmse_m'" -- \
+  compare "$work/a" "$work/b" --margin ate_rmse=5%
+expect 2 "margin without a unit" "--margin: expected a percentage" -- \
+  compare "$work/a" "$work/b" --margin 5
+expect 2 "alpha of no test" "at least 1e-06 and at most 0.5, found 0" -- compare "$work/a" "$work/b" --alpha 0
+mkdir -p "$work/a3/2" "$work/a3/3" "$work/b3/2" "$work/b3/3"
+for seed in 2 3; do
+  echo "{\"scenario\": \"row\", \"seed\": $seed, \"ate_rmse_m\": 0.0$seed}" >"$work/a3/$seed/metrics.json"
+  echo "{\"scenario\": \"row\", \"seed\": $seed, \"ate_rmse_m\": 0.0${seed}0$seed}" >"$work/b3/$seed/metrics.json"
+done
+expect 0 "comparison of two seeds" "row: B is equal to A within the margins" "| +1" -- \
+  compare "$work/a3" "$work/b3" --margin ate_rmse_m=20% --json "$work/compared.json"
+grep -q '"adjusted_p_equivalence"' "$work/compared.json" || report "comparison: no p-values as JSON"
+expect 0 "plan by one system" "| ATE, mm |" "usually an upper bound" -- plan "$work/a3" --detect 10%
+expect 0 "plan by two systems" "| ATE, mm |" -- \
+  plan "$work/a3" "$work/b3" --detect ate_rmse_m=1 --metric ate_rmse_m --power 0.9
+expect 2 "plan by one seed" "a: expected runs of at least two seeds of a scenario" -- plan "$work/a" --detect 10%
+expect 2 "plan without a change" "--detect is required" -- plan "$work/a3"
+expect 2 "plan of nothing" "none: expected a folder of runs" -- plan "$work/none" --detect 10%
+expect 2 "repeats of a recording" "--record: is for one scenario" -- \
+  run "$root/scenarios/quick-loop.yaml" --repeats 2 --record "$work/set" --out "$work/out"
 sed -i 's/0.01}/0.01, "frames": 150}/' "$work/a/metrics.json"
 sed -i 's/0.02}/0.02, "frames": 22}/' "$work/b/metrics.json"
 expect 2 "comparison of other lengths" "A has 150 frames, B has 22" -- compare "$work/a" "$work/b"
@@ -266,6 +287,16 @@ expect 0 "bench record" "pictures/hour" -- bench record --scenario quick-loop "$
 [[ $? -eq 1 ]] || report "set of runs: expected exit code 1, for a drive that ends too early"
 grep -q '<testcase ' verdicts.xml || report "set of runs: verdicts.xml has no case"
 grep -q 'quick-loop' set/table.md || report "set of runs: table.md lacks the scenario"
+
+"$vinebench" run quick-loop "${court[@]}" --seeds 1..2 --repeats 2 --jobs 2 --junit verdicts.xml \
+  --out set >"$work/stdout" 2>"$work/stderr"
+[[ $? -eq 1 ]] || report "set with repeats: expected exit code 1"
+grep -q 'seed 1, repeat 1: FAILED (kept)' "$work/stderr" || report "set with repeats: a run is not kept"
+grep -q 'repeats of 2 seeds: repeats agree by hash' "$work/stdout" || report "set with repeats: no hash"
+grep -q 'seed 2: broken, 2 of 2 repeats fail' "$work/stdout" || report "set with repeats: not broken"
+grep -q 'name="seed-2/repeat-2"' verdicts.xml || report "set with repeats: verdicts.xml lacks a repeat"
+expect 0 "comparison of repeats" "all runs are the same to the byte" "A: quick-loop, repeats of 2" -- \
+  compare set set
 
 # Caches: those of other users and of nobody, and several processes that fill one at once.
 view=(render csl-vineyard --set vines.templates=1 --set vines.bbch=0 --camera 32x24@20 --pose 0,0,1,0)

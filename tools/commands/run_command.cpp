@@ -27,6 +27,7 @@ struct RunArguments {
   std::string out;
   std::string junit;
   int jobs = 1;
+  int repeats = 1;
   bool force = false;
   std::string record;
   std::vector<std::string> record_formats{"euroc"};
@@ -114,7 +115,7 @@ int run_set(const RunArguments& arguments) {
         std::pair("--verify-determinism", arguments.verify_determinism),
         std::pair("--load-map", !maps.load.empty()), std::pair("--save-map", !maps.save.empty()),
         std::pair("--save-cloud", !maps.cloud.empty())}) {
-    if (given) fail("{}: is for one scenario without --seeds", option);
+    if (given) fail("{}: is for one scenario without --seeds and --repeats", option);
   }
   return run_many({.scenarios = scenarios_of(arguments),
                    .machine = arguments.machine,
@@ -124,6 +125,7 @@ int run_set(const RunArguments& arguments) {
                    .junit = arguments.junit,
                    .jobs = arguments.jobs,
                    .threads = arguments.threads,
+                   .repeats = arguments.repeats,
                    .force = arguments.force});
 }
 
@@ -151,7 +153,8 @@ int run_one(const RunArguments& arguments) {
 
 int run(RunArguments arguments) {
   arguments.machine = with_cache(arguments.machine, arguments.cache);
-  const bool set = arguments.scenarios.size() > 1 || !arguments.seeds.empty();
+  const bool set =
+      arguments.scenarios.size() > 1 || !arguments.seeds.empty() || arguments.repeats > 1;
   if (!set && (!arguments.junit.empty() || arguments.jobs > 1 || arguments.force)) {
     fail("--jobs, --junit, --force: expected several scenarios or --seeds, such as --seeds 1..5");
   }
@@ -206,6 +209,11 @@ std::vector<Option> set_options(RunArguments& arguments) {
            .help = "Runs side by side, which share the threads",
            .show_default = true,
            .range = Range::between(1, 256)},
+          {.name = "--repeats",
+           .target = &arguments.repeats,
+           .help = "Run each seed so many times, for systems that are not deterministic",
+           .show_default = true,
+           .range = Range::between(1, 1000)},
           {.name = "--force",
            .target = &arguments.force,
            .help = "Also run what is there already, of the same inputs"},

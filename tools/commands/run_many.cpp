@@ -15,6 +15,7 @@
 #include "core/util/error.h"
 #include "harness/datasets/files/json_file.h"
 #include "harness/jobs/run_scenario.h"
+#include "harness/jobs/simulation_versions.h"
 #include "harness/sets/junit.h"
 #include "harness/sets/set_report.h"
 #include "tools/arguments/command.h"
@@ -56,8 +57,8 @@ int report(const ManyRuns& many, const std::vector<harness::SeedsSummary>& scena
   write_file_atomically(many.out / "summary.json",
                         harness::json_text(harness::summary_json(scenarios), 2) + "\n");
   if (!many.junit.empty()) write_file_atomically(many.junit, harness::format_junit(scenarios));
-  fmt::print("\n{}\n{}results: {}\n", table, harness::format_failures(scenarios),
-             fs::absolute(many.out).string());
+  fmt::print("\n{}\n{}{}results: {}\n", table, harness::format_failures(scenarios),
+             harness::format_repeats(scenarios), fs::absolute(many.out).string());
   const bool errors = std::ranges::any_of(scenarios, [](const harness::SeedsSummary& summary) {
     return std::ranges::any_of(summary.runs,
                                [](const harness::SetRun& run) { return !run.error.empty(); });
@@ -69,7 +70,8 @@ int report(const ManyRuns& many, const std::vector<harness::SeedsSummary>& scena
 }  // namespace
 
 MadeRuns make_runs(const ManyRuns& many) {
-  std::vector<harness::PlannedRun> plan = harness::plan_set(many.scenarios, many.seeds, many.out);
+  std::vector<harness::PlannedRun> plan =
+      harness::plan_set(many.scenarios, many.seeds, many.out, many.repeats);
   FolderLock lock = prepare(many);
   const harness::Machine machine = checked_machine(many.machine);
   catch_interrupts();
@@ -80,6 +82,9 @@ MadeRuns make_runs(const ManyRuns& many) {
   options.run = [&machine](const harness::ScenarioConfig& scenario, int threads,
                            const harness::RunOptions& run) {
     return harness::run_scenario(scenario, machine, threads, run);
+  };
+  options.libraries = [](const harness::ScenarioConfig& scenario) {
+    return harness::drawing_libraries(scenario.simulation.renderer);
   };
   options.stopped = interrupted;
   options.progress = &std::cerr;

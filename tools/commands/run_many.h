@@ -22,6 +22,7 @@ struct ManyRuns {
   std::filesystem::path junit;  ///< none if empty
   int jobs = 1;
   int threads = 1;
+  int repeats = 1;
   bool force = false;
 };
 

@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/report/metric_table.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/support/test_folder.h"
 
 namespace vinebench::harness {
 namespace {
@@ -19,6 +24,25 @@ TEST(MetricTableTest, AreFoundInMetricsInTheirUnits) {
       EXPECT_FALSE(value) << metric.key;
     }
   }
+}
+
+TEST(MetricTableTest, NamesAreThoseOfTheFile) {
+  std::set<std::string> names;
+  for (const Metric& metric : known_metrics()) {
+    EXPECT_TRUE(metric.key.starts_with('/')) << metric.key;
+    EXPECT_TRUE(names.insert(name_of(metric)).second) << metric.key;
+    EXPECT_EQ(metric_named(name_of(metric)).key, metric.key);
+  }
+  EXPECT_EQ(metric_named("loop_closures.wrong").title, "loops wrong");
+  EXPECT_THAT(test::error_of([] { metric_named("ate_rms_m"); }),
+              testing::HasSubstr("did you mean 'ate_rmse_m'?"));
+}
+
+// A logarithm needs positive values: shares and counts are ordered.
+TEST(MetricTableTest, SharesAndCountsAreOrdered) {
+  EXPECT_EQ(metric_named("losses").compared_by, Scale::kOrdered);
+  EXPECT_EQ(metric_named("coverage").compared_by, Scale::kOrdered);
+  EXPECT_EQ(metric_named("ate_rmse_m").compared_by, Scale::kRatio);
 }
 
 TEST(MetricTableTest, TablesLineUp) {

@@ -17,6 +17,7 @@ RunReport report() {
   report.results.loops.missed.resize(2);
   report.checks = {{"coverage", "0.5", ">= 1", false}};
   report.cost.wall_seconds = 12;
+  report.hash_environment = {{"libm", "vinebench"}, {"blas", "libblas.so"}};
   return report;
 }
 
@@ -32,9 +33,20 @@ TEST(StoredRunTest, HasWhatTheReportHad) {
   EXPECT_EQ(run->value("/loop_closures/missed"), 2);
   EXPECT_FALSE(run->value("/ate_rmse_m"));  // null
   EXPECT_FALSE(run->value("/hash"));        // text
+  EXPECT_EQ(run->value(kPassedKey), 0);     // its coverage is too low
+  EXPECT_EQ(run->hash(), "");
+  EXPECT_EQ(run->hash_environment(), report().hash_environment);
   ASSERT_EQ(run->checks.size(), 1u);
   EXPECT_EQ(run->checks[0].what, "coverage");
   EXPECT_EQ(run->json, to_json(report()));
+}
+
+TEST(StoredRunTest, ARunWithoutExpectationsHasNoVerdict) {
+  const auto run = stored_run({{"scenario", "row"}, {"seed", 1}, {"hash", "abc"}});
+  EXPECT_FALSE(run->value(kPassedKey));
+  EXPECT_EQ(run->hash(), "abc");
+  EXPECT_EQ(StoredRun{}.hash(), "");
+  EXPECT_TRUE(run->hash_environment().empty());
 }
 
 TEST(StoredRunTest, WhatIsNotARunsMetricsIsNone) {

@@ -62,6 +62,15 @@ TEST(GuardTest, ARatioIsAllowedTwiceItsSpreadBothWays) {
   EXPECT_DOUBLE_EQ(find(bounds, "nees_mean_max")->value, 16);
 }
 
+// Overconfident: 400 (100 / 400)^2 = 25 would fail covariances that become consistent.
+TEST(GuardTest, ConsistentCovariancesFailNoGuard) {
+  const auto bounds =
+      derive_guard(runs_with({100, 400, 400, 400, 400}, [](RunResults& results, double nees) {
+        results.consistency = Consistency{.frames = 9, .nees_mean = nees};
+      }));
+  EXPECT_DOUBLE_EQ(find(bounds, "nees_mean_min")->value, 6);
+}
+
 // Coverages of 1 and once 0.9: 1 - 2 * 0.1 = 0.8. Losses: the most of any run.
 TEST(GuardTest, SharesAndCountsHaveNoMargin) {
   const auto bounds =

@@ -44,6 +44,20 @@ TEST(JunitTest, TheMedianIsACaseOfItsOwn) {
   EXPECT_THAT(format_junit({summary}), HasSubstr("tests=\"2\" failures=\"0\""));
 }
 
+TEST(JunitTest, RepeatsAreCasesOfTheirOwn) {
+  SeedsSummary summary{.scenario = "row",
+                       .runs = {test::set_run(1, 0.01), test::set_run(1, 0.01, false)}};
+  for (int i : {0, 1}) {
+    summary.runs[static_cast<std::size_t>(i)].repeat = i + 1;
+    summary.runs[static_cast<std::size_t>(i)].repeats = 2;
+  }
+  summary.repeat_checks = {{"repeats agree by hash", "1 seeds differ", "0 seeds differ", false}};
+  const std::string xml = format_junit({summary});
+  EXPECT_THAT(xml, HasSubstr("tests=\"3\" failures=\"2\" errors=\"0\""));
+  EXPECT_THAT(xml, HasSubstr("name=\"seed-1/repeat-2\""));
+  EXPECT_THAT(xml, HasSubstr("name=\"repeats\" time=\"0.000\""));
+}
+
 TEST(JunitTest, ASuiteForEachScenario) {
   const SeedsSummary a{.scenario = "a<b", .runs = {test::set_run(1, 0.01)}};
   const SeedsSummary b{.scenario = "b", .runs = {test::set_run(1, 0.01)}};

@@ -33,7 +33,7 @@ class RunSetTest : public testing::Test {
   RunSetTest() { options_.run = slide; }
 
   std::vector<PlannedRun> plan(const std::vector<std::int64_t>& seeds) const {
-    return plan_set({scenario_}, seeds, folder_.path());
+    return plan_set({scenario_}, seeds, folder_.path(), repeats_);
   }
   std::vector<SetRun> run(const std::vector<std::int64_t>& seeds) {
     std::ostringstream progress;
@@ -46,6 +46,7 @@ class RunSetTest : public testing::Test {
   test::TestFolder folder_;
   ScenarioConfig scenario_ = test::fake_scenario();
   SetOptions options_;
+  int repeats_ = 1;
   SetOutcome outcome_;
   std::string progress_;
 };
@@ -89,6 +90,63 @@ TEST_F(RunSetTest, PlansEachScenarioOverTheSeeds) {
               HasSubstr("the name 'fake'"));
 }
 
+TEST_F(RunSetTest, RepeatsAreBelowTheFirst) {
+  repeats_ = 3;
+  const auto runs = plan({4, 2});
+  ASSERT_EQ(runs.size(), 6u);
+  EXPECT_EQ(runs[0].folder, folder_ / "fake/seed-4");
+  EXPECT_EQ(runs[2].folder, folder_ / "fake/seed-4/repeat-3");
+  EXPECT_EQ(runs[2].repeat, 3);
+  EXPECT_EQ(runs[2].scenario.seed, 4);
+  EXPECT_EQ(runs[3].folder, folder_ / "fake/seed-2");
+  EXPECT_EQ(seed_text(4, 3, 3), "seed 4, repeat 3");
+  EXPECT_EQ(seed_text(4, 1, 1), "seed 4");
+}
+
+// What is there is kept when a set is given more repeats, or fewer.
+TEST_F(RunSetTest, ASetCanBeGivenMoreRepeats) {
+  run({1});
+  repeats_ = 3;
+  options_.jobs = 2;
+  const auto runs = run({1});
+  ASSERT_EQ(runs.size(), 3u);
+  EXPECT_TRUE(runs[0].kept);
+  for (const SetRun& run : runs) {
+    EXPECT_EQ(run.error, "");
+    EXPECT_EQ(run.result.value().hash(), runs[0].result->hash());
+  }
+  EXPECT_THAT(progress_, HasSubstr("fake, seed 1, repeat 3: passed"));
+  repeats_ = 2;
+  EXPECT_TRUE(run({1})[1].kept);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "fake/seed-1/repeat-3/metrics.json"));
+}
+
+// Comparisons would take it for a repeat of the same system.
+TEST_F(RunSetTest, RepeatsOfOtherInputsAreRemoved) {
+  repeats_ = 2;
+  run({1});
+  repeats_ = 1;
+  scenario_.slam.tracking.radius += 1;
+  run({1});
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "fake/seed-1/repeat-2/metrics.json"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "fake/seed-1/metrics.json"));
+}
+
+TEST_F(RunSetTest, RepeatsAreNotRemovedThroughLinks) {
+  std::filesystem::create_directories(folder_ / "fake/seed-1");
+  std::filesystem::create_directories(folder_ / "theirs/repeat-3");
+  const auto linked = folder_.write("theirs/metrics.json", "{}");
+  const auto below = folder_.write("theirs/repeat-3/metrics.json", "{}");
+  std::filesystem::create_directory_symlink(folder_ / "theirs", folder_ / "fake/seed-1/repeat-2");
+  std::filesystem::create_directory_symlink(folder_ / "theirs", folder_ / "fake/seed-2");
+  repeats_ = 2;
+  const auto runs = run({1, 2});
+  EXPECT_EQ(runs[0].error, "");
+  for (const std::size_t i : {1, 2, 3}) EXPECT_THAT(runs[i].error, HasSubstr("is a link")) << i;
+  EXPECT_TRUE(std::filesystem::exists(linked));
+  EXPECT_TRUE(std::filesystem::exists(below));
+}
+
 // All but the first of 201 poses are 0.01 m times the seed too high.
 TEST_F(RunSetTest, RunsEverySeedInAProcessOfItsOwn) {
   options_.jobs = 2;
@@ -119,6 +177,40 @@ TEST_F(RunSetTest, WhatIsThereIsKeptUnlessItsInputsDiffer) {
   EXPECT_FALSE(run({1})[0].kept);
   EXPECT_TRUE(run({1})[0].kept);
   folder_.write("fake/seed-1/metrics.json", "{\"frames\": 2");  // half a file
+  EXPECT_FALSE(run({1})[0].kept);
+}
+
+// Its hash, and the last digits of its results, may be others.
+TEST_F(RunSetTest, WhatAnotherEnvironmentMadeRunsAgain) {
+  repeats_ = 2;
+  options_.run = [this](const ScenarioConfig& scenario, int threads, const RunOptions& options) {
+    RunOptions with_libraries = options;
+    with_libraries.libraries = options_.libraries(scenario);
+    return slide(scenario, threads, with_libraries);
+  };
+  const auto draws = [&](const char* renderer) {
+    options_.libraries = [renderer](const ScenarioConfig&) {
+      return NamedValues{{"renderer", renderer}};
+    };
+  };
+  draws("llvmpipe");
+  run({1});
+  EXPECT_TRUE(run({1})[1].kept);
+  draws("a GPU");
+  repeats_ = 1;
+  const SetRun again = run({1}).at(0);
+  EXPECT_FALSE(again.kept);
+  EXPECT_EQ(again.result.value().json["hash_environment"]["renderer"], "a GPU");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "fake/seed-1/repeat-2/metrics.json"));
+  EXPECT_TRUE(run({1})[0].kept);
+}
+
+// A program before it had the environment, or a file that was edited.
+TEST_F(RunSetTest, WhatHasNoEnvironmentRunsAgain) {
+  run({1});
+  Json metrics = read_stored_run(folder_ / "fake/seed-1/metrics.json").value().json;
+  metrics.erase("hash_environment");
+  folder_.write("fake/seed-1/metrics.json", metrics.dump());
   EXPECT_FALSE(run({1})[0].kept);
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "tests/support/compared_runs.h"
 #include "tests/support/set_runs.h"
 #include "tests/support/test_folder.h"
 
@@ -76,6 +77,79 @@ TEST(SetReportTest, TheTableHasARowForEachRunAndTheMedian) {
   EXPECT_THAT(table, HasSubstr("|   ERROR |\n"));
   EXPECT_THAT(table, HasSubstr("| row      | median |          15.00 |"));
   EXPECT_THAT(format_table({summary_of({set_run(1, 0.01)})}), Not(HasSubstr("median")));
+}
+
+/// The repeat of a run of three, with a hash.
+SetRun repeat_run(std::int64_t seed, int repeat, double ate, const std::string& hash) {
+  SetRun run = set_run(seed, ate);
+  run.repeat = repeat;
+  run.repeats = 3;
+  run.result->json.update(test::hash_json(hash));
+  return run;
+}
+
+/// Three repeats of seeds 1 to 3; the second seed's differ.
+std::vector<SetRun> repeated_runs() {
+  return {repeat_run(1, 1, 0.010, "a"), repeat_run(1, 2, 0.010, "a"), repeat_run(1, 3, 0.010, "a"),
+          repeat_run(2, 1, 0.016, "b"), repeat_run(2, 2, 0.018, "c"), repeat_run(2, 3, 0.012, "d"),
+          repeat_run(3, 1, 0.030, "e"), repeat_run(3, 2, 0.030, "e"), repeat_run(3, 3, 0.030, "e")};
+}
+
+// The seeds' medians are 10, 16 and 30 mm.
+TEST(SetReportTest, ASeedCountsOnce) {
+  const SeedsSummary summary = summary_of(repeated_runs());
+  EXPECT_DOUBLE_EQ(summary.medians[0].value(), 16);
+  EXPECT_EQ(summary.checks.at(0).what, "median of 3 seeds: ATE, first pose aligned");
+  EXPECT_EQ(summary.checks[0].measured, "0.0160 m");
+  EXPECT_THAT(format_table({summary}), HasSubstr("| row      | 2 (3)  |          12.00 |"));
+  EXPECT_EQ(summary_json({summary})["scenarios"][0]["runs"][5]["repeat"], 3);
+}
+
+TEST(SetReportTest, TheBuiltInSystemsRepeatsMustAgree) {
+  const SeedsSummary differing = summary_of(repeated_runs());
+  ASSERT_EQ(differing.repeat_checks.size(), 1u);
+  EXPECT_EQ(differing.repeat_checks[0].measured, "1 seeds differ");
+  EXPECT_FALSE(differing.passed());
+  EXPECT_THAT(format_failures({differing}), HasSubstr("repeats agree by hash  1 seeds differ"));
+  EXPECT_THAT(format_repeats(std::vector{differing}),
+              HasSubstr("row, repeats of 3 seeds: repeats differ by hash in seed 2"));
+  std::vector<SetRun> equal = repeated_runs();
+  equal.erase(equal.begin() + 3, equal.begin() + 6);
+  EXPECT_TRUE(summary_of(equal).repeat_checks.at(0).ok);
+  EXPECT_THAT(format_repeats(std::vector{summary_of(equal)}), HasSubstr("repeats agree by hash"));
+}
+
+TEST(SetReportTest, RepeatsOfOtherEnvironmentsAreNotSaidToAgree) {
+  std::vector<SetRun> runs = repeated_runs();
+  runs.resize(3);
+  EXPECT_TRUE(summary_of(runs).repeat_checks.at(0).ok);
+  runs[1].result->json.update(test::hash_json("a", "glibc"));
+  const Check check = summary_of(runs).repeat_checks.at(0);
+  EXPECT_FALSE(check.ok);
+  EXPECT_EQ(check.measured, "their environments differ in libm");
+}
+
+TEST(SetReportTest, OtherSystemsMayDiffer) {
+  PlannedRun planned;
+  planned.scenario.name = "row";
+  planned.scenario.slam.plugin.emplace().library = "slam.so";
+  SetOutcome outcome;
+  outcome.runs = repeated_runs();
+  const SeedsSummary summary = summarise({planned}, outcome).at(0);
+  EXPECT_TRUE(summary.repeat_checks.empty());
+  EXPECT_TRUE(summary.passed());
+  EXPECT_EQ(summary_json({summary})["scenarios"][0]["repeats"]["deterministic"], false);
+}
+
+// A repeat that crashed beside two that passed.
+TEST(SetReportTest, ACrashedRepeatIsFlaky) {
+  std::vector<SetRun> runs = repeated_runs();
+  runs[1].result.reset();
+  runs[1].error = "ended by signal 9";
+  const SeedsSummary summary = summary_of(runs);
+  ASSERT_EQ(summary.repeats.value().failing.size(), 1u);
+  EXPECT_EQ(summary.repeats->failing[0].failed, 1u);
+  EXPECT_THAT(format_failures({summary}), HasSubstr("row, seed 1, repeat 2: ended by signal 9"));
 }
 
 TEST(SetReportTest, FailuresSayWhatFailedAndWhereTheLogIs) {

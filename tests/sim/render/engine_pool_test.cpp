@@ -37,18 +37,20 @@ class EnginePoolTest : public testing::Test {
   std::vector<CountingEngine*> made_;
 };
 
-TEST_F(EnginePoolTest, HasAnEngineAUserUpToAFew) {
-  const auto size = [this](int users) {
-    return EnginePool(users, [this] { return make(); }).size();
+TEST_F(EnginePoolTest, HasAnEngineAUserOrProcessorUpToAFew) {
+  const auto size = [this](int users, int processors = 64) {
+    return EnginePool(users, processors, [this] { return make(); }).size();
   };
   EXPECT_EQ(size(0), 1u);
   EXPECT_EQ(size(1), 1u);
   EXPECT_EQ(size(2), 2u);
   EXPECT_EQ(size(64), static_cast<std::size_t>(EnginePool::kMost));
+  EXPECT_EQ(size(64, 2), 2u);
+  EXPECT_EQ(size(2, 0), 1u);  // the number of processors is not known
 }
 
 TEST_F(EnginePoolTest, AnEngineHasOneUserAtATime) {
-  EnginePool pool(8, [this] { return make(); });
+  EnginePool pool(8, 8, [this] { return make(); });
   std::vector<std::thread> threads;
   for (int t = 0; t < 8; ++t) {
     threads.emplace_back([&] {
@@ -67,7 +69,7 @@ TEST_F(EnginePoolTest, AnEngineHasOneUserAtATime) {
 }
 
 TEST_F(EnginePoolTest, AnEngineComesBackAfterAnError) {
-  EnginePool pool(1, [this] { return make(); });
+  EnginePool pool(1, 1, [this] { return make(); });
   EXPECT_THROW(pool.with_engine([](RenderEngine&) { throw std::runtime_error("lens"); }),
                std::runtime_error);
   bool lent = false;

@@ -24,5 +24,11 @@ TEST(RobustLossTest, AgreesWithCeres) {
   expect_same(RobustLoss::cauchy(2.5), ceres::CauchyLoss(2.5));
 }
 
+TEST(RobustLossTest, OfResidualsIsHubersOrCauchys) {
+  // Of 9 squared deviations, by the definitions: 2 k 3 - k^2 and ln(1 + 9).
+  EXPECT_NEAR(residual_loss(ResidualLoss::kHuber).cost(9), 6 * 2.4477 - 2.4477 * 2.4477, 1e-12);
+  EXPECT_NEAR(residual_loss(ResidualLoss::kCauchy).cost(9), 2.302585092994046, 1e-12);
+}
+
 }  // namespace
 }  // namespace vinebench::slam

@@ -34,7 +34,7 @@ struct Matched {
 Matched match(const cv::Mat& left, const cv::Mat& right, const StereoConfig& config = {}) {
   const OrbExtractor extractor(OrbConfig{});
   Matched result{extractor.extract(left), {}};
-  result.matches = match_stereo(result.left, extractor.pyramid(right), lens(left.cols, left.rows),
+  result.matches = match_stereo(result.left, extractor.extract(right), lens(left.cols, left.rows),
                                 kBaseline, extractor, config);
   return result;
 }
@@ -208,11 +208,11 @@ TEST(StereoMatcherTest, ImpossiblePairsAreErrors) {
   const OrbExtractor extractor(OrbConfig{});
   const cv::Mat image = SyntheticPlane{}.left(0);
   const Extraction left = extractor.extract(image);
-  const auto pyramid = extractor.pyramid(image);
+  const Extraction right{{}, extractor.pyramid(image)};
   const PinholeCamera camera = lens(image.cols, image.rows);
-  EXPECT_THAT([&] { match_stereo(left, pyramid, camera, 0, extractor, {}); },
+  EXPECT_THAT([&] { match_stereo(left, right, camera, 0, extractor, {}); },
               testing::ThrowsMessage<Error>(testing::HasSubstr("expected a baseline above 0 m")));
-  const auto smaller = extractor.pyramid(image.colRange(0, 400).clone());
+  const Extraction smaller{{}, extractor.pyramid(image.colRange(0, 400).clone())};
   EXPECT_THAT([&] { match_stereo(left, smaller, camera, kBaseline, extractor, {}); },
               testing::ThrowsMessage<Error>(testing::HasSubstr("of the same size")));
 }

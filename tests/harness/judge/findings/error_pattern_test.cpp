@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "harness/judge/error_pattern.h"
+#include "harness/judge/findings/error_pattern.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -106,6 +106,35 @@ TEST_F(ErrorPatternTest, HeightThatGrowsWithThePathIsClimbing) {
   EXPECT_NEAR(found[0].size, 0.01, 1e-9);
 }
 
+// 4 m of path: 4 cm to the left at the end.
+TEST_F(ErrorPatternTest, AnErrorThatGrowsInOneDirectionIsDrifting) {
+  const auto found = patterns([](std::int64_t i) {
+    Pose pose = truth_at(i);
+    pose.translation.y() += 0.01 * (truth_at(i).translation.x() + truth_at(i).translation.y());
+    return pose;
+  });
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0].kind, ErrorPatternKind::kDrifting);
+  EXPECT_NEAR(found[0].size, 0.01, 1e-9);
+}
+
+// 4 m of path: 0.4 degrees at the end, and 0.2, which is not enough.
+TEST_F(ErrorPatternTest, AHeadingWhoseErrorGrowsIsTurning) {
+  const auto turning = [](double degrees_a_metre) {
+    return [=](std::int64_t i) {
+      Pose pose = truth_at(i);
+      const double path = pose.translation.x() + pose.translation.y();
+      pose.rotation = exp_so3({0, 0, degrees_a_metre * path * std::numbers::pi / 180});
+      return pose;
+    };
+  };
+  const auto found = patterns(turning(0.1));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].kind, ErrorPatternKind::kTurning);
+  EXPECT_NEAR(found[0].size, 0.1 * std::numbers::pi / 180, 1e-9);
+  EXPECT_TRUE(patterns(turning(0.05)).empty());
+}
+
 TEST_F(ErrorPatternTest, AStepHasItsSizeAndTime) {
   const auto found = patterns([](std::int64_t i) {
     Pose pose = truth_at(i);
@@ -147,6 +176,38 @@ TEST_F(ErrorPatternTest, AScaleIsNoOffsetInTheWorld) {
   });
   EXPECT_EQ(std::ranges::find(found, ErrorPatternKind::kWorldOffset, &ErrorPattern::kind),
             found.end());
+}
+
+// 4 mm up and 4 mm down in turns.
+TEST_F(ErrorPatternTest, ErrorsThatDoNotLastAreNoise) {
+  const auto up_and_down = [](double size) {
+    return [size](std::int64_t frame) {
+      Pose pose = truth_at(frame);
+      pose.translation.z() += frame % 2 == 0 ? size : -size;
+      return pose;
+    };
+  };
+  const auto found = patterns(up_and_down(0.004));
+  ASSERT_THAT(found, testing::Not(testing::IsEmpty()));
+  EXPECT_EQ(found[0].kind, ErrorPatternKind::kNoise);
+  EXPECT_NEAR(found[0].size, 0.004, 1e-5);  // m; 46 up and 45 down: the mean is not quite zero
+  EXPECT_TRUE(patterns(up_and_down(0.0019)).empty());
+}
+
+// About the forward axis; positions are right.
+TEST_F(ErrorPatternTest, ARollThatStaysIsTilted) {
+  const auto rolled = [](double degrees) {
+    return [degrees](std::int64_t frame) {
+      Pose pose = truth_at(frame);
+      if (frame > 0) pose.rotation = exp_so3({degrees * std::numbers::pi / 180, 0, 0});
+      return pose;
+    };
+  };
+  const auto found = patterns(rolled(0.5));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].kind, ErrorPatternKind::kTilted);
+  EXPECT_NEAR(found[0].size, 0.5 * std::numbers::pi / 180 * std::sqrt(90.0 / 91), 1e-6);
+  EXPECT_TRUE(patterns(rolled(0.2)).empty());
 }
 
 // A mean NEES of 24 is four times the six degrees of freedom.

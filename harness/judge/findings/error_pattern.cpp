@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "harness/judge/error_pattern.h"
+#include "harness/judge/findings/error_pattern.h"
 
 #include <fmt/format.h>
 
@@ -18,6 +18,11 @@ constexpr double kShareExplained = 0.6;  // of the squared error, at least
 constexpr double kVisible = 0.001;       // m RMS that a fit explains, at least
 constexpr double kLeastStep = 0.005;     // m
 constexpr double kTimesMedian = 10;      // the median change of the error
+constexpr double kLeastNoise = 0.002;    // m RMS
+constexpr double kUncorrelated = 0.3;    // autocorrelation of neighbouring frames, at most
+constexpr double kLeastTilt = 0.25 * kRadiansPerDegree;
+constexpr double kEvenTilt = 2;                             // worst frame over RMS, at most
+constexpr double kLeastTurning = 0.25 * kRadiansPerDegree;  // in the end
 constexpr double kLeastTurn = 0.5 * kRadiansPerDegree;
 constexpr double kInconsistent = 4;      // times the expected NEES
 constexpr double kDegreesOfFreedom = 6;  // of a pose
@@ -27,9 +32,10 @@ using Vectors = std::vector<Eigen::Vector3d>;
 /// Truth and error of each associated frame, aligned by the first pose, m.
 struct Course {
   Vectors error;
-  Vectors velocity;      ///< true, m/s
-  Vectors displacement;  ///< true, from the first pose
-  Vectors climb;         ///< the path's length upwards
+  Vectors velocity;                   ///< true, m/s
+  Vectors displacement;               ///< true, from the first pose
+  Vectors climb;                      ///< the path's length upwards
+  std::vector<double> heading_error;  ///< rad, to the left
 };
 
 Course course_of(const std::vector<PosePair>& pairs, const Pose& T_world_map) {
@@ -45,6 +51,8 @@ Course course_of(const std::vector<PosePair>& pairs, const Pose& T_world_map) {
                               to_seconds(std::max<Stamp>(after.stamp - before.stamp, 1)));
     course.displacement.push_back(at - pairs.front().T_world_body.translation);
     course.climb.push_back(path * Eigen::Vector3d::UnitZ());
+    course.heading_error.push_back(heading_between(
+        pairs[i].T_world_body.rotation, T_world_map.rotation * pairs[i].T_map_body.rotation));
   }
   return course;
 }
@@ -70,6 +78,36 @@ void add_fit(ErrorPatternKind kind, double sign, const Vectors& shape, const Vec
   patterns.push_back({kind, sign * product / squares, explained / all});
 }
 
+/// Growing with the path in one horizontal direction.
+void add_drift(const Course& course, std::vector<ErrorPattern>& patterns) {
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < course.error.size(); ++i) {
+    direction += course.climb[i].z() * course.error[i];
+  }
+  direction.z() = 0;
+  if (direction.norm() == 0) return;
+  direction.normalize();
+  Vectors shape;
+  for (const Eigen::Vector3d& climb : course.climb) shape.push_back(climb.z() * direction);
+  add_fit(ErrorPatternKind::kDrifting, 1, shape, course.error, patterns);
+}
+
+void add_turning(const Course& course, std::vector<ErrorPattern>& patterns) {
+  double squares = 0;
+  double products = 0;
+  double all = 0;
+  for (std::size_t i = 0; i < course.heading_error.size(); ++i) {
+    squares += course.climb[i].squaredNorm();
+    products += course.climb[i].z() * course.heading_error[i];
+    all += course.heading_error[i] * course.heading_error[i];
+  }
+  if (squares == 0 || all == 0) return;
+  const double rate = products / squares;
+  const double share = products * products / (squares * all);
+  if (share < kShareExplained || std::abs(rate) * course.climb.back().z() < kLeastTurning) return;
+  patterns.push_back({ErrorPatternKind::kTurning, rate, share});
+}
+
 void add_fits(const Course& course, std::vector<ErrorPattern>& patterns) {
   Vectors turned;
   for (const Eigen::Vector3d& d : course.displacement) turned.emplace_back(-d.y(), d.x(), 0);
@@ -78,6 +116,7 @@ void add_fits(const Course& course, std::vector<ErrorPattern>& patterns) {
   add_fit(ErrorPatternKind::kScale, 1, course.displacement, course.error, fits);
   add_fit(ErrorPatternKind::kTurned, 1, turned, course.error, fits);
   add_fit(ErrorPatternKind::kClimbing, 1, course.climb, course.error, fits);
+  add_drift(course, fits);
   std::ranges::stable_sort(fits, std::ranges::greater(), &ErrorPattern::share);
   patterns.insert(patterns.end(), fits.begin(), fits.end());
 }
@@ -107,6 +146,28 @@ void add_step(const RunRecord& record, const RunResults& results,
   }
   if (step.size >= std::max(kLeastStep, kTimesMedian * percentile(changes, 0.5))) {
     patterns.push_back(step);
+  }
+}
+
+void add_noise(const Vectors& error, std::vector<ErrorPattern>& patterns) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& e : error) mean += e / static_cast<double>(error.size());
+  double squares = 0;
+  double products = 0;
+  for (std::size_t i = 0; i < error.size(); ++i) {
+    squares += (error[i] - mean).squaredNorm();
+    if (i > 0) products += (error[i] - mean).dot(error[i - 1] - mean);
+  }
+  const double rms = std::sqrt(squares / static_cast<double>(error.size()));
+  if (rms >= kLeastNoise && products <= kUncorrelated * squares) {
+    patterns.push_back({ErrorPatternKind::kNoise, rms});
+  }
+}
+
+void add_tilt(const OrientationErrors& orientation, std::vector<ErrorPattern>& patterns) {
+  const AngleStatistics& tilt = orientation.tilt;
+  if (tilt.rmse >= kLeastTilt && tilt.max <= kEvenTilt * tilt.rmse) {
+    patterns.push_back({ErrorPatternKind::kTilted, tilt.rmse});
   }
 }
 
@@ -148,8 +209,16 @@ const char* name_of(ErrorPatternKind kind) {
       return "turned";
     case ErrorPatternKind::kClimbing:
       return "climbing";
+    case ErrorPatternKind::kDrifting:
+      return "drifting";
+    case ErrorPatternKind::kTurning:
+      return "turning";
     case ErrorPatternKind::kStep:
       return "step";
+    case ErrorPatternKind::kNoise:
+      return "noise";
+    case ErrorPatternKind::kTilted:
+      return "tilted";
     case ErrorPatternKind::kWorldOffset:
       return "world_offset";
     case ErrorPatternKind::kWorldTurn:
@@ -175,10 +244,14 @@ std::vector<ErrorPattern> error_patterns(const RunRecord& record, const RunResul
   add_count(ErrorPatternKind::kMissedLoop, std::ssize(results.loops.missed), patterns);
   const auto pairs = associate(true_trajectory(record), record.summary.trajectory);
   if (pairs.size() >= 3) {
-    add_fits(course_of(pairs, align_first(pairs)), patterns);
+    const Course course = course_of(pairs, align_first(pairs));
+    add_fits(course, patterns);
+    add_turning(course, patterns);
+    add_noise(course.error, patterns);
     add_step(record, results, patterns);
     add_world(pairs, record.summary.T_world_map, patterns);
   }
+  if (results.corrected) add_tilt(results.corrected->orientation, patterns);
   add_consistency(results, patterns);
   return patterns;
 }
@@ -196,8 +269,16 @@ std::string text_of(const ErrorPattern& pattern) {
       return fmt::format("path turned by {:+.2f} deg{}", size / kRadiansPerDegree, share);
     case ErrorPatternKind::kClimbing:
       return fmt::format("climbing {:+.1f} % of the path{}", 100 * size, share);
+    case ErrorPatternKind::kDrifting:
+      return fmt::format("drifting by {:.1f} % of the path{}", 100 * size, share);
+    case ErrorPatternKind::kTurning:
+      return fmt::format("heading drifting by {:+.2f} deg/m{}", size / kRadiansPerDegree, share);
     case ErrorPatternKind::kStep:
       return fmt::format("a step of {:.0f} mm at {:.2f} s", 1000 * size, to_seconds(pattern.stamp));
+    case ErrorPatternKind::kNoise:
+      return fmt::format("noise of {:.0f} mm", 1000 * size);
+    case ErrorPatternKind::kTilted:
+      return fmt::format("tilted by {:.2f} deg", size / kRadiansPerDegree);
     case ErrorPatternKind::kWorldOffset:
       return fmt::format("map {:.0f} mm off in the world{}", 1000 * size, share);
     case ErrorPatternKind::kWorldTurn:

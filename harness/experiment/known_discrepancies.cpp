@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/experiment/known_discrepancies.h"
+
+#include <cmath>
+
+#include "sim/sensors/calibration_error.h"
+#include "sim/world/world_layout.h"
+
+namespace vinebench::harness {
+namespace {
+
+constexpr double kLeastDelay = 1e-4;  // s
+
+double delay_of(const sim::FrameTimingConfig& timing, const std::string& camera) {
+  for (const sim::FrameTimingConfig::Trigger& trigger : timing.triggers) {
+    if (trigger.camera == camera) return trigger.delay;
+  }
+  return 0;
+}
+
+/// `speed` in m/s: that far things move meanwhile.
+void add_timing(const sim::FrameTimingConfig& timing, const Rig& rig, double speed,
+                std::vector<Discrepancy>& list) {
+  const auto add = [&](const std::string& of, const char* what, double seconds, double focal) {
+    if (std::abs(seconds) < kLeastDelay) return;
+    list.push_back({of, what, 1000 * seconds, "ms", std::abs(seconds) * speed * focal});
+  };
+  std::vector<double> delays;
+  for (const RigCamera& camera : rig.cameras) delays.push_back(delay_of(timing, camera.name));
+  std::vector<char> done(rig.cameras.size(), 0);
+  for (const StereoPair& pair : rig.stereo_pairs) {
+    const auto left = static_cast<std::size_t>(pair.left);
+    const auto right = static_cast<std::size_t>(pair.right);
+    if (delays[left] != delays[right]) continue;
+    done[left] = done[right] = 1;
+    add(pair.name + " pair", "exposure", delays[left], rig.cameras[left].model.fx);
+  }
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    if (!done[i]) add(rig.cameras[i].name, "exposure", delays[i], rig.cameras[i].model.fx);
+  }
+  const double focal = rig.cameras.front().model.fx;
+  add("all cameras", "stamps", timing.stamp_offset, focal);
+  if (timing.stamp_jitter >= kLeastDelay) {
+    list.push_back({"all cameras", "stamps' jitter", 1000 * timing.stamp_jitter, "ms",
+                    timing.stamp_jitter * speed * focal});
+  }
+}
+
+}  // namespace
+
+std::vector<Discrepancy> known_discrepancies(const sim::SimulationConfig& simulation,
+                                             std::uint64_t seed, const Rig& told,
+                                             const std::vector<RegisteredTag>& tags) {
+  const Rig truth =
+      sim::true_rig(load_rig(simulation.rover.rig), simulation.sensors.calibration, seed);
+  std::vector<Discrepancy> list = rig_discrepancies(told, truth);
+  const int reader = truth.tag_cameras.empty() ? 0 : truth.tag_cameras.front();
+  const double focal = truth.cameras[static_cast<std::size_t>(reader)].model.fx;
+  const auto surveyed = tag_discrepancies(tags, sim::world_tags(simulation.world), focal);
+  list.insert(list.end(), surveyed.begin(), surveyed.end());
+  add_timing(simulation.sensors.timing, truth, simulation.route.speed, list);
+  rank(list);
+  return list;
+}
+
+}  // namespace vinebench::harness
