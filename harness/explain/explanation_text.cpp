@@ -48,7 +48,7 @@ std::string row(const Explanation& explanation, const StretchExplanation& stretc
   std::string text =
       fmt::format("  {:<32} {:>9.1f} {:>7.0f} % {:>7.1f}   {}{}", names(explanation, one.factors),
                   1e3 * one.effect.metres, 100 * share_of(stretch, one.effect), one.effect.lost,
-                  verdict_of(one.effect), one.from_start ? ", from the start" : "");
+                  verdict_of(one.effect), one.from_start ? " (absent from the start)" : "");
   if (one.factors.size() == 2) {
     text += fmt::format("; interaction {:+.1f} mm", 1e3 * one.interaction.metres);
   }
