@@ -18,8 +18,8 @@ namespace vinebench::sim {
 /// mid grey.
 struct PhotonTransferConfig {
   bool enabled = true;
-  double full_well = 6900;  ///< electrons that make white at a gain of 0 dB
-  double read_noise = 2.5;  ///< electrons, standard deviation
+  double full_well = 6900;                ///< electrons that make white at a gain of 0 dB
+  double read_noise = 2.5;                ///< electrons, standard deviation
   std::optional<std::int64_t> pattern{};  ///< another number, another noise of the same kind
   template <class Archive>
   void serialize(Archive& archive) {
