@@ -54,14 +54,14 @@ bool is_covered(const TrackedFrame& tracked, const Map& map, const KeyframeConfi
 }  // namespace
 
 Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
-                   const std::vector<RegisteredTag>& tags)
+                   const std::vector<RegisteredTag>& tags, bool one_thread)
     : config_(config),
       rig_(rig, config.features, config.refinement),
       map_(config.features.scale),
       tracker_({config.tracking, config.dead_reckoning, config.refinement, config.stereo}),
       mapper_({config.mapping, config.refinement.enabled, config.tracking.max_hamming,
                config.loop.corner_sigma}),
-      scheduler_(config.mapping),
+      scheduler_(config.mapping, one_thread),
       loop_closer_({config.loop, config.tags.size, config.mapping.global_iterations},
                    rig_.tag_cameras, tags) {
   rig_.wheels = config.dead_reckoning.wheels;

@@ -23,7 +23,9 @@ namespace vinebench::slam {
 /// after the other for each frame. Knows no images, so that it can be tested without any.
 class Pipeline {
  public:
-  Pipeline(const SlamConfig& config, const StereoRig& rig, const std::vector<RegisteredTag>& tags);
+  /// With `one_thread`, local adjustments are solved by the caller; changes no result.
+  Pipeline(const SlamConfig& config, const StereoRig& rig, const std::vector<RegisteredTag>& tags,
+           bool one_thread = false);
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 

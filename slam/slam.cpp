@@ -18,7 +18,7 @@ class MulticameraSlam : public MappingSystem {
                   const std::vector<RegisteredTag>& tags, WorkerPool& pool)
       : front_end_({config.features, config.stereo, config.tags, config.dead_reckoning.wheels}, rig,
                    tags, pool),
-        pipeline_(config, rig, tags),
+        pipeline_(config, rig, tags, pool.threads() == 1),
         min_observations_(config.mapping.min_observations) {}
 
   Estimate process(const Frame& frame) override {

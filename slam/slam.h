@@ -35,9 +35,10 @@ class MappingSystem : public SlamSystem {
 };
 
 /// The lockstep SLAM system: everything that a frame starts is finished before its estimate is
-/// returned, and the result does not depend on the pool's number of threads. Throws Error for a rig
-/// that it cannot use (no stereo pair, two cameras that look different ways, an unknown camera
-/// name).
+/// returned, and the result does not depend on the pool's number of threads. With a pool of one
+/// thread it starts no other, so that its process can be forked between two frames. Throws Error
+/// for a rig that it cannot use (no stereo pair, two cameras that look different ways, an unknown
+/// camera name).
 std::unique_ptr<MappingSystem> make_slam(const SlamConfig& config, const Rig& rig,
                                          std::vector<RegisteredTag> tags, WorkerPool& pool);
 

@@ -20,7 +20,7 @@ void MappingScheduler::start(std::unique_ptr<AdjustmentJob> job, int keyframe) {
   job_ = std::move(job);
   keyframe_ = keyframe;
   frames_since_start_ = 0;
-  const bool at_once = schedule_ == MappingSchedule::kLockstep && delay_ == 0;
+  const bool at_once = schedule_ == MappingSchedule::kLockstep && (delay_ == 0 || in_caller_);
   solved_ = std::async(at_once ? std::launch::deferred : std::launch::async,
                        [job = job_.get()] { return solve(*job); });
   if (at_once) solved_.wait();

@@ -16,11 +16,13 @@ namespace vinebench::slam {
 /// Runs local adjustments beside tracking, one at a time, on a thread of their own.
 class MappingScheduler {
  public:
-  explicit MappingScheduler(const MappingConfig& config)
-      : schedule_(config.schedule), delay_(config.delay) {}
+  /// With `in_caller`, jobs of the lockstep are solved by the caller, with the same results: there
+  /// is never another thread.
+  explicit MappingScheduler(const MappingConfig& config, bool in_caller = false)
+      : schedule_(config.schedule), delay_(config.delay), in_caller_(in_caller) {}
 
   /// Begins to solve a job that moves `keyframe` among others. None may be under way. With a delay
-  /// of no frames in lockstep it is solved before this returns.
+  /// of no frames in lockstep, and in the caller, it is solved before this returns.
   void start(std::unique_ptr<AdjustmentJob> job, int keyframe);
 
   /// Counts a frame.
@@ -40,6 +42,7 @@ class MappingScheduler {
  private:
   MappingSchedule schedule_;
   int delay_;
+  bool in_caller_;
   std::unique_ptr<AdjustmentJob> job_;
   std::future<double> solved_;  ///< ms it took
   int keyframe_ = 0;

@@ -40,6 +40,18 @@ renderer: {engine: fake}
 duration: 0.34
 )");
   }
+  /// Large enough to be tracked in the court.
+  void write_large_rig() {
+    folder_.write("rig.yaml", R"(name: pair
+rate_hz: 15
+cameras:
+  - {name: left, width: 376, height: 240, fx: 130, fy: 130, position: [0.15, 0.06, 0.5]}
+  - {name: right, width: 376, height: 240, fx: 130, fy: 130, position: [0.15, -0.06, 0.5]}
+stereo_pairs:
+  - {name: front, left: left, right: right}
+)");
+  }
+
   harness::ScenarioConfig scenario() const { return harness::load_scenario(file_); }
   harness::Machine machine() const { return {"", folder_ / "cache"}; }
 

@@ -16,6 +16,7 @@ Command eval_command();
 Command compare_command();
 Command plan_command();
 Command guard_command(const Surroundings& surroundings);
+Command explain_command(const Surroundings& surroundings);
 Command render_command(const Surroundings& surroundings);
 Command world_command();
 Command list_command(const Surroundings& surroundings);

@@ -29,6 +29,10 @@ Command guard_command(const Surroundings&) {
   return refusal("guard");
 }
 
+Command explain_command(const Surroundings&) {
+  return refusal("explain");
+}
+
 Command record_command(const Surroundings&) {
   return refusal("record");
 }

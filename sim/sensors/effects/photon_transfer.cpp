@@ -44,10 +44,13 @@ const std::array<double, kClasses>& normal_classes() {
 
 class PhotonTransferEffect : public CodeEffect {
  public:
-  PhotonTransferEffect(const PhotonTransfer& transfer, const EffectInputs& inputs)
+  PhotonTransferEffect(const PhotonTransfer& transfer, const PhotonTransferConfig& config,
+                       const EffectInputs& inputs)
       : transfer_(transfer),
         seed_(inputs.seed),
-        stream_("sensor.noise." + std::to_string(inputs.index)) {}
+        stream_("sensor.noise." + std::to_string(inputs.index)) {
+    if (config.pattern) stream_ += ".pattern." + std::to_string(*config.pattern);
+  }
   void apply(cv::Mat& codes, const Shot& shot) override {
     transfer_.set_gain(shot.exposure.gain_db);
     transfer_.apply(codes, RandomStream(seed_, stream_, static_cast<std::uint64_t>(shot.frame)));
@@ -124,7 +127,7 @@ std::unique_ptr<CodeEffect> make_photon_transfer(const PhotonTransferConfig& con
                                                  const EffectInputs& inputs) {
   const PhotonTransfer transfer(config, gamma);
   if (transfer.is_identity()) return nullptr;
-  return std::make_unique<PhotonTransferEffect>(transfer, inputs);
+  return std::make_unique<PhotonTransferEffect>(transfer, config, inputs);
 }
 
 }  // namespace vinebench::sim

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 
 #include "core/config/config_field.h"
 #include "core/util/random.h"
@@ -17,13 +18,15 @@ namespace vinebench::sim {
 /// mid grey.
 struct PhotonTransferConfig {
   bool enabled = true;
-  double full_well = 6900;  ///< electrons that make white at a gain of 0 dB
-  double read_noise = 2.5;  ///< electrons, standard deviation
+  double full_well = 6900;                ///< electrons that make white at a gain of 0 dB
+  double read_noise = 2.5;                ///< electrons, standard deviation
+  std::optional<std::int64_t> pattern{};  ///< another number, another noise of the same kind
   template <class Archive>
   void serialize(Archive& archive) {
     archive("enabled", enabled);
     archive("full_well", full_well, Range::between(10, 1e7));
     archive("read_noise", read_noise, Range::between(0, 1e5));
+    archive("pattern", pattern, Range::non_negative());
   }
 };
 

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <filesystem>
+#include <iterator>
 #include <thread>
 
 #include "slam/pipeline.h"
@@ -87,6 +89,21 @@ TEST_F(MappingSchedulerTest, InLockstepIsDueAfterTheDelayHoweverSoonItIsSolved) 
   }
 }
 
+std::ptrdiff_t threads() {
+  return std::distance(std::filesystem::directory_iterator("/proc/self/task"),
+                       std::filesystem::directory_iterator());
+}
+
+TEST_F(MappingSchedulerTest, TheCallerSolvesWithoutAnotherThread) {
+  const std::ptrdiff_t before = threads();
+  MappingScheduler scheduler(config(MappingSchedule::kLockstep, 2), true);
+  scheduler.start(job(), 2);
+  EXPECT_EQ(threads(), before);
+  EXPECT_FALSE(scheduler.due());  // it still joins after the delay
+  scheduler.join(known_.map, times_);
+  EXPECT_LT(distance(known_.map.keyframe(2).T_map_body, truth(2)), 1e-5);
+}
+
 TEST_F(MappingSchedulerTest, JoiningMovesTheMapAndTellsHowFar) {
   MappingScheduler scheduler(config(MappingSchedule::kLockstep, 2));
   const Pose before = known_.map.keyframe(2).T_map_body;
@@ -115,10 +132,11 @@ TEST_F(MappingSchedulerTest, LiveIsDueWhenItIsSolved) {
 
 /// Live and final poses of a drive, byte by byte. `pause` between two frames gives a job more or
 /// less time.
-std::string drive(const SyntheticAisle& aisle, int delay, std::chrono::milliseconds pause) {
+std::string drive(const SyntheticAisle& aisle, int delay, std::chrono::milliseconds pause,
+                  bool one_thread = false) {
   SlamConfig slam;
   slam.mapping = config(MappingSchedule::kLockstep, delay);
-  Pipeline pipeline(slam, aisle.rig, {});
+  Pipeline pipeline(slam, aisle.rig, {}, one_thread);
   std::string bytes;
   const auto append = [&](const Pose& pose) {
     bytes.append(reinterpret_cast<const char*>(pose.translation.data()), 3 * sizeof(double));
@@ -139,6 +157,7 @@ TEST(LockstepTest, TheResultIsTheSameWhateverTheThreadsDo) {
   for (const int delay : {0, 2, 5}) {
     const std::string hurried = drive(aisle, delay, std::chrono::milliseconds(0));
     EXPECT_EQ(hurried, drive(aisle, delay, std::chrono::milliseconds(10))) << delay;
+    EXPECT_EQ(hurried, drive(aisle, delay, std::chrono::milliseconds(0), true)) << delay;
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/render/image_encoding.h"
+#include "tests/support/effect_camera.h"
 
 namespace vinebench::sim {
 namespace {
@@ -126,6 +127,24 @@ TEST(PhotonTransferTest, ADrawDependsOnItsPlaceAlone) {
   cv::Mat next(40, 61, CV_8UC3, cv::Scalar::all(100));
   sensor.apply(next, RandomStream(5, "test", 3));
   EXPECT_GT(cv::countNonZero(cv::Mat(one != next).reshape(1)), 1000);
+}
+
+// 100 pixels of mid grey with 1.5 grey levels of noise: two equal draws are next to impossible.
+TEST(PhotonTransferTest, AnotherPatternIsAnotherNoise) {
+  const test::EffectCamera camera;
+  const auto noisy = [&](const PhotonTransferConfig& config) {
+    cv::Mat codes(10, 10, CV_8UC3, cv::Scalar::all(127));
+    make_photon_transfer(config, kImageGamma, camera.inputs())->apply(codes, {});
+    return codes;
+  };
+  const auto differ = [](const cv::Mat& a, const cv::Mat& b) {
+    return cv::countNonZero(cv::Mat(a != b).reshape(1)) > 0;
+  };
+  PhotonTransferConfig other;
+  other.pattern = 1;
+  EXPECT_FALSE(differ(noisy({}), noisy({})));
+  EXPECT_TRUE(differ(noisy({}), noisy(other)));
+  EXPECT_FALSE(differ(noisy(other), noisy(other)));
 }
 
 TEST(LightTest, ThereAndBackGivesTheSameCodes) {

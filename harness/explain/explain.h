@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "harness/explain/effects.h"
+#include "harness/machine.h"
+
+namespace vinebench::harness {
+
+/// A run to explain, which is repeated for it.
+struct ExplainRequest {
+  ScenarioConfig scenario;
+  std::string live_poses;  ///< of the run, as a TUM file: what its repetition must give
+  /// Why a repetition may differ, for the message; empty: unknown.
+  std::string differences{};
+  std::vector<Stretch> stretches;  ///< in order of their first frames
+  Machine machine;
+  double lead = 2;   ///< s before a stretch at which factors are taken away
+  int placebos = 4;  ///< reruns with another noise, at least 2
+  int repeats = 2;   ///< further reruns, with other noise, where chance could explain an effect
+  int pairs = 10;    ///< pairs to try at most; 0: none
+  int at_once = 1;   ///< reruns side by side
+  std::ostream* progress = nullptr;
+};
+
+/// A factor, or two of them, and what the drive is without.
+struct FactorEffect {
+  std::vector<std::size_t> factors;  ///< of Explanation::factors
+  bool from_start = false;           ///< taken away from the drive's start on
+  std::vector<StretchDrift> without{};
+  Effect effect{};
+  Interaction interaction{};  ///< of two
+};
+
+struct StretchExplanation {
+  Stretch stretch;
+  std::int64_t aligned = 0;  ///< index of the frame since which drift is measured
+  StretchDrift was{};        ///< of the run itself
+  AsItWas chance{};          ///< with the placebos
+  std::vector<FactorEffect> singles{};
+  std::optional<FactorEffect> all{};  ///< without any of them; of two or more
+  std::vector<FactorEffect> pairs{};  ///< those that were tried
+  std::vector<std::size_t> causes{};  ///< factors, the strongest first
+};
+
+struct Explanation {
+  std::vector<Factor> factors;
+  std::vector<StretchExplanation> stretches;
+  int reruns = 0;
+  double rerun_seconds = 0;  ///< processor time of all of them
+  double null_seconds = 0;   ///< of those in which nothing was taken away, on average
+};
+
+/// Repeats the run up to just before each stretch, and from there on as it was, with placebos, and
+/// without each factor, from the same state of rover and estimator. Throws Error if the repetition
+/// differs from the run, for scenarios whose rover is steered by estimates, and for other SLAM
+/// systems. Requires that this process has one thread and no GL context.
+Explanation explain(const ExplainRequest& request);
+
+/// The factors that cause the drift or the lost frames, the strongest first: singles, and the pair
+/// that takes away most of what its two do not take away alone.
+std::vector<std::size_t> causes_of(const StretchExplanation& stretch);
+
+}  // namespace vinebench::harness

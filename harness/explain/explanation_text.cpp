@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/explain/explanation_text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace vinebench::harness {
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+double share_of(const StretchExplanation& stretch, const Effect& effect) {
+  const double drift = stretch.chance.metres.typical();
+  return drift > 0 ? effect.metres / drift : 0;
+}
+
+std::vector<std::string> texts(const Explanation& explanation,
+                               const std::vector<std::size_t>& factors) {
+  std::vector<std::string> list;
+  for (const std::size_t i : factors) list.push_back(explanation.factors[i].text);
+  return list;
+}
+
+std::string names(const Explanation& explanation, const std::vector<std::size_t>& factors) {
+  std::vector<std::string> list;
+  for (const std::size_t i : factors) list.push_back(explanation.factors[i].name);
+  return fmt::format("{}", fmt::join(list, " + "));
+}
+
+std::string cause_sentence(const Explanation& explanation, const StretchExplanation& stretch) {
+  if (!stretch.causes.empty()) {
+    return fmt::format("caused by {}", fmt::join(texts(explanation, stretch.causes), ", and by "));
+  }
+  return explanation.factors.empty() ? "the scenario has no factor that could be taken away"
+                                     : "no factor explains it beyond chance";
+}
+
+const char* verdict_of(const Effect& effect) {
+  if (effect.is_cause()) return "cause";
+  return effect.is_open ? "chance could do it" : "";
+}
+
+std::string row(const Explanation& explanation, const StretchExplanation& stretch,
+                const FactorEffect& one) {
+  std::string text =
+      fmt::format("  {:<32} {:>9.1f} {:>7.0f} % {:>7.1f}   {}{}", names(explanation, one.factors),
+                  1e3 * one.effect.metres, 100 * share_of(stretch, one.effect), one.effect.lost,
+                  verdict_of(one.effect), one.from_start ? " (absent from the start)" : "");
+  if (one.factors.size() == 2) {
+    text += fmt::format("; interaction {:+.1f} mm", 1e3 * one.interaction.metres);
+  }
+  return text + "\n";
+}
+
+std::vector<FactorEffect> strongest_first(std::vector<FactorEffect> list) {
+  std::ranges::stable_sort(list, std::greater(), [](const FactorEffect& one) {
+    return std::pair(one.effect.is_cause(), one.effect.metres);
+  });
+  return list;
+}
+
+std::string format_stretch(const Explanation& explanation, const StretchExplanation& stretch,
+                           double rate_hz) {
+  const auto seconds = [&](std::int64_t frame) { return static_cast<double>(frame) / rate_hz; };
+  std::string text = fmt::format("stretch {}, {:.2f} to {:.2f} s: {}\n", stretch.stretch.number,
+                                 seconds(stretch.stretch.first), seconds(stretch.stretch.last),
+                                 cause_sentence(explanation, stretch));
+  text += fmt::format(
+      "  drift since {:.2f} s: {:.1f} mm (with other noise {:.1f} +- {:.1f} mm), {:.0f} frames "
+      "lost; beyond chance: {:.1f} mm\n",
+      seconds(stretch.aligned), 1e3 * stretch.was.metres, 1e3 * stretch.chance.metres.typical(),
+      1e3 * stretch.chance.metres.deviation(), stretch.was.lost,
+      1e3 * stretch.chance.metres.limit());
+  if (!stretch.stretch.coincide.empty()) {
+    text += fmt::format("  what coincides: {}\n", fmt::join(stretch.stretch.coincide, ", "));
+  }
+  if (stretch.singles.empty()) return text;
+  text += fmt::format("  {:<32} {:>9} {:>9} {:>7}\n", "without", "mm less", "share", "frames");
+  for (const FactorEffect& one : strongest_first(stretch.singles)) {
+    text += row(explanation, stretch, one);
+  }
+  for (const FactorEffect& pair : strongest_first(stretch.pairs)) {
+    text += row(explanation, stretch, pair);
+  }
+  if (stretch.all) {
+    FactorEffect all = *stretch.all;
+    text +=
+        fmt::format("  {:<32} {:>9.1f} {:>7.0f} % {:>7.1f}\n", "all of them",
+                    1e3 * all.effect.metres, 100 * share_of(stretch, all.effect), all.effect.lost);
+  }
+  return text;
+}
+
+OrderedJson effect_json(const Explanation& explanation, const FactorEffect& one) {
+  OrderedJson json;
+  for (const std::size_t i : one.factors) json["without"].push_back(explanation.factors[i].name);
+  json["from_start"] = one.from_start;
+  for (const StretchDrift& drift : one.without) {
+    json["reruns"].push_back(
+        {{"drift_m", drift.metres}, {"end_drift_m", drift.end}, {"lost_frames", drift.lost}});
+  }
+  json["caused_m"] = one.effect.metres;
+  json["caused_lost_frames"] = one.effect.lost;
+  json["cause"] = one.effect.is_cause();
+  if (one.factors.size() == 2) {
+    json["interaction_m"] = one.interaction.metres;
+  }
+  return json;
+}
+
+OrderedJson stretch_json(const Explanation& explanation, const StretchExplanation& stretch,
+                         double rate_hz) {
+  const auto seconds = [&](std::int64_t frame) { return static_cast<double>(frame) / rate_hz; };
+  OrderedJson json{{"stretch", stretch.stretch.number},
+                   {"from", seconds(stretch.stretch.first)},
+                   {"until", seconds(stretch.stretch.last)},
+                   {"drift_since", seconds(stretch.aligned)},
+                   {"causes", OrderedJson::array()},
+                   {"coincide", stretch.stretch.coincide},
+                   {"drift_m", stretch.was.metres},
+                   {"end_drift_m", stretch.was.end},
+                   {"lost_frames", stretch.was.lost},
+                   {"chance",
+                    {{"runs", stretch.chance.metres.runs()},
+                     {"median_m", stretch.chance.metres.typical()},
+                     {"deviation_m", stretch.chance.metres.deviation()},
+                     {"limit_m", stretch.chance.metres.limit()}}},
+                   {"factors", OrderedJson::array()},
+                   {"pairs", OrderedJson::array()}};
+  for (const std::size_t i : stretch.causes) {
+    json["causes"].push_back(explanation.factors[i].name);
+  }
+  for (const FactorEffect& one : stretch.singles) {
+    json["factors"].push_back(effect_json(explanation, one));
+  }
+  for (const FactorEffect& one : stretch.pairs) {
+    json["pairs"].push_back(effect_json(explanation, one));
+  }
+  if (stretch.all) json["without_all"] = effect_json(explanation, *stretch.all);
+  return json;
+}
+
+}  // namespace
+
+std::string format_explanation(const Explanation& explanation, double rate_hz) {
+  std::string text;
+  for (const StretchExplanation& stretch : explanation.stretches) {
+    text += format_stretch(explanation, stretch, rate_hz);
+  }
+  return text;
+}
+
+nlohmann::ordered_json to_json(const Explanation& explanation, double rate_hz) {
+  OrderedJson json{{"reruns", explanation.reruns}, {"stretches", OrderedJson::array()}};
+  for (const StretchExplanation& stretch : explanation.stretches) {
+    json["stretches"].push_back(stretch_json(explanation, stretch, rate_hz));
+  }
+  return json;
+}
+
+}  // namespace vinebench::harness

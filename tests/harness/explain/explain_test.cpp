@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/explain/explain.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "harness/explain/run_to_explain.h"
+#include "harness/jobs/run_scenario.h"
+#include "tests/support/court_scenario.h"
+
+namespace vinebench::harness {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+StretchDrift drift_and_losses(double metres, double lost = 0) {
+  return {.metres = metres, .end = metres, .lost = lost};
+}
+
+/// 20 mm, of which removals leave what is given; factors 0, 1, 2.
+class CausesTest : public testing::Test {
+ protected:
+  CausesTest() {
+    explanation_.chance = as_it_was(
+        {drift_and_losses(0.02, 10), drift_and_losses(0.0205, 10), drift_and_losses(0.0195, 10)});
+  }
+
+  FactorEffect without(std::vector<std::size_t> factors, const StretchDrift& rest) const {
+    FactorEffect one{.factors = std::move(factors), .without = {rest}};
+    one.effect = effect_of(explanation_.chance, one.without);
+    return one;
+  }
+
+  void singles(const std::vector<StretchDrift>& rests) {
+    for (std::size_t i = 0; i < rests.size(); ++i) {
+      explanation_.singles.push_back(without({i}, rests[i]));
+    }
+  }
+
+  StretchExplanation explanation_;
+};
+
+TEST_F(CausesTest, TheStrongestFirst) {
+  singles({drift_and_losses(0.006, 10), drift_and_losses(0.02, 10), drift_and_losses(0.003, 10)});
+  EXPECT_THAT(causes_of(explanation_), ElementsAre(2, 0));
+}
+
+TEST_F(CausesTest, LostFramesCountByTheirShare) {
+  singles({drift_and_losses(0.006, 10), drift_and_losses(0.02, 0)});
+  EXPECT_THAT(causes_of(explanation_), ElementsAre(1, 0));  // all of the losses, 70 % of the drift
+}
+
+TEST_F(CausesTest, APairIsACauseWhereItsTwoAreNone) {
+  singles({drift_and_losses(0.02, 10), drift_and_losses(0.02, 10), drift_and_losses(0.019, 10)});
+  EXPECT_THAT(causes_of(explanation_), ElementsAre());
+  explanation_.pairs.push_back(without({0, 1}, drift_and_losses(0.002, 10)));
+  explanation_.pairs.push_back(without({0, 2}, drift_and_losses(0.005, 10)));
+  EXPECT_THAT(causes_of(explanation_), ElementsAre(0, 1));
+}
+
+TEST_F(CausesTest, APairThatOneOfTheTwoExplainsIsNone) {
+  singles({drift_and_losses(0.002, 10), drift_and_losses(0.02, 10)});
+  explanation_.pairs.push_back(without({0, 1}, drift_and_losses(0.001, 10)));
+  EXPECT_THAT(causes_of(explanation_), ElementsAre(0));
+}
+
+/// Ten frames along the court.
+class ExplainTest : public test::CourtScenario {
+ protected:
+  static constexpr std::int64_t kLast = 9;
+
+  ExplainTest() { write_large_rig(); }
+
+  ScenarioConfig ten_frames() const {
+    ScenarioConfig longer = scenario();
+    longer.simulation.duration = 0.61;
+    return longer;
+  }
+
+  ExplainRequest run(const ScenarioConfig& config, const StretchChoice& choice) const {
+    RunOptions options;
+    options.folder = folder_ / "out";
+    const FolderLock lock = prepare_scenario_folder(options.folder, config);
+    run_scenario(config, machine(), 1, options);
+    ExplainRequest request = read_run(options.folder, choice);
+    request.machine = machine();
+    request.lead = 0.13;
+    request.placebos = 2;
+    request.repeats = 0;
+    return request;
+  }
+};
+
+// Three of ten frames have no images: the factors are noise, drops and slip, of which drops alone
+// lose frames.
+TEST_F(ExplainTest, DroppedImagesLoseFrames) {
+  ScenarioConfig config = ten_frames();
+  sim::FaultScope burst;
+  burst.from = 0.25;
+  burst.until = 0.45;
+  config.simulation.sensors.drops.bursts = {burst};
+  const Explanation explanation = explain(run(config, {.number = {}, .from = 0.2, .to = {}}));
+  ASSERT_EQ(explanation.stretches.size(), 1u);
+  const StretchExplanation& stretch = explanation.stretches[0];
+  EXPECT_EQ(stretch.stretch.first, 3);
+  EXPECT_EQ(stretch.stretch.last, kLast);
+  EXPECT_EQ(stretch.aligned, 0);  // 0.13 s before frame 3 is frame 1: the last one as it was is 0
+  EXPECT_GE(stretch.was.lost, 3);
+  ASSERT_FALSE(stretch.causes.empty());
+  EXPECT_EQ(explanation.factors[stretch.causes[0]].name, "drops");
+  for (const FactorEffect& one : stretch.singles) {
+    const bool drops = explanation.factors[one.factors[0]].name == "drops";
+    EXPECT_EQ(one.effect.losses_are_caused, drops);
+  }
+  // As it was, two placebos, three factors, all of them: at least.
+  EXPECT_GE(explanation.reruns, 7);
+}
+
+TEST_F(ExplainTest, RefusesARunThatItCannotRepeat) {
+  ExplainRequest request = run(ten_frames(), {});
+  EXPECT_EQ(test::error_of([&] { explain(request); }), "");
+  ExplainRequest other = request;
+  other.scenario.seed = 6;
+  EXPECT_THAT(test::error_of([&] { explain(other); }), HasSubstr("cannot be repeated here"));
+  other.stretches[0].first = 6;  // the frames before it are checked too
+  EXPECT_THAT(test::error_of([&] { explain(other); }), HasSubstr("cannot be repeated here"));
+}
+
+TEST_F(ExplainTest, RefusesWhatItCannotExplain) {
+  ExplainRequest request{
+      .scenario = ten_frames(), .live_poses = {}, .stretches = {{.last = 3}}, .machine = machine()};
+  request.scenario.simulation.route.steering = sim::Steering::kEstimate;
+  EXPECT_THAT(test::error_of([&] { explain(request); }), HasSubstr("steering: truth"));
+  request.scenario.slam.external.emplace();
+  EXPECT_THAT(test::error_of([&] { explain(request); }), HasSubstr("built-in SLAM core"));
+  request.scenario = ten_frames();
+  request.placebos = 1;
+  EXPECT_THAT(test::error_of([&] { explain(request); }), HasSubstr("at least two placebos"));
+}
+
+}  // namespace
+}  // namespace vinebench::harness
