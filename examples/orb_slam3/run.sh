@@ -19,26 +19,41 @@ left=$recording/mav0/cam0 right=$recording/mav0/cam1
 numbers() {
   tr '\n' ' ' <"$2" | sed -nE "s/.*[[:space:]]$1: \[([^]]*)\].*/\1/p" | tr ',' ' '
 }
-read -r fx fy cx cy <<<"$(numbers intrinsics "$left/sensor.yaml")"
 read -r width height <<<"$(numbers resolution "$left/sensor.yaml")"
 rate=$(sed -nE 's/^rate_hz: //p' "$left/sensor.yaml")
-# Baseline, from the last column of both T_BS.
-baseline=$(echo "$(numbers data "$left/sensor.yaml") $(numbers data "$right/sensor.yaml")" |
-  awk '{ x = $4 - $20; y = $8 - $24; z = $12 - $28; printf "%.9f", sqrt(x * x + y * y + z * z) }')
+# T_c1_c2, row by row: the inverse of the left camera's T_BS times the right one's.
+T_c1_c2=$(echo "$(numbers data "$left/sensor.yaml") $(numbers data "$right/sensor.yaml")" | awk '{
+  for (r = 0; r < 3; ++r) {
+    for (c = 0; c < 4; ++c) {
+      sum = 0
+      for (i = 0; i < 3; ++i) sum += $(1 + 4 * i + r) * ($(17 + 4 * i + c) - (c == 3 ? $(4 + 4 * i) : 0))
+      printf "%.9f, ", sum
+    }
+  }
+  print "0.0, 0.0, 0.0, 1.0"
+}')
 
+# Not the type "Rectified": release 1.0 crashes on it when it prints the second camera.
+camera() { # camera NUMBER FILE
+  local fx fy cx cy
+  read -r fx fy cx cy <<<"$(numbers intrinsics "$2")"
+  printf "Camera$1.%s: %.9f\n" fx "$fx" fy "$fy" cx "$cx" cy "$cy"
+}
 cat >"$output/settings.yaml" <<END
 %YAML:1.0
 File.version: "1.0"
-Camera.type: "Rectified"
-Camera1.fx: $(printf %.9f "$fx")
-Camera1.fy: $(printf %.9f "$fy")
-Camera1.cx: $(printf %.9f "$cx")
-Camera1.cy: $(printf %.9f "$cy")
+Camera.type: "PinHole"
+$(camera 1 "$left/sensor.yaml")
+$(camera 2 "$right/sensor.yaml")
+Stereo.T_c1_c2: !!opencv-matrix
+  rows: 4
+  cols: 4
+  dt: f
+  data: [$T_c1_c2]
 Camera.width: $width
 Camera.height: $height
 Camera.fps: $(printf %.0f "$rate")
 Camera.RGB: 1
-Stereo.b: $baseline
 Stereo.ThDepth: 40.0
 ORBextractor.nFeatures: 1200
 ORBextractor.scaleFactor: 1.2

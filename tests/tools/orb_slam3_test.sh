@@ -50,8 +50,12 @@ check "a crash after the trajectory" run "$work/stereo" "$work/vocabulary" "$wor
 check "the arguments" grep -qFx \
   "$work/vocabulary|settings.yaml|$work/recording|times.txt|vinebench" "$work/output/arguments"
 check "the frames of both cameras" diff <(printf '%s\n' 0 1000000000) "$work/output/times.txt"
-for line in "Camera1.fx: 263.278600000" "Camera1.cx: 375.500000000" "Camera.width: 752" \
-  "Camera.height: 480" "Camera.fps: 15" "Stereo.b: 0.120000000"; do
+# The right camera is 0.12 m along the left one's x axis, and turned by nothing.
+for line in 'Camera.type: "PinHole"' "Camera1.fx: 263.278600000" "Camera1.cx: 375.500000000" \
+  "Camera2.fx: 263.278600000" "Camera2.cy: 239.500000000" "Camera.width: 752" "Camera.height: 480" \
+  "Camera.fps: 15" "  data: [1.000000000, 0.000000000, 0.000000000, 0.120000000,\
+ 0.000000000, 1.000000000, 0.000000000, 0.000000000,\
+ 0.000000000, 0.000000000, 1.000000000, 0.000000000, 0.0, 0.0, 0.0, 1.0]"; do
   check "the setting $line" grep -qFx "$line" "$work/output/settings.yaml"
 done
 rm "$work/output/f_vinebench.txt"

@@ -120,7 +120,7 @@ sensor = yaml.safe_load((root / "euroc/mav0/cam1/sensor.yaml").read_text())
 assert len(sensor["T_BS"]["data"]) == 16 and len(sensor["distortion_coefficients"]) == 4
 settings = cv2.FileStorage(str(root / "euroc/settings/orbslam3_rectified.yaml"),
                            cv2.FILE_STORAGE_READ)
-assert settings.getNode("Camera1.fx").isReal() and settings.getNode("Camera.fps").isInt()
+assert settings.getNode("Camera2.fx").isReal() and settings.getNode("Camera.fps").isInt()
 basalt = json.loads((root / "euroc/settings/basalt_calib.json").read_text())["value0"]
 assert len(basalt["T_imu_cam"]) == 2
 dcvslam = yaml.safe_load((root / "dcvslam/config.yaml").read_text())

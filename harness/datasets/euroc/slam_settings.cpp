@@ -108,16 +108,12 @@ std::string orbslam_common(const Setup& setup) {
   return text;
 }
 
-std::string orbslam_rectified(const Setup& setup) {
-  return "%YAML:1.0\nFile.version: \"1.0\"\nCamera.type: \"Rectified\"\n" +
-         orbslam_camera("Camera1", setup.left.model, false) +
-         fmt::format("Stereo.b: {}\n", real(setup.baseline)) + orbslam_common(setup);
-}
-
-std::string orbslam_raw(const Setup& setup) {
+/// Two pinhole cameras, with or without distortion. Not ORB-SLAM3's type "Rectified" for rectified
+/// pairs: its release 1.0 crashes on it, because it prints a second camera that this type lacks.
+std::string orbslam(const Setup& setup, bool distortion) {
   return "%YAML:1.0\nFile.version: \"1.0\"\nCamera.type: \"PinHole\"\n" +
-         orbslam_camera("Camera1", setup.left.model, true) +
-         orbslam_camera("Camera2", setup.right.model, true) +
+         orbslam_camera("Camera1", setup.left.model, distortion) +
+         orbslam_camera("Camera2", setup.right.model, distortion) +
          opencv_matrix("Stereo.T_c1_c2", setup.T_left_right()) + orbslam_common(setup);
 }
 
@@ -243,12 +239,12 @@ std::vector<SettingsFile> slam_settings(const RecordingNotes& notes) {
   const Rig rig = notes.rig.make();
   if (rig.stereo_pairs.empty()) fail("settings: rig '{}' has no stereo pair", rig.name);
   const Setup setup = setup_of(rig, rig.stereo_pairs.front(), notes);
-  std::vector<SettingsFile> files{{"orbslam3_raw.yaml", orbslam_raw(setup)},
+  std::vector<SettingsFile> files{{"orbslam3_raw.yaml", orbslam(setup, true)},
                                   {"basalt_calib.json", basalt(setup)},
                                   {"kalibr_imucam_chain.yaml", kalibr_cameras(setup)},
                                   {"kalibr_imu_chain.yaml", kalibr_imu(setup)},
                                   {"stella_vslam.yaml", stella(setup)}};
-  if (setup.rectified) files.push_back({"orbslam3_rectified.yaml", orbslam_rectified(setup)});
+  if (setup.rectified) files.push_back({"orbslam3_rectified.yaml", orbslam(setup, false)});
   for (std::size_t i = 1; i < rig.stereo_pairs.size(); ++i) {
     const StereoPair& pair = rig.stereo_pairs[i];
     files.push_back(

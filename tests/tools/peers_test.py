@@ -1,0 +1,74 @@
+# SPDX-FileCopyrightText: Vinebench authors
+# SPDX-License-Identifier: Apache-2.0
+"""The table of tools/peers.py from results made here, and its messages. Usage: peers_test.py ROOT"""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+failures = 0
+
+
+def check(name, good):
+    global failures
+    failures += not good
+    if not good:
+        print(f"FAILED: {name}")
+
+
+def peers(root, out, **settings):
+    environment = os.environ | {"OUT": str(out), "VINEBENCH": sys.executable} | settings
+    return subprocess.run([sys.executable, root / "tools/peers.py", "--table"], env=environment,
+                          capture_output=True, text=True)
+
+
+def write_run(folder, origin, coverage, peer):
+    (folder / "external").mkdir(parents=True)
+    metrics = {"ate_origin_rmse_m": origin, "ate_rmse_m": origin and origin / 2, "losses": 1,
+               "coverage": coverage, "loop_closures": {"correct": 1, "wrong": 0},
+               "peak_rss_mib": 200.4}
+    (folder / "metrics.json").write_text(json.dumps(metrics))
+    # 30 mm, then 400 mm over a gap of a second, which is no step.
+    poses = "0.0 0 0 0 0 0 0 1\n0.066 0.03 0 0 0 0 0 1\n1.066 0.43 0 0 0 0 0 1\n"
+    (folder / "estimate_live.tum").write_text(poses)
+    if peer:
+        (folder / "external/live.txt").write_text(poses)
+        (folder / "external/wheel.json").write_text(json.dumps(
+            {"frames": 8, "tracked": 6, "losses": 2, "cpu_ms_a_frame": 40.4, "map_changes": [1.5],
+             "peak_rss_mib": 100.0}))
+
+
+def main(root, out):
+    for seed, origin in ((1, 0.004), (2, 0.002), (3, None)):
+        write_run(out / f"lane/seed-{seed}/orb-slam3", origin, 0.5, True)
+    write_run(out / "lane/seed-1/orb-slam3-again", 0.006, 0.25, True)
+    write_run(out / "lane/seed-1/full", 0.001, 1.0, False)
+    (out / "lane/seed-1/full/common.json").write_text(json.dumps({"ate_rmse_m": 0.0003}))
+    (out / "lane/bench.json").write_text(json.dumps(
+        {"runs": [{"cpu_ms": {"mean": 46.0}}, {"cpu_ms": {"mean": 18.0}}]}))
+    done = peers(root, out, SCENARIOS="scenarios/lane.yaml", SEEDS="1..3")
+    # Sorted, ATE origin is 2, 4 mm and none, ATE half of it: the medians are 4 and 2.
+    rows = ["| `lane` | ours, two pairs and tags | 1 | 1.0 | 0.5 | 0.3 | 100.0 | 100.0 | 1 | 30 | 1 | 0 | – | 46"
+            " | 200 |",
+            "| `lane` | ORB-SLAM3, front pair | 1 2 3 | 4.0 | 2.0 | 2.0 | 50.0 | 75.0 | 2 | 30 | – | – | 1 | 40"
+            " | 100 |",
+            "| `lane` | ORB-SLAM3, front pair | 1 | 4.0 | 2.0 | 2.0 | 50.0 | 75.0 | 2 | 30 | – | – | 1 | 40"
+            " | 100 |",
+            "| `lane` | ORB-SLAM3, front pair, again | 1 | 6.0 | 3.0 | 3.0 | 25.0 | 75.0 | 2 | 30 | – | – | 1"
+            " | 40 | 100 |"]
+    check(f"the table:\n{done.stdout}{done.stderr}", done.stdout.splitlines()[2:] == rows)
+    check("its file", (out / "table.md").read_text() == done.stdout)
+    for settings, message in (({"SEEDS": "few"}, "SEEDS: expected A..B"),
+                              ({"SEEDS": "8..9"}, "TRAINING_SEED: 9 is one of SEEDS"),
+                              ({"VOCABULARY": str(out / "none")}, "none: is no file"),
+                              ({"VINEBENCH": str(out / "none")}, "none: is no program")):
+        done = peers(root, out, **settings)
+        check(message, done.returncode == 2 and message in done.stderr)
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as name:
+        sys.exit(main(Path(sys.argv[1]).resolve(), Path(name)))
