@@ -91,6 +91,7 @@ TEST(ReportJsonTest, HasEveryKeyInItsOrder) {
                                           "drift_percent",
                                           "loop_returns",
                                           "error_patterns",
+                                          "discrepancies",
                                           "expectations"};
   EXPECT_EQ(keys_of(to_json(whole())), expected);
 }
