@@ -28,11 +28,8 @@ StoredRun stored_metrics(const std::filesystem::path& folder) {
 
 /// In which the run's environment differs from this process's.
 std::string differences(const StoredRun& run, const sim::RendererConfig& renderer) {
-  if (!run.json.contains("hash_environment")) return "";
-  NamedValues then;
-  for (const auto& [name, value] : run.json["hash_environment"].items()) {
-    if (value.is_string()) then.emplace_back(name, value.get<std::string>());
-  }
+  const NamedValues then = run.hash_environment();
+  if (then.empty()) return "";
   // OpenGL starts in the child alone.
   return run_in_child("environment", [&] {
     return environment_differences(then, hash_environment(drawing_libraries(renderer)));

@@ -9,6 +9,9 @@
 
 namespace vinebench::harness {
 
+/// The mean NEES of covariances that say how large the errors are: a pose's degrees of freedom.
+inline constexpr double kConsistentNees = 6;
+
 /// Consistency of the covariances: the normalised estimation error squared (NEES, Bar-Shalom, Li
 /// and Kirubarajan 2001, Sect. 5.4) of the live poses, six degrees of freedom. 6 on average if the
 /// covariances are consistent, less if they are too large.

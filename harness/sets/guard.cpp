@@ -11,15 +11,13 @@
 
 #include "core/util/error.h"
 #include "core/util/percentile.h"
+#include "harness/judge/consistency.h"
 #include "vinebench/version.h"
 
 namespace vinebench::harness {
 namespace {
 
 constexpr int kDigits = 3;
-
-/// Degrees of freedom of a pose: covariances that become consistent fail no guard.
-constexpr double kConsistentNees = 6;
 
 /// Away from the median, to kDigits.
 double rounded(double value, bool down) {
@@ -49,7 +47,7 @@ double value_of(const GuardBound& of) {
   const double margin = least ? 1 / kGuardMargin : kGuardMargin;
   const double factor = least ? std::min(ratio * ratio, margin) : std::max(ratio * ratio, margin);
   const double value = rounded(of.median * factor, least);
-  return least ? std::min(value, kConsistentNees) : value;
+  return least ? std::min(value, kConsistentNees) : value;  // consistent ones fail no guard
 }
 
 /// Of every run, or none.

@@ -79,15 +79,18 @@ std::vector<StereoMatch> match_stereo(const Extraction& left, const Extraction& 
   }
   const double focal_baseline = camera.fx * baseline;
   const WindowSearch windows{left.pyramid, right.pyramid, focal_baseline, extractor, config};
-  const FeatureSearch features(right.features, left.pyramid.front().rows, extractor);
+  std::optional<FeatureSearch> features;
+  if (config.search == StereoSearch::kFeatures) {
+    features.emplace(right.features, left.pyramid.front().rows, extractor);
+  }
   std::vector<StereoMatch> matches(left.features.size());
   for (std::size_t i = 0; i < matches.size(); ++i) {
     const Keypoint& seen = left.features.keypoints[i];
     std::optional<Found> found;
-    if (config.search == StereoSearch::kWindows) {
+    if (!features) {
       found = windows.find(seen);
-    } else if (const auto disparity = features.disparity_of(seen, left.features.descriptors[i],
-                                                            focal_baseline / config.min_depth)) {
+    } else if (const auto disparity = features->disparity_of(seen, left.features.descriptors[i],
+                                                             focal_baseline / config.min_depth)) {
       found = Found{*disparity};
     }
     if (!found || found->disparity <= 0) continue;

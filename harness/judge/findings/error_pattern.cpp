@@ -24,8 +24,7 @@ constexpr double kLeastTilt = 0.25 * kRadiansPerDegree;
 constexpr double kEvenTilt = 2;                             // worst frame over RMS, at most
 constexpr double kLeastTurning = 0.25 * kRadiansPerDegree;  // in the end
 constexpr double kLeastTurn = 0.5 * kRadiansPerDegree;
-constexpr double kInconsistent = 4;      // times the expected NEES
-constexpr double kDegreesOfFreedom = 6;  // of a pose
+constexpr double kInconsistent = 4;  // times the expected NEES
 
 using Vectors = std::vector<Eigen::Vector3d>;
 
@@ -192,7 +191,7 @@ void add_count(ErrorPatternKind kind, std::ptrdiff_t count, std::vector<ErrorPat
 
 void add_consistency(const RunResults& results, std::vector<ErrorPattern>& patterns) {
   if (!results.consistency || results.consistency->frames == 0) return;
-  const double ratio = results.consistency->nees_mean / kDegreesOfFreedom;
+  const double ratio = results.consistency->nees_mean / kConsistentNees;
   if (ratio >= kInconsistent) patterns.push_back({ErrorPatternKind::kOverconfident, ratio});
   if (ratio <= 1 / kInconsistent) patterns.push_back({ErrorPatternKind::kUnderconfident, ratio});
 }
