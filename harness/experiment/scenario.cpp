@@ -9,6 +9,7 @@
 #include "core/config/yaml_writer.h"
 #include "core/util/error.h"
 #include "harness/experiment/known_discrepancies.h"
+#include "harness/judge/bounds.h"
 #include "harness/judge/occlusion.h"
 #include "harness/systems/external_slam.h"
 #include "sim/world/world_layout.h"
@@ -54,6 +55,18 @@ void check_occlusion(const ScenarioConfig& scenario, const Rig& rig,
   }
 }
 
+/// What is reached now is of a goal.
+void check_now(const ScenarioConfig& scenario, const std::filesystem::path& file) {
+  if (scenario.now.blind) {
+    fail("{}: now.blind: expected in expectations or in goal", file.string());
+  }
+  for (const Bound& bound : bounds()) {
+    if (bound.asked(scenario.now) && !bound.asked(scenario.goal)) {
+      fail("{}: now.{}: expected only beside goal.{}", file.string(), bound.key, bound.key);
+    }
+  }
+}
+
 }  // namespace
 
 ScenarioConfig load_scenario(const std::filesystem::path& file,
@@ -73,6 +86,7 @@ ScenarioConfig load_scenario(const std::filesystem::path& file,
   const Rig rig = load_rig(scenario.simulation.rover.rig);
   sim::check_sensors(scenario.simulation.sensors, rig);
   check_occlusion(scenario, rig, file);
+  check_now(scenario, file);
   if (const auto& external = scenario.slam.external) {
     check_external_slam(*external, rig);
     if (scenario.simulation.route.steering == sim::Steering::kEstimate) {
@@ -81,6 +95,9 @@ ScenarioConfig load_scenario(const std::filesystem::path& file,
           "slam.external has none",
           file.string());
     }
+  }
+  if (scenario.earlier_visit && (scenario.slam.external || scenario.slam.plugin)) {
+    fail("{}: earlier_visit: requires the built-in SLAM core, whose map is kept", file.string());
   }
   furnish_world(scenario);
   std::optional<slam::MecanumWheels>& wheels = scenario.slam.dead_reckoning.wheels;
@@ -96,6 +113,7 @@ Trial trial_of(const ScenarioConfig& scenario) {
   trial.goal = scenario.goal;
   const bool ours = !scenario.slam.external && !scenario.slam.plugin;
   if (scenario.guard && ours) trial.guard = scenario.guard->bounds;
+  if (ours) trial.now = scenario.now;
   trial.site = sim::site_of(scenario.simulation.world);
   const auto& waypoints = scenario.simulation.route.waypoints;
   if (!waypoints.empty()) trial.route_end = waypoints.back().position;

@@ -12,6 +12,7 @@
 #include "core/config/config_field.h"
 #include "core/config/override.h"
 #include "harness/datasets/format/recording_notes.h"
+#include "harness/experiment/earlier_visit.h"
 #include "harness/judge/expectations.h"
 #include "harness/judge/trial.h"
 #include "harness/systems/slam_choice.h"
@@ -42,9 +43,11 @@ struct ScenarioConfig {
   sim::SimulationConfig simulation;         ///< its fields are at the top level of the file
   std::vector<sim::Occluder> occluders;     ///< added to those of the world
   std::vector<sim::WorldConfig::Tag> tags;  ///< likewise
+  std::optional<EarlierVisit> earlier_visit;
   SlamChoice slam;
   Expectations expectations;
   Expectations goal;           ///< what the scenario exists to show
+  Expectations now;            ///< bounds in place of those of the goal that are not reached yet
   std::optional<Guard> guard;  ///< written by `vinebench guard`
   template <class Archive>
   void serialize(Archive& archive) {
@@ -54,9 +57,11 @@ struct ScenarioConfig {
     simulation.serialize(archive);
     sim::serialize_occluders(archive, occluders, false);
     archive("tags", tags);
+    archive("earlier_visit", earlier_visit);
     archive("slam", slam);
     archive("expectations", expectations);
     archive("goal", goal);
+    archive("now", now);
     archive("guard", guard);
     archive.require(!name.empty(), "name", "expected a name");
     archive.require(name.find('/') == std::string::npos, "name", "expected a name without '/'");

@@ -37,6 +37,9 @@ void check_can_be_repeated(const ExplainRequest& request) {
   if (scenario.simulation.route.steering == sim::Steering::kEstimate) {
     fail("{}: explain needs route.steering: truth, found estimate", scenario.name);
   }
+  if (scenario.earlier_visit) {
+    fail("{}: explain needs a run that begins without a map, found earlier_visit", scenario.name);
+  }
   if (request.placebos < 2) fail("expected at least two placebos, found {}", request.placebos);
 }
 

@@ -41,15 +41,8 @@ RunOutcome run_other_system(const ScenarioConfig& scenario, const RecordingNotes
   return run_lockstep_and_judge(trial_of(scenario), source, *slam, options);
 }
 
-}  // namespace
-
-FolderLock prepare_scenario_folder(const std::filesystem::path& folder,
-                                   const ScenarioConfig& scenario) {
-  return prepare_run_folder(folder, "scenario.resolved.yaml", resolved_settings(scenario));
-}
-
-RunOutcome run_scenario(const ScenarioConfig& scenario, const Machine& machine, int threads,
-                        const RunOptions& options, const std::optional<RunRecording>& recording) {
+RunOutcome drive(const ScenarioConfig& scenario, const Machine& machine, int threads,
+                 const RunOptions& options, const std::optional<RunRecording>& recording) {
   check_map_folders(options.maps);  // before the vineyard is generated
   const bool ours = !scenario.slam.external && !scenario.slam.plugin;
   if (!ours) expect_no_maps(options.maps);
@@ -89,6 +82,49 @@ RunOutcome run_scenario(const ScenarioConfig& scenario, const Machine& machine, 
   const auto slam = slam::make_slam(scenario.slam, source.rig(),
                                     sim::registered_tags(scenario.simulation.world), estimating);
   return run_mapping_system(trial_of(scenario), source, *slam, with_writer);
+}
+
+/// The earlier visit of a scenario, which leaves its map in a file.
+RunOutcome visit_earlier(const ScenarioConfig& scenario, const Machine& machine, int threads,
+                         const RunOptions& options, const std::filesystem::path& map) {
+  ScenarioConfig earlier = scenario;
+  earlier.earlier_visit.reset();
+  earlier.simulation = simulation_of(*scenario.earlier_visit, scenario.simulation);
+  earlier.expectations = earlier.goal = earlier.now = {};
+  earlier.guard.reset();
+  RunOptions run;
+  run.maps.save = map;
+  run.progress = options.progress;
+  run.terminal = options.terminal;
+  run.title = options.title + ", earlier visit";
+  run.stopped = options.stopped;
+  std::optional<FolderLock> lock;
+  if (!options.folder.empty()) {
+    run.folder = options.folder / "earlier-visit";
+    lock.emplace(prepare_scenario_folder(run.folder, earlier));
+  }
+  return drive(earlier, machine, threads, run, std::nullopt);
+}
+
+}  // namespace
+
+FolderLock prepare_scenario_folder(const std::filesystem::path& folder,
+                                   const ScenarioConfig& scenario) {
+  return prepare_run_folder(folder, "scenario.resolved.yaml", resolved_settings(scenario));
+}
+
+RunOutcome run_scenario(const ScenarioConfig& scenario, const Machine& machine, int threads,
+                        const RunOptions& options, const std::optional<RunRecording>& recording) {
+  if (!scenario.earlier_visit) return drive(scenario, machine, threads, options, recording);
+  if (!options.maps.load.empty()) {
+    fail("--load-map: {} begins with the map of its own earlier_visit", scenario.name);
+  }
+  const TemporaryFolder kept;
+  RunOptions with_map = options;
+  with_map.maps.load = kept.path() / "map";
+  RunOutcome earlier = visit_earlier(scenario, machine, threads, options, with_map.maps.load);
+  if (earlier.interrupted) return earlier;
+  return drive(scenario, machine, threads, with_map, recording);
 }
 
 }  // namespace vinebench::harness

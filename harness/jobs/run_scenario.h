@@ -24,7 +24,8 @@ struct RunRecording {
                                                  const ScenarioConfig& scenario);
 
 /// Builds simulation and SLAM system of a scenario and runs them in lockstep, with recording if
-/// requested. `threads` is the total number of worker threads; it changes no result.
+/// requested; before that its earlier visit, whose results are in the folder's earlier-visit.
+/// `threads` is the total number of worker threads; it changes no result.
 RunOutcome run_scenario(const ScenarioConfig& scenario, const Machine& machine, int threads,
                         const RunOptions& options,
                         const std::optional<RunRecording>& recording = std::nullopt);

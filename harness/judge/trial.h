@@ -21,6 +21,7 @@ struct Trial {
   std::int64_t seed = 0;
   Expectations expectations;
   Expectations goal;
+  Expectations now;
   Expectations guard;
   Site site;
   std::optional<Eigen::Vector2d> route_end;  ///< m, world; end of the route, if there is one

@@ -40,6 +40,10 @@ void check_blind(const Expectations& asked, const RunResults& results, std::vect
 
 constexpr std::size_t kWidestColumn = 40;  // longer texts stand out
 
+const char* outcome_of(const Check& check) {
+  return check.ok ? "ok" : check.open ? "open" : "FAILED";
+}
+
 std::size_t widest(const std::vector<Check>& checks, std::string Check::*column) {
   std::size_t width = 0;
   for (const Check& check : checks) {
@@ -57,6 +61,8 @@ const char* name_of(CheckKind kind) {
       return "goal";
     case CheckKind::kGuard:
       return "guard";
+    case CheckKind::kNow:
+      return "now";
     case CheckKind::kExpectation:
       break;
   }
@@ -64,7 +70,7 @@ const char* name_of(CheckKind kind) {
 }
 
 CheckKind kind_of(const std::string& name) {
-  for (const CheckKind kind : {CheckKind::kGoal, CheckKind::kGuard}) {
+  for (const CheckKind kind : {CheckKind::kGoal, CheckKind::kGuard, CheckKind::kNow}) {
     if (name == name_of(kind)) return kind;
   }
   return CheckKind::kExpectation;
@@ -83,29 +89,46 @@ std::vector<Check> check_trial(const Trial& trial, const RunResults& results) {
   std::vector<Check> checks = check_expectations(trial.expectations, results);
   std::ranges::move(check_expectations(trial.goal, results, CheckKind::kGoal),
                     std::back_inserter(checks));
+  std::ranges::move(check_expectations(trial.now, results, CheckKind::kNow),
+                    std::back_inserter(checks));
   std::ranges::move(check_expectations(trial.guard, results, CheckKind::kGuard),
                     std::back_inserter(checks));
+  mark_open_goals(checks);
   return checks;
 }
 
+void mark_open_goals(std::vector<Check>& checks) {
+  for (Check& goal : checks) {
+    if (goal.ok || goal.kind != CheckKind::kGoal) continue;
+    goal.open = std::ranges::any_of(checks, [&](const Check& check) {
+      return check.kind == CheckKind::kNow && check.what == goal.what && check.ok;
+    });
+  }
+}
+
 std::string verdict_of(const std::vector<Check>& checks) {
-  if (all_hold(checks)) return "PASSED";
+  if (all_hold(checks)) return goal_open(checks) ? "PASSED (goal open)" : "PASSED";
   std::vector<std::string> kinds;
   for (const Check& check : checks) {
     const std::string kind = name_of(check.kind);
-    if (!check.ok && std::ranges::count(kinds, kind) == 0) kinds.push_back(kind);
+    if (!check.holds() && std::ranges::count(kinds, kind) == 0) kinds.push_back(kind);
   }
   if (kinds == std::vector<std::string>{name_of(CheckKind::kExpectation)}) return "FAILED";
   return fmt::format("FAILED ({})", fmt::join(kinds, ", "));
 }
 
 bool all_hold(const std::vector<Check>& checks) {
-  return std::ranges::all_of(checks, &Check::ok);
+  return std::ranges::all_of(checks, &Check::holds);
+}
+
+bool goal_open(const std::vector<Check>& checks) {
+  return std::ranges::any_of(checks, &Check::open);
 }
 
 std::vector<Check> failed_of(const std::vector<Check>& checks) {
   std::vector<Check> failed;
-  std::ranges::copy_if(checks, std::back_inserter(failed), [](const Check& c) { return !c.ok; });
+  std::ranges::copy_if(checks, std::back_inserter(failed),
+                       [](const Check& c) { return !c.holds(); });
   return failed;
 }
 
@@ -119,7 +142,7 @@ std::string format_checks(const std::vector<Check>& checks) {
   for (const Check& check : checks) {
     text += kinds ? fmt::format("  {:<11}", name_of(check.kind)) : "";
     text += fmt::format("  {:<{}}  {:>{}}  {:<{}}  {}\n", check.what, what, check.measured,
-                        measured, check.expected, expected, check.ok ? "ok" : "FAILED");
+                        measured, check.expected, expected, outcome_of(check));
   }
   return text;
 }

@@ -168,6 +168,7 @@ Json checks_json(const std::vector<Check>& checks) {
                     {"measured", check.measured},
                     {"expected", check.expected},
                     {"ok", check.ok},
+                    {"open", check.open},
                     {"kind", name_of(check.kind)}});
   }
   return list;
@@ -177,7 +178,8 @@ std::vector<Check> checks_of(const Json& list) {
   std::vector<Check> checks;
   for (const Json& check : list) {
     checks.push_back({check.at("what"), check.at("measured"), check.at("expected"),
-                      check.at("ok").get<bool>(), kind_of(check.value("kind", ""))});
+                      check.at("ok").get<bool>(), kind_of(check.value("kind", "")),
+                      check.value("open", false)});
   }
   return checks;
 }

@@ -14,7 +14,9 @@ namespace vinebench::harness {
 namespace {
 
 std::string verdict_of(const SetRun& run) {
-  return !run.error.empty() ? "ERROR" : run.failed() ? verdict_of(run.result->checks) : "passed";
+  if (!run.error.empty()) return "ERROR";
+  if (run.failed()) return verdict_of(run.result->checks);
+  return run.result && goal_open(run.result->checks) ? "passed (goal open)" : "passed";
 }
 
 std::optional<double> value_of(const Metric& metric, const SetRun& run) {
@@ -151,6 +153,8 @@ std::vector<SeedsSummary> summarise(const std::vector<PlannedRun>& plan,
     const ScenarioConfig& scenario = planned->scenario;
     check_medians(scenario.expectations, CheckKind::kExpectation, summary.runs, summary.checks);
     check_medians(scenario.goal, CheckKind::kGoal, summary.runs, summary.checks);
+    check_medians(scenario.now, CheckKind::kNow, summary.runs, summary.checks);
+    mark_open_goals(summary.checks);
     summary.repeats = repeats_of(summary.runs);
     summary.repeat_checks = check_repeats(scenario.slam, summary.repeats);
   }

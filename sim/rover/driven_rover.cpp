@@ -34,11 +34,20 @@ DrivenRover::DrivenRover(const RoverConfig& rover, const WorldConfig& world,
 void DrivenRover::advance_to(Stamp stamp) {
   for (; next_control_ <= stamp; next_control_ += kControlPeriod) {
     drive_to(next_control_);
-    twist_ = follow(route_.at(next_control_), steered_by(next_control_));
-    rover_.command(twist_);
+    steer(route_.at(next_control_));
   }
   drive_to(stamp);
   remember();
+}
+
+void DrivenRover::steer(const Route::Reference& reference) {
+  if (reference.carried) {
+    twist_.setZero();
+    rover_.carry(reference);
+    return;
+  }
+  twist_ = follow(reference, steered_by(next_control_));
+  rover_.command(twist_);
 }
 
 /// With a stop at each inertial instant; stops do not change the physics.

@@ -46,6 +46,7 @@ class DrivenRover {
 
  private:
   void remember();
+  void steer(const Route::Reference& reference);
   void drive_to(Stamp stamp);
   Pose steered_by(Stamp stamp);
 

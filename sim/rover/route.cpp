@@ -14,6 +14,7 @@ namespace {
 constexpr double kStandstill = 1e-9;  // m or rad: shorter legs are empty
 constexpr double kKinkSeconds =
     0.1;  // of acceleration, as an instantaneous change at a passed waypoint
+constexpr double kLiftSpeed = 0.5;        // m/s, at most
 constexpr double kCorrection = 2;         // 1/s
 constexpr double kMaxCorrection = 0.3;    // m/s
 constexpr double kMaxTurnCorrection = 1;  // rad/s
@@ -45,6 +46,7 @@ double Route::Leg::peak() const {
 }
 
 double Route::Leg::seconds() const {
+  if (length < kStandstill) return 0;
   const double top = peak();
   const double ramps = (2 * top - speed_in - speed_out) / acceleration;
   const double length_of_ramps =
@@ -52,7 +54,30 @@ double Route::Leg::seconds() const {
   return ramps + std::max(0.0, length - length_of_ramps) / top;
 }
 
+double Route::Leg::lifting_seconds() const {
+  return 0.5 * std::numbers::pi * lift / kLiftSpeed;
+}
+
+/// Height lift * (1 - cos(pi t / T)) / 2, whose speed is at most lift * pi / (2 T).
+void Route::Leg::set_lift(double t, Reference& reference) const {
+  const double whole = lifting_seconds();
+  const double rising = std::clamp(t, 0.0, whole);
+  const double falling = std::clamp(t - whole - seconds(), 0.0, whole);
+  const double phase = std::numbers::pi * (rising - falling) / whole;
+  reference.carried = true;
+  reference.lift = 0.5 * lift * (1 - std::cos(phase));
+  reference.lift_speed = (falling > 0 ? -kLiftSpeed : kLiftSpeed) * std::sin(phase);
+}
+
 Route::Reference Route::Leg::at(double t) const {
+  if (lift == 0) return along(t);
+  Reference reference = along(std::clamp(t - lifting_seconds(), 0.0, seconds()));
+  set_lift(t, reference);
+  return reference;
+}
+
+Route::Reference Route::Leg::along(double t) const {
+  if (length < kStandstill) return {from, Eigen::Vector3d::Zero()};
   const double top = peak();
   const double remaining = seconds() - t;
   const double braking = (top - speed_out) / acceleration;
@@ -75,6 +100,7 @@ Route::Leg Route::make_leg(const RouteConfig& config, std::size_t index) {
   Leg leg;
   leg.from = pose_of(config.waypoints[index - 1]);
   leg.wait = waypoint.wait;
+  leg.lift = waypoint.lift;
   const Eigen::Vector3d change = pose_of(waypoint) - leg.from;
   const double distance = change.head<2>().norm();
   const double turn = std::abs(change.z());
@@ -100,6 +126,7 @@ Route::Leg Route::make_leg(const RouteConfig& config, std::size_t index) {
 
 double Route::passing_speed(const RouteConfig& config, const Leg& in, const Leg& out) {
   if (in.turns_only != out.turns_only || out.length < kStandstill) return 0;
+  if (in.lift > 0 || out.lift > 0) return 0;
   const Eigen::Vector3d kink = out.direction - in.direction;
   double speed = std::min(in.speed, out.speed);
   const double along = kink.head<2>().norm();
@@ -131,7 +158,7 @@ void Route::schedule(double first_wait) {
   Stamp time = from_seconds(first_wait);
   for (Leg& leg : legs_) {
     leg.begin = time;
-    leg.end = time + (leg.length < kStandstill ? 0 : from_seconds(leg.seconds()));
+    leg.end = time + from_seconds(leg.seconds() + 2 * leg.lifting_seconds());
     time = leg.end + from_seconds(leg.wait);
   }
   duration_ = time;

@@ -31,6 +31,7 @@ struct RouteConfig {
     std::optional<double> speed;  ///< m/s on the leg to this waypoint; the route's if absent
     double wait = 0;              ///< s to wait here
     bool pass = false;            ///< drive through without stopping
+    double lift = 0;  ///< m, if the rover is carried to this waypoint: so high; 0 if it drives
     template <class Archive>
     void serialize(Archive& archive) {
       archive("position", position);
@@ -38,6 +39,7 @@ struct RouteConfig {
       archive("speed", speed, Range::positive());
       archive("wait", wait, Range::non_negative());
       archive("pass", pass);
+      archive("lift", lift, Range::between(0, 2));
     }
   };
   double speed = 0.3;                  ///< m/s
@@ -55,6 +57,8 @@ struct RouteConfig {
     archive("steering", steering);
     archive("waypoints", waypoints);
     archive.require(!waypoints.empty(), "waypoints", "expected at least one waypoint");
+    archive.require(waypoints.empty() || waypoints.front().lift == 0, "waypoints",
+                    "expected a first one without lift, where the rover stands");
   }
 };
 
@@ -64,6 +68,9 @@ struct RouteConfig {
 /// both arrive together: the slower one limits the speed. The speed profile is a trapezoid. A
 /// waypoint to `pass` is passed at the maximum speed at which the instantaneous change of velocity
 /// to the next leg is at most what the accelerations give in 0.1 s.
+///
+/// A leg with a lift is carried: the rover is raised on the spot, moved through the air, and set
+/// down, as by two persons. Raising and lowering follow a cosine, with at most 0.5 m/s.
 class Route {
  public:
   explicit Route(const RouteConfig& config);
@@ -71,6 +78,9 @@ class Route {
   struct Reference {
     Eigen::Vector3d pose;      ///< x, y (m), accumulated heading (rad), world
     Eigen::Vector3d velocity;  ///< of these, per s
+    bool carried = false;
+    double lift = 0;        ///< m above the ground, while carried
+    double lift_speed = 0;  ///< m/s, upwards
   };
   /// The start pose before t = 0, the end pose after the last leg.
   Reference at(Stamp stamp) const;
@@ -92,12 +102,16 @@ class Route {
     double speed_in = 0;
     double speed_out = 0;
     double wait = 0;  ///< s, at its end
+    double lift = 0;  ///< m
     bool turns_only = false;
 
     Eigen::Vector3d to() const { return from + length * direction; }
     double peak() const;
     double seconds() const;
+    double lifting_seconds() const;  ///< to raise the rover, and again to lower it
     Reference at(double t) const;
+    Reference along(double t) const;
+    void set_lift(double t, Reference& reference) const;
   };
   static Leg make_leg(const RouteConfig& config, std::size_t index);
   static double passing_speed(const RouteConfig& config, const Leg& in, const Leg& out);

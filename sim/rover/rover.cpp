@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 
 #include "core/util/error.h"
 #include "core/util/random.h"
@@ -19,6 +21,7 @@ constexpr std::array<const char*, 4> kWheelNames{"front_left", "front_right", "r
 constexpr Stamp kSettling = 3 * kNanosecondsPerSecond;  // springs and speed loops settle
 constexpr double kGeometryTolerance = 0.002;            // m, between model and configuration
 constexpr double kSpread = 0.01;                        // variation of motors and friction by seed
+constexpr double kGrip = 20;  // rad/s, of the critically damped hold of a carried rover
 
 Eigen::Vector3d vector_of(const mjtNum* numbers) {
   return {numbers[0], numbers[1], numbers[2]};
@@ -41,6 +44,8 @@ struct Rover::Physics {
   void check_clear(const Eigen::Vector3d& start) const;
   void check_on_ground() const;
   void step();
+  void hold();
+  void release();
   void sample(Stamp until, std::vector<ImuSample>& imu, std::vector<WheelSample>& wheels);
 
   Pose pose() const;
@@ -58,7 +63,9 @@ struct Rover::Physics {
   MecanumDrive drive;
   std::vector<SpeedLoop> loops;
   WheelArray motor_gain{1, 1, 1, 1};
-  WheelArray wanted{};      ///< rad/s
+  WheelArray wanted{};  ///< rad/s
+  std::optional<Route::Reference> carried;
+  Stamp carried_since = 0;  ///< instant of that reference
   WheelArray zero_angle{};  ///< rad, of the hubs at t = 0
 
   int chassis = 0;              ///< joint
@@ -219,6 +226,7 @@ void Rover::Physics::check_on_ground() const {
 void Rover::Physics::step() {
   previous_pose = pose();
   previous_angles = angles();
+  if (carried) hold();
   const double dt = to_seconds(step_length);
   for (std::size_t i = 0; i < kWheelNames.size(); ++i) {
     const double speed = world.state().qvel[world.model().jnt_dofadr[wheels[i]]];
@@ -226,6 +234,47 @@ void Rover::Physics::step() {
   }
   world.step();
   time += step_length;
+}
+
+/// The hands: a critically damped hold at the reference. The weight is theirs from the first
+/// millimetre of height on, at which the wheels leave the ground.
+void Rover::Physics::hold() {
+  constexpr double kAloft = 0.001;  // m
+  const double ahead = to_seconds(time - carried_since);
+  const Eigen::Vector3d place = carried->pose + ahead * carried->velocity;
+  Pose target = terrain.lie(place.head<2>(), place.z(), config.half_track);
+  target.translation.z() += carried->lift + ahead * carried->lift_speed;
+
+  const mjModel& model = world.model();
+  const int body = model.jnt_bodyid[chassis];
+  const double mass = model.body_subtreemass[body];
+  const double wheels_mass = mass - model.body_mass[body];
+  const double inertia =
+      vector_of(&model.body_inertia[3 * body]).maxCoeff() +
+      wheels_mass * (std::pow(config.half_track, 2) + std::pow(config.half_wheelbase, 2));
+  const Pose here = pose();
+  const mjtNum* velocity = &world.state().qvel[model.jnt_dofadr[chassis]];
+  const Eigen::Vector3d moving(carried->velocity.x(), carried->velocity.y(), carried->lift_speed);
+  const Eigen::Vector3d turning(0, 0, carried->velocity.z());
+  // The angular velocity of MuJoCo's free joint is in the body frame.
+  const Eigen::Vector3d spin = here.rotation * vector_of(velocity + 3);
+  const Eigen::AngleAxisd off(target.rotation * here.rotation.conjugate());
+
+  Eigen::Vector3d force = kGrip * kGrip * (target.translation - here.translation) +
+                          2 * kGrip * (moving - vector_of(velocity));
+  force -= std::min(1.0, carried->lift / kAloft) * vector_of(model.opt.gravity);
+  const Eigen::Vector3d torque =
+      kGrip * kGrip * off.angle() * off.axis() + 2 * kGrip * (turning - spin);
+  mjtNum* applied = &world.state().xfrc_applied[6 * body];
+  Eigen::Map<Vector6d> wrench(applied);
+  wrench << mass * force, inertia * torque;
+}
+
+void Rover::Physics::release() {
+  if (!carried) return;
+  carried.reset();
+  const int body = world.model().jnt_bodyid[chassis];
+  std::fill_n(&world.state().xfrc_applied[6 * body], 6, 0.0);
 }
 
 void Rover::Physics::sample(Stamp until, std::vector<ImuSample>& imu,
@@ -286,6 +335,13 @@ Rover::~Rover() = default;
 
 void Rover::command(const Eigen::Vector3d& twist) {
   physics_->wanted = physics_->drive.wheel_speeds(twist);
+  physics_->release();
+}
+
+void Rover::carry(const Route::Reference& reference) {
+  physics_->wanted = {};
+  physics_->carried = reference;
+  physics_->carried_since = physics_->now;
 }
 
 void Rover::advance_to(Stamp stamp, std::vector<ImuSample>& imu, std::vector<WheelSample>& wheels) {

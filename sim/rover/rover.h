@@ -11,6 +11,7 @@
 #include "core/config/config_field.h"
 #include "core/frame.h"
 #include "core/geometry/pose.h"
+#include "sim/rover/route.h"
 #include "sim/world/world.h"
 
 namespace vinebench::sim {
@@ -55,6 +56,11 @@ class Rover {
   /// Commanded body twist: forward and left in m/s, turn to the left in rad/s. Valid until the next
   /// command. Takes effect within one physics step (2.5 ms).
   void command(const Eigen::Vector3d& twist);
+
+  /// Carried from now on, until the next command: external forces hold the body at the reference's
+  /// place and height above the ground, and move on with its velocity. The wheels are commanded to
+  /// stand still.
+  void carry(const Route::Reference& reference);
 
   /// Steps the physics to `stamp` and appends the sensors' samples in (now, stamp]. Samples have no
   /// noise. Throws Error if the physics diverges.

@@ -240,5 +240,20 @@ TEST_F(ScenarioTest, OneOcclusionIsMeasured) {
   EXPECT_THAT(error_of("goal: {blind: {cameras: top}}\n"), testing::HasSubstr("no camera 'top'"));
 }
 
+TEST_F(ScenarioTest, BoundsForNowAreOfGoals) {
+  EXPECT_EQ(error_of("goal: {losses_max: 0}\nnow: {losses_max: 2}\n"), "no error");
+  EXPECT_THAT(error_of("goal: {losses_max: 0}\nnow: {coverage_min: 0.5}\n"),
+              testing::HasSubstr("now.coverage_min: expected only beside goal.coverage_min"));
+  EXPECT_THAT(error_of("now: {blind: {cameras: [front_left]}}\n"),
+              testing::HasSubstr("now.blind: expected in expectations or in goal"));
+}
+
+TEST_F(ScenarioTest, AnEarlierVisitNeedsTheBuiltInCore) {
+  EXPECT_EQ(error_of("earlier_visit: {bbch: 75}\n"), "no error");
+  EXPECT_THAT(error_of("earlier_visit: {bbch: 75}\nslam: {plugin: {library: rig.yaml}}\n"),
+              testing::HasSubstr("earlier_visit: requires the built-in SLAM core"));
+  EXPECT_THAT(error_of("earlier_visit: {season: winter}\n"), testing::HasSubstr("season"));
+}
+
 }  // namespace
 }  // namespace vinebench::harness

@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include "core/files/files.h"
+#include "harness/datasets/files/json_file.h"
 #include "harness/datasets/format/dataset_card.h"
 #include "tests/support/court_scenario.h"
 #include "tests/support/plugins.h"
@@ -76,6 +78,52 @@ TEST_F(RunScenarioTest, MapsAreForTheBuiltInCore) {
   options.maps.save = folder_ / "nowhere/map";
   EXPECT_THAT(test::error_of([&] { run_scenario(scenario(), machine(), 1, options); }),
               HasSubstr("nowhere does not exist"));
+}
+
+/// The court with a camera pair that can be tracked, visited twice.
+class SecondVisitTest : public RunScenarioTest {
+ protected:
+  SecondVisitTest() { write_large_rig(); }
+  ScenarioConfig visited() const {
+    ScenarioConfig config = scenario();
+    config.earlier_visit.emplace().duration = 1;
+    return config;
+  }
+};
+
+// 16 frames of a second at 15 Hz. The map is known: the second visit's first frame waits for its
+// place (kInitializing), where a run without a map initialises at once.
+TEST_F(SecondVisitTest, ItsMapIsWhereTheRunBegins) {
+  RunOptions options;
+  options.folder = folder_ / "out";
+  const FolderLock lock = prepare_scenario_folder(options.folder, visited());
+  const RunReport report = run_scenario(visited(), machine(), 1, options).report;
+  EXPECT_EQ(report.frames, kFrames);
+  const Json earlier = Json::parse(read_file(options.folder / "earlier-visit/metrics.json"));
+  EXPECT_EQ(earlier["frames"], 16);
+  EXPECT_TRUE(earlier["expectations"].empty());
+  const RunReport alone = run_scenario(scenario(), machine(), 1, {}).report;
+  EXPECT_EQ(alone.results.coverage, 1);
+  EXPECT_LT(report.results.coverage, 1);
+  EXPECT_NE(report.hash, alone.hash);
+}
+
+TEST_F(SecondVisitTest, RepeatsToTheByte) {
+  const RunReport first = run_scenario(visited(), machine(), 1, {}).report;
+  EXPECT_EQ(run_scenario(visited(), machine(), 3, {}).report.hash, first.hash);
+}
+
+TEST_F(SecondVisitTest, AnotherMapIsRefused) {
+  RunOptions options;
+  options.maps.load = folder_ / "map";
+  EXPECT_THAT(test::error_of([&] { run_scenario(visited(), machine(), 1, options); }),
+              HasSubstr("begins with the map of its own earlier_visit"));
+}
+
+TEST_F(SecondVisitTest, AnInterruptionThereEndsTheRun) {
+  RunOptions options;
+  options.stopped = [] { return true; };
+  EXPECT_TRUE(run_scenario(visited(), machine(), 1, options).interrupted);
 }
 
 }  // namespace

@@ -121,11 +121,40 @@ TEST(VerdictTest, TellsGoalsFromGuards) {
   EXPECT_EQ(verdict_of(check_trial(trial, good())), "PASSED");
 }
 
+// good() has an ATE of 0.004 m.
+TEST(VerdictTest, AGoalIsOpenWhileItsBoundForNowHolds) {
+  Trial trial;
+  trial.goal.ate_rmse_max = 0.003;
+  EXPECT_EQ(verdict_of(check_trial(trial, good())), "FAILED (goal)");
+  trial.now.ate_rmse_max = 0.005;
+  const auto open = check_trial(trial, good());
+  EXPECT_TRUE(all_hold(open));
+  EXPECT_FALSE(open[0].ok);
+  EXPECT_EQ(verdict_of(open), "PASSED (goal open)");
+  EXPECT_TRUE(failed_of(open).empty());
+  EXPECT_EQ(format_checks(open),
+            "  goal         ATE, SE(3)-aligned  0.0040 m  <= 0.0030 m  open\n"
+            "  now          ATE, SE(3)-aligned  0.0040 m  <= 0.0050 m  ok\n");
+  trial.now.ate_rmse_max = 0.0035;
+  EXPECT_EQ(verdict_of(check_trial(trial, good())), "FAILED (goal, now)");
+  trial.goal.ate_rmse_max = 0.01;  // reached, but not what is expected now
+  EXPECT_EQ(verdict_of(check_trial(trial, good())), "FAILED (now)");
+}
+
+TEST(VerdictTest, ABoundForNowOpensNoOtherGoal) {
+  Trial trial;
+  trial.goal.ate_rmse_max = 0.003;
+  trial.goal.losses_max = 0;
+  trial.now.losses_max = 3;
+  EXPECT_EQ(verdict_of(check_trial(trial, good())), "FAILED (goal)");
+}
+
 TEST(VerdictTest, AUsersExpectationFailsWithoutAKind) {
   RunResults results = good();
   results.losses = 1;
   EXPECT_EQ(verdict_of(check_expectations(every_check(), results)), "FAILED");
-  for (const CheckKind kind : {CheckKind::kExpectation, CheckKind::kGoal, CheckKind::kGuard}) {
+  for (const CheckKind kind :
+       {CheckKind::kExpectation, CheckKind::kGoal, CheckKind::kGuard, CheckKind::kNow}) {
     EXPECT_EQ(kind_of(name_of(kind)), kind);
   }
   EXPECT_EQ(kind_of(""), CheckKind::kExpectation);

@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numbers>
+#include <optional>
+
 #include "sim/config_files.h"
 
 namespace vinebench::sim {
@@ -94,6 +98,67 @@ TEST_F(DrivenRoverTest, WithoutNewsItGoesOnAsCommanded) {
   });
   EXPECT_NEAR(end.x(), 1, 0.02);
   EXPECT_NEAR(end.y(), 0, 0.02);
+}
+
+/// Carried 1 m to the left, 0.3 m above the ground, and turned by 90 degrees.
+class CarriedRoverTest : public DrivenRoverTest {
+ protected:
+  CarriedRoverTest() {
+    route_.waypoints[1].position = {0, 1};
+    route_.waypoints[1].heading_deg = 90;
+    route_.waypoints[1].lift = 0.3;
+    rover_at_work_.emplace(rover_, world_, route_, 1);
+  }
+  Pose at(double seconds) {
+    rover_at_work_->advance_to(from_seconds(seconds));
+    return rover_at_work_->T_world_body(from_seconds(seconds));
+  }
+  double whole() const { return to_seconds(rover_at_work_->route().duration()); }
+
+  std::optional<DrivenRover> rover_at_work_;
+};
+
+// 5 mm: what a hold of 20 rad/s has at an acceleration of 2 m/s^2 (the cosine's largest is 1.7).
+TEST_F(CarriedRoverTest, IsHeldAtTheRoute) {
+  const Pose half = at((whole() - 1) / 2);
+  EXPECT_NEAR(half.translation.y(), 0.5, 0.005);
+  EXPECT_NEAR(half.translation.z(), 0.3, 0.005);
+  EXPECT_NEAR(yaw_of(half.rotation), std::numbers::pi / 4, 0.01);
+}
+
+// Released at rest, it stands where it was set down: its springs move it by millimetres.
+TEST_F(CarriedRoverTest, StandsWhereItWasSetDown) {
+  const Pose start = at(0);
+  const Pose end = at(whole());
+  EXPECT_NEAR(end.translation.x(), 0, 0.01);
+  EXPECT_NEAR(end.translation.y(), 1, 0.01);
+  EXPECT_NEAR(end.translation.z(), start.translation.z(), 0.001);
+  EXPECT_NEAR(yaw_of(end.rotation), std::numbers::pi / 2, 0.02);
+}
+
+// Odometry is not told: driving 1 m would turn each wheel by 10 rad.
+TEST_F(CarriedRoverTest, WheelsStandStill) {
+  at(whole());
+  std::vector<ImuSample> imu;
+  std::vector<WheelSample> wheels;
+  rover_at_work_->hand_out(from_seconds(whole()), imu, wheels);
+  for (const WheelSample& sample : wheels) {
+    for (const double angle : sample.angle) EXPECT_NEAR(angle, 0, 0.3);
+  }
+}
+
+// The inertial unit is: after half of the rise, pi / 2 * 0.3 s, the rover moves upwards at 0.5 m/s,
+// which is what the accelerometer's readings at 200 Hz sum up to beyond gravity. 0.02 m/s: the
+// acceleration is zero there, and the hold follows within 0.1 s.
+TEST_F(CarriedRoverTest, TheAccelerometerFeelsIt) {
+  const double half = 0.15 * std::numbers::pi;
+  at(half);
+  std::vector<ImuSample> imu;
+  std::vector<WheelSample> wheels;
+  rover_at_work_->hand_out(from_seconds(half), imu, wheels);
+  double speed = 0;
+  for (const ImuSample& sample : imu) speed += (sample.specific_force.z() - 9.81) / 200;
+  EXPECT_NEAR(speed, 0.5, 0.02);
 }
 
 }  // namespace

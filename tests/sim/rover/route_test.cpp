@@ -76,6 +76,59 @@ TEST(RouteTest, TheSlowerOfWayAndTurnSetsThePace) {
   EXPECT_NEAR(moving.at(from_seconds(5)).pose.z(), std::numbers::pi / 2, 1e-12);
 }
 
+/// 2 m along x, carried 0.5 m above the ground.
+RouteConfig carried_route() {
+  RouteConfig config = route_of({waypoint(0, 0), waypoint(2, 0)});
+  config.waypoints.back().lift = 0.5;
+  return config;
+}
+
+TEST(RouteTest, ACarriedLegIsRaisedMovedAndLowered) {
+  const Route route(carried_route());
+  // Up 0.5 m by a cosine of at most 0.5 m/s: T = pi / 2 s; 2 m take 1 + 3 + 1 s; T down again.
+  const double lifting = std::numbers::pi / 2;
+  EXPECT_EQ(route.duration(), from_seconds(5 + 2 * lifting));
+  const Route::Reference rising = route.at(from_seconds(lifting / 2));
+  EXPECT_TRUE(rising.carried);
+  EXPECT_NEAR(rising.pose.x(), 0, 1e-9);
+  EXPECT_NEAR(rising.lift, 0.25, 1e-8);
+  EXPECT_NEAR(rising.lift_speed, 0.5, 1e-8);
+  const Route::Reference aloft = route.at(from_seconds(lifting + 2.5));
+  EXPECT_NEAR(aloft.pose.x(), 1, 1e-8);
+  EXPECT_NEAR(aloft.lift, 0.5, 1e-12);
+  EXPECT_NEAR(aloft.lift_speed, 0, 1e-12);
+  const Route::Reference falling = route.at(from_seconds(1.5 * lifting + 5));
+  EXPECT_NEAR(falling.pose.x(), 2, 1e-9);
+  EXPECT_NEAR(falling.lift, 0.25, 1e-8);
+  EXPECT_NEAR(falling.lift_speed, -0.5, 1e-8);
+  EXPECT_FALSE(route.at(route.duration()).carried);
+}
+
+TEST(RouteTest, LiftedAndSetDownOnTheSpot) {
+  RouteConfig config = route_of({waypoint(1, 0), waypoint(1, 0)});
+  config.waypoints.back().lift = 0.5;
+  const Route route(config);
+  EXPECT_EQ(route.duration(), from_seconds(std::numbers::pi));
+  EXPECT_NEAR(route.at(from_seconds(std::numbers::pi / 2)).lift, 0.5, 1e-12);
+  EXPECT_EQ(route.at(from_seconds(1)).pose, route.start());
+}
+
+// What drives on while it is raised would drag its wheels.
+TEST(RouteTest, StopsBeforeItIsLifted) {
+  RouteConfig config = route_of({waypoint(0, 0), passed(2, 0), passed(4, 0), waypoint(6, 0)});
+  config.waypoints[2].lift = 0.1;
+  const Route route(config);
+  // Three legs of 2 m, 5 s each, from rest to rest, and twice pi / 10 s.
+  EXPECT_EQ(route.duration(),
+            from_seconds(5) + from_seconds(5 + std::numbers::pi / 5) + from_seconds(5));
+}
+
+TEST(RouteTest, TheFirstWaypointHasNoLift) {
+  RouteConfig config = route_of({waypoint(0, 0), waypoint(2, 0)});
+  config.waypoints.front().lift = 0.1;
+  EXPECT_THROW(Route{config}, Error);
+}
+
 TEST(RouteTest, TurnsOnTheSpotAccumulate) {
   const Route route(route_of({waypoint(0, 0, 90), waypoint(0, 0, 450), waypoint(0, 0, 90)}));
   EXPECT_EQ(route.duration(), from_seconds(10));
