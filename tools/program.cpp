@@ -29,8 +29,8 @@ Command program(const Surroundings& surroundings) {
       .commands = {run_command(surroundings), replay_command(surroundings),
                    record_command(surroundings), check_command(), eval_command(), compare_command(),
                    plan_command(), guard_command(surroundings), explain_command(surroundings),
-                   render_command(surroundings), std::move(bench), world_command(),
-                   list_command(surroundings), help_command()}};
+                   realism_command(surroundings), render_command(surroundings), std::move(bench),
+                   world_command(), list_command(surroundings), help_command()}};
 }
 
 }  // namespace vinebench::tools

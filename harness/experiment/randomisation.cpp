@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/experiment/randomisation.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -108,7 +110,60 @@ std::string value_of(const Draw& draw, const RandomStream& stream) {
   return chosen(draw, stream.uniform(0));
 }
 
+/// The values that these seeds draw.
+std::vector<std::string> values_of(const Draw& draw, const std::vector<std::int64_t>& seeds) {
+  std::vector<std::string> values;
+  for (const std::int64_t seed : seeds) {
+    values.push_back(value_of(
+        draw, RandomStream(static_cast<std::uint64_t>(seed), "randomisation." + draw.key)));
+  }
+  return values;
+}
+
+std::string narrowed_choice(const std::vector<std::string>& values) {
+  std::vector<std::string> choice = values;
+  std::ranges::sort(choice);
+  choice.erase(std::unique(choice.begin(), choice.end()), choice.end());
+  std::vector<std::ptrdiff_t> weights;
+  for (const std::string& value : choice) weights.push_back(std::ranges::count(values, value));
+  return fmt::format("choice: [{}], weights: [{}]", fmt::join(choice, ", "),
+                     fmt::join(weights, ", "));
+}
+
+std::string narrowed_normal(const Draw& draw, const std::vector<double>& values) {
+  double mean = 0;
+  for (const double value : values) mean += value / static_cast<double>(values.size());
+  double variance = 0;
+  for (const double value : values) {
+    variance += (value - mean) * (value - mean) / static_cast<double>(values.size());
+  }
+  std::string text = fmt::format("normal: [{:.6g}, {:.6g}]", mean, std::sqrt(variance));
+  if (draw.min) text += fmt::format(", min: {}", *draw.min);
+  if (draw.max) text += fmt::format(", max: {}", *draw.max);
+  return text;
+}
+
+/// The distribution of a draw that is left of these values.
+std::string narrowed(const Draw& draw, const std::vector<std::string>& values) {
+  if (!draw.choice.empty()) return narrowed_choice(values);
+  std::vector<double> numbers;
+  for (const std::string& value : values) numbers.push_back(std::stod(value));
+  if (draw.normal) return narrowed_normal(draw, numbers);
+  const auto [least, most] = std::ranges::minmax(numbers);
+  const char* kind = draw.uniform ? "uniform" : draw.log_uniform ? "log_uniform" : "integer";
+  return fmt::format("{}: [{:.6g}, {:.6g}]", kind, least, most);
+}
+
 }  // namespace
+
+std::string narrowed_randomisation(const std::filesystem::path& file,
+                                   const std::vector<std::int64_t>& seeds) {
+  std::string text = "draws:\n";
+  for (const Draw& draw : YamlDocument::load(file).read<RandomisationConfig>().draws) {
+    text += fmt::format("  - {{key: {}, {}}}\n", draw.key, narrowed(draw, values_of(draw, seeds)));
+  }
+  return text;
+}
 
 std::vector<Override> draw_overrides(const std::filesystem::path& file, std::int64_t seed) {
   const auto config = YamlDocument::load(file).read<RandomisationConfig>();

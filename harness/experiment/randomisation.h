@@ -24,6 +24,12 @@ namespace vinebench::harness {
 /// the values themselves are validated when the scenario is read.
 std::vector<Override> draw_overrides(const std::filesystem::path& file, std::int64_t seed);
 
+/// The text of a randomisation with the same keys, narrowed to what some seeds draw from `file`:
+/// least and most of numbers, mean and deviation of normal ones, the choices with their counts as
+/// weights. Throws Error as draw_overrides().
+std::string narrowed_randomisation(const std::filesystem::path& file,
+                                   const std::vector<std::int64_t>& seeds);
+
 /// load_scenario() with the draws of its seed (the scenario's own if none is given); no
 /// randomisation if that file's name is empty.
 ScenarioConfig load_drawn_scenario(const std::filesystem::path& file,

@@ -55,6 +55,13 @@ world "ground_size: 20"
 scenario "sede: 4"
 expect 2 "unknown key" "bad.yaml:4: sede: unknown key, expected one of: " -- run "$work/bad.yaml"
 
+expect 0 "realism of a set with itself" "31 of 31 medians inside" -- realism \
+  worlds/photographs/side.json --ours "$root/worlds/photographs/side.json" --out "$work/realism"
+expect 2 "realism without photographs" "nowhere: expected a folder of photographs" -- realism \
+  nowhere --ours csl-vineyard --out "$work/realism"
+expect 2 "realism fit of a world" "--fit: expected one scenario" -- realism \
+  worlds/photographs/side.json --ours csl-vineyard --fit photographs --out "$work/realism"
+
 scenario "seed: 4"
 world "vines: {meshes: [nowhere.glb]}"
 expect 2 "missing mesh" "world.yaml:3: world.vines.meshes.0: " "nowhere.glb" -- run "$work/bad.yaml"

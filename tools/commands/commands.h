@@ -18,6 +18,7 @@ Command plan_command();
 Command guard_command(const Surroundings& surroundings);
 Command explain_command(const Surroundings& surroundings);
 Command render_command(const Surroundings& surroundings);
+Command realism_command(const Surroundings& surroundings);
 Command world_command();
 Command list_command(const Surroundings& surroundings);
 

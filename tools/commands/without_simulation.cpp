@@ -33,6 +33,10 @@ Command explain_command(const Surroundings&) {
   return refusal("explain");
 }
 
+Command realism_command(const Surroundings&) {
+  return refusal("realism");
+}
+
 Command record_command(const Surroundings&) {
   return refusal("record");
 }

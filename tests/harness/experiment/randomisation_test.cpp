@@ -74,6 +74,37 @@ TEST_F(RandomisationTest, DistributionsAreWhatTheySay) {
   EXPECT_NEAR(counts.at(89), kSeeds * 0.75, 4 * std::sqrt(kSeeds * 0.75 * 0.25));
 }
 
+// What is left draws from the same span: its least and most are drawn by the seeds themselves.
+TEST_F(RandomisationTest, IsNarrowedToWhatSeedsDraw) {
+  const auto file = folder_.write("draws.yaml", R"(draws:
+  - {key: a, uniform: [0, 100]}
+  - {key: b, integer: [0, 1000]}
+  - {key: c, choice: [x, y, z], weights: [1, 0, 1]}
+  - {key: d, normal: [10, 3], min: 0, max: 20}
+)");
+  const std::vector<std::int64_t> seeds{3, 4, 5, 6};
+  const auto narrow = folder_.write("narrow.yaml", narrowed_randomisation(file, seeds));
+  double least = 100;
+  double most = 0;
+  double sum = 0;
+  for (const std::int64_t seed : seeds) {
+    const auto drawn = draw_overrides(file, seed);
+    least = std::min(least, std::stod(drawn[0].second));
+    most = std::max(most, std::stod(drawn[0].second));
+    sum += std::stod(drawn[3].second);
+  }
+  double normals = 0;
+  for (int seed = 100; seed < 100 + kSeeds; ++seed) {
+    const auto drawn = draw_overrides(narrow, seed);
+    ASSERT_EQ(drawn.size(), 4u);
+    EXPECT_GE(std::stod(drawn[0].second), least * (1 - 1e-5));
+    EXPECT_LE(std::stod(drawn[0].second), most * (1 + 1e-5));
+    EXPECT_NE(drawn[2].second, "y");
+    normals += std::stod(drawn[3].second) / kSeeds;
+  }
+  EXPECT_NEAR(normals, sum / 4, 4 * 3 / std::sqrt(kSeeds));  // a deviation of 3 at most
+}
+
 TEST_F(RandomisationTest, FaultsNameFileLineAndKey) {
   const auto error = [&](const std::string& text) {
     return error_of([&] { draw("draws:\n" + text, 1); });
