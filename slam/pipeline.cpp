@@ -218,7 +218,11 @@ TrackedFrame Pipeline::track(const std::shared_ptr<FrameFeatures>& frame) {
       tracked = tracker_.track(frame, map_, rig_);
     }
   }
-  if (!tracked.tracked) tracked.tracked = restart_map(tracked);
+  if (tracked.tracked) {
+    seeing_frames_ = 0;
+  } else {
+    tracked.tracked = restart_map(tracked);
+  }
   path_length_ += (tracker_.T_map_body().translation - before.translation).norm();
   return tracked;
 }

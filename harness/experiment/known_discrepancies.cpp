@@ -11,6 +11,7 @@ namespace vinebench::harness {
 namespace {
 
 constexpr double kLeastDelay = 1e-4;  // s
+constexpr double kLeastPixels = 0.1;
 
 double delay_of(const sim::FrameTimingConfig& timing, const std::string& camera) {
   for (const sim::FrameTimingConfig::Trigger& trigger : timing.triggers) {
@@ -47,11 +48,25 @@ void add_timing(const sim::FrameTimingConfig& timing, const Rig& rig, double spe
   }
 }
 
+/// An error of a share of the path moves what is seen 1 m away by that share after 1 m.
+void add_wheels(const slam::MecanumWheels& told, const sim::RoverConfig& truth, double focal,
+                std::vector<Discrepancy>& list) {
+  const auto add = [&](const char* what, double size, double true_size) {
+    const double share = size / true_size - 1;
+    const double pixels = std::abs(share) * focal;
+    if (pixels >= kLeastPixels) list.push_back({"wheels", what, 100 * share, "%", pixels});
+  };
+  add("radius", told.radius, truth.wheel_radius);
+  add("track", told.half_track, truth.half_track);
+  add("wheelbase", told.half_wheelbase, truth.half_wheelbase);
+}
+
 }  // namespace
 
 std::vector<Discrepancy> known_discrepancies(const sim::SimulationConfig& simulation,
                                              std::uint64_t seed, const Rig& told,
-                                             const std::vector<RegisteredTag>& tags) {
+                                             const std::vector<RegisteredTag>& tags,
+                                             const std::optional<slam::MecanumWheels>& wheels) {
   const Rig truth =
       sim::true_rig(load_rig(simulation.rover.rig), simulation.sensors.calibration, seed);
   std::vector<Discrepancy> list = rig_discrepancies(told, truth);
@@ -60,6 +75,7 @@ std::vector<Discrepancy> known_discrepancies(const sim::SimulationConfig& simula
   const auto surveyed = tag_discrepancies(tags, sim::world_tags(simulation.world), focal);
   list.insert(list.end(), surveyed.begin(), surveyed.end());
   add_timing(simulation.sensors.timing, truth, simulation.route.speed, list);
+  if (wheels) add_wheels(*wheels, simulation.rover, truth.cameras.front().model.fx, list);
   rank(list);
   return list;
 }

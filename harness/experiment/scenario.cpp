@@ -119,9 +119,9 @@ Trial trial_of(const ScenarioConfig& scenario) {
   if (!waypoints.empty()) trial.route_end = waypoints.back().position;
   trial.miscalibrated = scenario.simulation.sensors.calibration.any();
   if (const auto& rig = scenario.simulation.rover.rig; !rig.empty()) {
-    trial.discrepancies =
-        known_discrepancies(scenario.simulation, static_cast<std::uint64_t>(scenario.seed),
-                            load_rig(rig), sim::registered_tags(scenario.simulation.world));
+    trial.discrepancies = known_discrepancies(
+        scenario.simulation, static_cast<std::uint64_t>(scenario.seed), load_rig(rig),
+        sim::registered_tags(scenario.simulation.world), scenario.slam.dead_reckoning.wheels);
   }
   return trial;
 }

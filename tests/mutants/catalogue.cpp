@@ -178,6 +178,12 @@ void add_sensors(std::vector<Mutant>& list) {
                          {{kTriggers, triggers({"front_right"}, 0.005)}}));
   list.push_back(
       sensors("stamps", "all stamps 30 ms too late", {{"sensors.timing.stamp_offset", "0.03"}}));
+  list.push_back({.name = "wheel-radius",
+                  .part = "calibration",
+                  .text = "wheels 5 % too large",
+                  .tell = [](Told& told) { told.config.dead_reckoning.wheels->radius *= 1.05; }});
+  list.push_back(sensors("accelerometer", "accelerometer off by 0.5 m/s^2",
+                         {{"sensors.inertial.accelerometer.initial_bias", "0.5"}}));
   list.push_back(
       sensors("drops", "a fifth of the frames is lost", {{"sensors.drops.frame_rate", "0.2"}}));
 }

@@ -40,6 +40,8 @@ const std::map<std::string, std::string>& causes() {
       {"early-pair", "front pair: exposure"},
       {"late-camera", "front_right: exposure"},
       {"stamps", "all cameras: stamps"},
+      {"wheel-radius", "wheels: radius"},
+      {"accelerometer", "inertial unit: accelerometer"},
       {"drops", "dropped images|lost"},
       {"scale", "scale"},
       {"late", "late"},

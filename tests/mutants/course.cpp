@@ -41,8 +41,9 @@ Outcome Course::judge(FrameSource& source, const harness::ScenarioConfig& simula
   if (mutant.tell) mutant.tell(told);
   const harness::Trial trial = harness::trial_of(scenario_);
   Outcome outcome;
-  outcome.discrepancies = harness::known_discrepancies(
-      simulated.simulation, static_cast<std::uint64_t>(simulated.seed), told.rig, told.tags);
+  outcome.discrepancies =
+      harness::known_discrepancies(simulated.simulation, static_cast<std::uint64_t>(simulated.seed),
+                                   told.rig, told.tags, told.config.dead_reckoning.wheels);
   std::erase_if(outcome.discrepancies, [&](const harness::Discrepancy& d) {
     return std::ranges::any_of(trial.discrepancies, [&d](const harness::Discrepancy& own) {
       return own.of == d.of && own.what == d.what && own.size == d.size;
@@ -71,8 +72,10 @@ void Course::drive(FrameSource& source, SlamSystem& honest, const Mutant& mutant
   const harness::RunRecord& record = recorder.record();
   const harness::RunResults results = harness::measure(record, trial);
   for (harness::Check& check : harness::check_trial(trial, results)) {
-    if (!check.ok) outcome.failed.push_back(std::move(check));
+    if (!check.holds()) outcome.failed.push_back(std::move(check));
   }
+  outcome.estimate = record.summary.trajectory;
+  if (results.consistency) outcome.nees = results.consistency->nees_mean;
   outcome.patterns = harness::error_patterns(record, results);
   outcome.segments = harness::diagnose(record, results, trial);
 }

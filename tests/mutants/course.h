@@ -19,6 +19,8 @@ namespace vinebench::mutants {
 
 /// What a scenario's gates say of a mutant.
 struct Outcome {
+  Trajectory estimate;         ///< the poses of all frames, after all corrections
+  std::optional<double> nees;  ///< mean, of the live poses with their covariances
   std::vector<harness::Check> failed;
   std::vector<harness::ErrorPattern> patterns;
   std::vector<harness::DegradedSegment> segments;

@@ -207,6 +207,24 @@ TEST(PipelineTest, SaysLostWhenItKnowsTooLittle) {
   EXPECT_FALSE(blind.T_map_body.has_value());
 }
 
+// Three frames that show another place, ten frames apart: the map is restarted by three in a row.
+TEST(PipelineTest, FailuresApartRestartNoMap) {
+  const SyntheticAisle aisle(0.5, 13, kLandmarks);
+  const SyntheticAisle elsewhere(0.5, 14, kLandmarks);
+  Pipeline pipeline(config(), aisle.rig, {});
+  std::vector<Pose> truth;
+  for (std::int64_t i = 0; i < 90; ++i) {
+    truth.push_back(driving(i));
+    const bool strange = i == 40 || i == 50 || i == 60;
+    const Estimate estimate =
+        pipeline.process((strange ? elsewhere : aisle).frame(i, truth.back()));
+    EXPECT_EQ(estimate.status == TrackingStatus::kTracking, !strange) << i;
+    EXPECT_FALSE(strange && estimate.keyframe) << i;
+  }
+  // As DriftsLittleWithNoise, and a frame's velocity kept for one frame: 0.02 m with 5 % of error.
+  EXPECT_LT(worst_error(pipeline.finish().trajectory, truth), 0.01);
+}
+
 TEST(PipelineTest, FindsItselfAgainAfterTwoBlindFrames) {
   const SyntheticAisle aisle(0.5, 5, kLandmarks);
   Pipeline pipeline(config(), aisle.rig, {});

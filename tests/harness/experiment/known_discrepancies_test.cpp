@@ -43,5 +43,11 @@ TEST(KnownDiscrepanciesTest, CalibrationSurveyAndInstants) {
               ElementsAre("all cameras: stamps"));
 }
 
+// 5 % of 263 px are 13 px; the rover's wheels have a radius of 0.1 m.
+TEST(KnownDiscrepanciesTest, Wheels) {
+  EXPECT_THAT(of_trial({{"slam.dead_reckoning.wheels.radius", "0.105"}}),
+              ElementsAre("wheels: radius"));
+}
+
 }  // namespace
 }  // namespace vinebench::harness
