@@ -50,10 +50,10 @@ void add_timing(const sim::FrameTimingConfig& timing, const Rig& rig, double spe
 }  // namespace
 
 std::vector<Discrepancy> known_discrepancies(const sim::SimulationConfig& simulation,
-                                             std::uint64_t seed, const Rig& told,
+                                             std::uint64_t seed, const Rig& nominal,
+                                             const Rig& told,
                                              const std::vector<RegisteredTag>& tags) {
-  const Rig truth =
-      sim::true_rig(load_rig(simulation.rover.rig), simulation.sensors.calibration, seed);
+  const Rig truth = sim::true_rig(nominal, simulation.sensors.calibration, seed);
   std::vector<Discrepancy> list = rig_discrepancies(told, truth);
   const int reader = truth.tag_cameras.empty() ? 0 : truth.tag_cameras.front();
   const double focal = truth.cameras[static_cast<std::size_t>(reader)].model.fx;

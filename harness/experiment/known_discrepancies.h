@@ -11,10 +11,12 @@
 namespace vinebench::harness {
 
 /// What a SLAM system that is told this rig and these tags is told wrong about the simulated world
-/// and sensors: calibration, survey, and the instants of images. The one that moves the images most
-/// comes first. For the judge alone.
+/// and sensors: calibration, survey, and the instants of images. `nominal` is the simulation's rig
+/// before its calibration errors. The one that moves the images most comes first. For the judge
+/// alone.
 std::vector<Discrepancy> known_discrepancies(const sim::SimulationConfig& simulation,
-                                             std::uint64_t seed, const Rig& told,
+                                             std::uint64_t seed, const Rig& nominal,
+                                             const Rig& told,
                                              const std::vector<RegisteredTag>& tags);
 
 }  // namespace vinebench::harness

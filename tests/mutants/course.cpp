@@ -41,8 +41,9 @@ Outcome Course::judge(FrameSource& source, const harness::ScenarioConfig& simula
   if (mutant.tell) mutant.tell(told);
   const harness::Trial trial = harness::trial_of(scenario_);
   Outcome outcome;
-  outcome.discrepancies = harness::known_discrepancies(
-      simulated.simulation, static_cast<std::uint64_t>(simulated.seed), told.rig, told.tags);
+  outcome.discrepancies =
+      harness::known_discrepancies(simulated.simulation, static_cast<std::uint64_t>(simulated.seed),
+                                   load_rig(simulated.simulation.rover.rig), told.rig, told.tags);
   std::erase_if(outcome.discrepancies, [&](const harness::Discrepancy& d) {
     return std::ranges::any_of(trial.discrepancies, [&d](const harness::Discrepancy& own) {
       return own.of == d.of && own.what == d.what && own.size == d.size;
