@@ -9,15 +9,14 @@
 #include "core/util/error.h"
 
 namespace vinebench {
-namespace {
-
-/// Slightly less than the range of a Stamp, 292 years.
-constexpr double kMostSeconds = 9.2e9;
-
-}  // namespace
 
 Stamp from_seconds(double seconds) {
-  return static_cast<Stamp>(std::llround(seconds * static_cast<double>(kNanosecondsPerSecond)));
+  const double nanoseconds = seconds * static_cast<double>(kNanosecondsPerSecond);
+  // As a double kMostStamp is one more, which a Stamp can hold.
+  const auto most = static_cast<double>(kMostStamp);
+  if (nanoseconds >= most) return kMostStamp;
+  if (nanoseconds <= -most) return -kMostStamp;
+  return static_cast<Stamp>(std::llround(nanoseconds));
 }
 
 Stamp stamp_of_frame(std::int64_t index, double rate_hz) {
@@ -44,7 +43,7 @@ Stamp parse_seconds(const std::string& text) {
   if (!plain || decimals > 9 || first_digit > 1) {
     char* end = nullptr;
     const double seconds = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0' || !(std::abs(seconds) < kMostSeconds)) {
+    if (text.empty() || *end != '\0' || !(std::abs(seconds) < to_seconds(kMostStamp))) {
       fail("expected a time in seconds, found '{}'", text);
     }
     return from_seconds(seconds);
@@ -55,7 +54,9 @@ Stamp parse_seconds(const std::string& text) {
   char* end = nullptr;
   errno = 0;
   const Stamp stamp = std::strtoll(digits.c_str(), &end, 10);
-  if (*end != '\0' || errno == ERANGE) fail("expected a time in seconds, found '{}'", text);
+  if (*end != '\0' || errno == ERANGE || !is_in_range(stamp)) {
+    fail("expected a time in seconds, found '{}'", text);
+  }
   return stamp;
 }
 

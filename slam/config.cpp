@@ -4,28 +4,34 @@
 
 namespace vinebench::slam {
 
-void paper_settings(SlamConfig& config) {
+namespace {
+
+/// Calls `visit` with each setting of a configuration that the paper's differs in, and its value
+/// there.
+template <class Config, class Visit>
+void each_paper_setting(Config& config, const Visit& visit) {
   constexpr double kNever = 1e9;  // m, degrees
-  config.stereo.search = StereoSearch::kFeatures;
-  config.stereo.few = 0;  // 40 baselines are the limit everywhere
-  config.stereo.self_calibration = false;
-  config.refinement.enabled = false;
-  config.keyframes.distance = kNever;
-  config.keyframes.angle_deg = kNever;
-  config.tracking.min_inlier_share = 0;  // cameras are not judged one by one
-  config.loss = ResidualLoss::kHuber;
+  visit(config.stereo.search, StereoSearch::kFeatures);
+  visit(config.stereo.few, 0);  // 40 baselines are the limit everywhere
+  visit(config.stereo.self_calibration, false);
+  visit(config.refinement.enabled, false);
+  visit(config.keyframes.distance, kNever);
+  visit(config.keyframes.angle_deg, kNever);
+  visit(config.tracking.min_inlier_share, 0);  // cameras are not judged one by one
+  visit(config.loss, ResidualLoss::kHuber);
+}
+
+}  // namespace
+
+void paper_settings(SlamConfig& config) {
+  each_paper_setting(config, [](auto& setting, const auto& value) { setting = value; });
 }
 
 bool has_paper_setting(const SlamConfig& config) {
-  SlamConfig paper = config;
-  paper_settings(paper);
-  return config.stereo.search == paper.stereo.search || config.stereo.few == paper.stereo.few ||
-         config.stereo.self_calibration == paper.stereo.self_calibration ||
-         config.refinement.enabled == paper.refinement.enabled ||
-         config.keyframes.distance == paper.keyframes.distance ||
-         config.keyframes.angle_deg == paper.keyframes.angle_deg ||
-         config.tracking.min_inlier_share == paper.tracking.min_inlier_share ||
-         config.loss == paper.loss;
+  bool found = false;
+  each_paper_setting(
+      config, [&](const auto& setting, const auto& value) { found = found || setting == value; });
+  return found;
 }
 
 }  // namespace vinebench::slam

@@ -21,7 +21,10 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-PACKAGES = ["pyorbslam3==0.1.1", "numpy", "opencv-python-headless"]
+# numpy 2.0.2 is the last for Python 3.9, 2.2.6 the first choice for 3.13, which 2.0.2 does not have.
+PACKAGES = ["pyorbslam3==0.1.1", "numpy==2.0.2; python_version<'3.13'",
+            "numpy==2.2.6; python_version>='3.13'", "opencv-python-headless==4.11.0.86"]
+MOST = 10**9  # of a seed, of frames
 RECORDING = "recording"
 PEER, AGAIN = "orb-slam3", "orb-slam3-again"
 # Ours, replayed on the peer's recording.
@@ -35,21 +38,33 @@ def stop(message, code=2):
     sys.exit(print(f"peers.py: {message}", file=sys.stderr) or code)
 
 
+def whole_number(name, default):
+    text = os.environ.get(name, default)
+    if not re.fullmatch(r"[0-9]{1,10}", text) or int(text) > MOST:
+        stop(f"{name}: expected a whole number from 0 to {MOST}, found '{text}'")
+    return int(text)
+
+
+def seed_range(text):
+    match = re.fullmatch(r"([0-9]{1,10})(?:\.\.([0-9]{1,10}))?", text)
+    seeds = range(int(match[1]), int(match[2] or match[1]) + 1) if match else []
+    if not seeds or seeds[-1] > MOST:
+        stop(f"SEEDS: expected A..B, such as 1..5, found '{text}'")
+    return seeds
+
+
 class Settings:
     def __init__(self):
         get = os.environ.get
         self.scenarios = get("SCENARIOS", "occluded-camera long-path many-rows csl-1 csl-2").split()
-        match = re.fullmatch(r"(\d+)(?:\.\.(\d+))?", get("SEEDS", "1..5"))
-        if not match:
-            stop("SEEDS: expected A..B")
-        self.seeds = range(int(match[1]), int(match[2] or match[1]) + 1)
+        self.seeds = seed_range(get("SEEDS", "1..5"))
         self.out = Path(get("OUT", "out/peers")).resolve()
         self.vinebench = Path(get("VINEBENCH", ROOT / "build/vinebench")).resolve()
-        self.training_seed = int(get("TRAINING_SEED", "9"))
+        self.training_seed = whole_number("TRAINING_SEED", "9")
         self.vocabulary = get("VOCABULARY")
         self.python = get("PYTHON", "python3")
         self.again = get("AGAIN", "1") != "0"
-        self.frames = int(get("FRAMES", "300"))
+        self.frames = whole_number("FRAMES", "300")
         if not self.vinebench.is_file():
             stop(f"{self.vinebench}: is no program")
         if self.vocabulary and not Path(self.vocabulary).is_file():

@@ -111,8 +111,16 @@ void assign(YAML::Node node, const std::vector<std::string>& parts, std::size_t 
 YAML::Node load_yaml_tree(const std::filesystem::path& file) {
   const std::string text = read_file(file, FileKind::kYaml);
   try {
-    YAML::Node tree = YAML::Load(text);
-    TreeCheck(file.string()).check(tree);
+    YAML::Node tree;
+    for (const YAML::Node& document : YAML::LoadAll(text)) {
+      if (document.IsNull()) continue;
+      if (!tree.IsNull()) {
+        fail("{}:{}: a second YAML document; expected one", file.string(),
+             document.Mark().line + 1);
+      }
+      TreeCheck(file.string()).check(document);
+      tree.reset(document);
+    }
     return tree;
   } catch (const YAML::Exception& error) {
     fail("{}:{}: is not valid YAML: {}", file.string(), error.mark.line + 1, error.msg);

@@ -64,18 +64,16 @@ void add_wheels(const slam::MecanumWheels& told, const sim::RoverConfig& truth, 
 }  // namespace
 
 std::vector<Discrepancy> known_discrepancies(const sim::SimulationConfig& simulation,
-                                             std::uint64_t seed, const Rig& told,
-                                             const std::vector<RegisteredTag>& tags,
-                                             const std::optional<slam::MecanumWheels>& wheels) {
-  const Rig truth =
-      sim::true_rig(load_rig(simulation.rover.rig), simulation.sensors.calibration, seed);
-  std::vector<Discrepancy> list = rig_discrepancies(told, truth);
+                                             std::uint64_t seed, const Rig& nominal,
+                                             const ToldRobot& told) {
+  const Rig truth = sim::true_rig(nominal, simulation.sensors.calibration, seed);
+  std::vector<Discrepancy> list = rig_discrepancies(told.rig, truth);
   const int reader = truth.tag_cameras.empty() ? 0 : truth.tag_cameras.front();
   const double focal = truth.cameras[static_cast<std::size_t>(reader)].model.fx;
-  const auto surveyed = tag_discrepancies(tags, sim::world_tags(simulation.world), focal);
+  const auto surveyed = tag_discrepancies(told.tags, sim::world_tags(simulation.world), focal);
   list.insert(list.end(), surveyed.begin(), surveyed.end());
   add_timing(simulation.sensors.timing, truth, simulation.route.speed, list);
-  if (wheels) add_wheels(*wheels, simulation.rover, truth.cameras.front().model.fx, list);
+  if (told.wheels) add_wheels(*told.wheels, simulation.rover, truth.cameras.front().model.fx, list);
   rank(list);
   return list;
 }

@@ -118,10 +118,12 @@ Trial trial_of(const ScenarioConfig& scenario) {
   const auto& waypoints = scenario.simulation.route.waypoints;
   if (!waypoints.empty()) trial.route_end = waypoints.back().position;
   trial.miscalibrated = scenario.simulation.sensors.calibration.any();
-  if (const auto& rig = scenario.simulation.rover.rig; !rig.empty()) {
-    trial.discrepancies = known_discrepancies(
-        scenario.simulation, static_cast<std::uint64_t>(scenario.seed), load_rig(rig),
-        sim::registered_tags(scenario.simulation.world), scenario.slam.dead_reckoning.wheels);
+  if (const auto& file = scenario.simulation.rover.rig; !file.empty()) {
+    const Rig rig = load_rig(file);
+    const ToldRobot told{rig, sim::registered_tags(scenario.simulation.world),
+                         scenario.slam.dead_reckoning.wheels};
+    trial.discrepancies = known_discrepancies(scenario.simulation,
+                                              static_cast<std::uint64_t>(scenario.seed), rig, told);
   }
   return trial;
 }

@@ -130,7 +130,7 @@ ChildDrive::ChildDrive(const Make& make, Rig rig) : rig_(std::move(rig)), parent
   if (process_ < 0) fail("a drive's process cannot be started: {}", std::strerror(errno));
   if (process_ == 0) {
     close(ends[0]);
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() == parent_) send_frames(ends[1], make);
     _exit(0);
   }

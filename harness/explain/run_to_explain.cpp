@@ -36,9 +36,12 @@ std::string differences(const StoredRun& run, const sim::RendererConfig& rendere
   });
 }
 
+constexpr double kMostFrames = 1e9;  // two years at 15 Hz
+
 std::int64_t frames_of(const StoredRun& run, const std::filesystem::path& folder) {
   const std::optional<double> frames = run.value("/frames");
   if (!frames || *frames < 1) fail("{}: a run without frames", folder.string());
+  if (*frames > kMostFrames) fail("{}: {} frames are not a run's", folder.string(), *frames);
   return static_cast<std::int64_t>(*frames);
 }
 
@@ -47,7 +50,7 @@ std::vector<Stretch> chosen(const std::vector<Stretch>& segments, const StretchC
   const std::int64_t last = frames - 1;
   if (choice.from || choice.to) {
     const auto frame = [&](double seconds) {
-      return static_cast<std::int64_t>(std::lround(seconds * rate_hz));
+      return static_cast<std::int64_t>(std::lround(std::clamp(seconds * rate_hz, 0., kMostFrames)));
     };
     const Stretch given{.first = choice.from ? frame(*choice.from) : 0,
                         .last = std::min(last, choice.to ? frame(*choice.to) : last)};

@@ -36,8 +36,17 @@ void write_all(int descriptor, const std::string& text) {
   }
 }
 
+/// Ends this process when its parent ends, however that is. What a killed process leaves behind is
+/// whole: files get their names when they are.
+void end_with(pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);  // it ended before prctl
+}
+
 /// Exits without the parent's clean-up.
-[[noreturn]] void be_the_child(int descriptor, const std::function<std::string()>& job) {
+[[noreturn]] void be_the_child(pid_t parent, int descriptor,
+                               const std::function<std::string()>& job) {
+  end_with(parent);
   int code = 0;
   std::string text;
   try {
@@ -58,11 +67,12 @@ class Child {
     std::array<int, 2> ends{};
     if (pipe(ends.data()) != 0) fail_by_system(what_);
     std::fflush(nullptr);  // otherwise the child might write it again
+    const pid_t parent = getpid();
     process_ = fork();
     if (process_ < 0) fail_by_system(what_);
     if (process_ == 0) {
       close(ends[0]);
-      be_the_child(ends[1], job);
+      be_the_child(parent, ends[1], job);
     }
     close(ends[1]);
     descriptor_ = ends[0];
@@ -123,11 +133,8 @@ class RunningJobs {
 
  private:
   void start(std::size_t index) {
-    const pid_t parent = getpid();
-    running_.emplace(index, Child(jobs_.name(index), [this, index, parent] {
+    running_.emplace(index, Child(jobs_.name(index), [this, index] {
                        setpgid(0, 0);
-                       prctl(PR_SET_PDEATHSIG, SIGTERM);
-                       if (getppid() != parent) _exit(1);  // the parent ended before prctl
                        return jobs_.job(index);
                      }));
   }

@@ -8,9 +8,9 @@
 namespace vinebench::harness {
 
 /// Runs the job in a forked process and returns its text: for measurements of a process, such as
-/// its peak memory, and for libraries that read their environment only once. Requires that this
-/// process has one thread and no GL context. An Error of the job is rethrown here; other failures
-/// are thrown as Errors that name `what`.
+/// its peak memory, and for libraries that read their environment only once. It is killed if this
+/// process ends, even by SIGKILL. Requires that this process has one thread and no GL context. An
+/// Error of the job is rethrown here; other failures are thrown as Errors that name `what`.
 std::string run_in_child(const std::string& what, const std::function<std::string()>& job);
 
 /// The outcome of a job in a child process.
@@ -32,8 +32,7 @@ struct ChildJobs {
 
 /// Runs all jobs, with the requirements of run_in_child. A failing job does not end the others.
 /// Once `stopped` returns true no further job is started, and running ones are sent SIGTERM once.
-/// They are in separate process groups, so that ^C reaches them in this manner only, and they end
-/// with this process.
+/// They are in separate process groups, so that ^C reaches them in this manner only.
 void run_in_children(const ChildJobs& jobs);
 
 }  // namespace vinebench::harness

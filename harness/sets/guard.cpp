@@ -3,14 +3,20 @@
 #include "harness/sets/guard.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <optional>
 #include <sstream>
 
+#include "core/files/files.h"
+#include "core/files/output_file.h"
 #include "core/util/error.h"
 #include "core/util/percentile.h"
+#include "harness/experiment/scenario.h"
 #include "harness/judge/consistency.h"
 #include "vinebench/version.h"
 
@@ -65,6 +71,28 @@ std::string number(double value) {
   return fmt::format("{:.6g}", value);
 }
 
+/// A complete file beside another one, with its ending `.partial`, while this exists.
+class FileBeside {
+ public:
+  FileBeside(const std::filesystem::path& file, const std::string& text) : file_(file) {
+    file_ += fmt::format(".{}{}", getpid(), kPartialEnding);
+    const int error = write_bytes(create_file(file_), text);
+    if (error == 0) return;
+    std::filesystem::remove(file_);
+    fail("{}: cannot be written: {}", file_.string(), std::strerror(error));
+  }
+  FileBeside(const FileBeside&) = delete;
+  FileBeside& operator=(const FileBeside&) = delete;
+  ~FileBeside() {
+    std::error_code ignored;
+    std::filesystem::remove(file_, ignored);
+  }
+  const std::filesystem::path& file() const { return file_; }
+
+ private:
+  std::filesystem::path file_;
+};
+
 }  // namespace
 
 std::vector<GuardBound> derive_guard(const std::vector<StoredRun>& runs) {
@@ -115,6 +143,25 @@ std::string with_guard(const std::string& text, const std::string& block) {
   }
   const bool apart = !found && !before.empty() && !before.ends_with("\n\n");
   return before + (apart ? "\n" : "") + block + after;
+}
+
+void check_guard_place(const std::filesystem::path& scenario) {
+  std::error_code ignored;
+  if (std::filesystem::is_symlink(scenario, ignored)) {
+    fail("{}: is a link: name the file that it leads to", scenario.string());
+  }
+  const std::string text = read_file(scenario);
+  if (access(scenario.c_str(), W_OK) != 0) {
+    fail("{}: cannot be written: {}", scenario.string(), std::strerror(errno));
+  }
+  const FileBeside trial(scenario, with_guard(text, format_guard({}, "", "1..5")));
+  try {
+    if (load_scenario(trial.file()).guard) return;
+    fail("what follows is not read");
+  } catch (const Error& error) {
+    fail("{}: would be no scenario with a block 'guard:' at its end: {}", scenario.string(),
+         error.what());
+  }
 }
 
 }  // namespace vinebench::harness

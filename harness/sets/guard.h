@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -37,5 +38,10 @@ std::string format_guard(const std::vector<GuardBound>& bounds, const std::strin
 
 /// The text of a scenario file with this block in place of the one it has, else at its end.
 std::string with_guard(const std::string& text, const std::string& block);
+
+/// Throws Error unless a guard can be put into the scenario's file: one that may be written, is no
+/// link, and is a scenario still with a block `guard:` at its end. Tries it in a file beside it,
+/// which is removed.
+void check_guard_place(const std::filesystem::path& scenario);
 
 }  // namespace vinebench::harness

@@ -109,10 +109,8 @@ std::string run_planned(const PlannedRun& run, const SetOptions& options, int th
   const std::string fingerprint = fingerprint_of_inputs(run.scenario);
   const RunOutcome outcome = options.run(run.scenario, threads, run_options);
   if (outcome.interrupted) return "interrupted";
-  // A system that failed may have failed by chance: it runs again the next time.
-  if (!outcome.report.failure) {
-    write_file_atomically(run.folder / kInputsFile, fingerprint + "\n");
-  }
+  // Also where the system failed: a rate of failures counts each run once, whatever it came to.
+  write_file_atomically(run.folder / kInputsFile, fingerprint + "\n");
   return "";
 }
 

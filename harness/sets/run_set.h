@@ -72,9 +72,9 @@ struct SetOutcome {
 
 /// Runs them in parallel, each in its own process with its messages in log.txt of its folder, so
 /// that a crash does not affect other runs. An existing complete run with the same inputs, of an
-/// environment whose hashes are comparable, is kept. Metrics of further repeats of a planned seed,
-/// which an earlier set has left with others, are removed. Throws Error if `libraries` does. The
-/// number of threads changes no result.
+/// environment whose hashes are comparable, is kept, also one whose SLAM system failed. Metrics of
+/// further repeats of a planned seed, which an earlier set has left with others, are removed.
+/// Throws Error if `libraries` does. The number of threads changes no result.
 SetOutcome run_set(const std::vector<PlannedRun>& plan, const SetOptions& options);
 
 }  // namespace vinebench::harness

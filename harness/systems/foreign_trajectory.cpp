@@ -30,6 +30,16 @@ Pose pose_of(const TableRow& row, bool scalar_first) {
   return {q, {at(1), at(2), at(3)}};
 }
 
+/// Throws Error for a time that no recording has.
+Stamp stamp_of(const TableRow& row, bool in_seconds) {
+  if (in_seconds) return row.seconds(0);
+  const double time = row.number(0);
+  if (!(std::abs(time) < static_cast<double>(kMostStamp))) {
+    row.fault(fmt::format("expected a time in seconds or nanoseconds, found '{}'", row.fields[0]));
+  }
+  return static_cast<Stamp>(std::llround(time));  // may have decimals
+}
+
 /// In the file's own unit of time.
 double latest(const std::vector<TableRow>& rows) {
   double time = 0;
@@ -55,9 +65,7 @@ Trajectory read_foreign_trajectory(const std::filesystem::path& file,
   const bool in_seconds = latest(rows) <= to_seconds(frames.back()) + 1;
   Trajectory written;
   for (const TableRow& row : rows) {
-    const double time = row.number(0);
-    const Stamp stamp = in_seconds ? from_seconds(time) : static_cast<Stamp>(std::llround(time));
-    written.push_back({stamp, pose_of(row, commas) * T_sensor_body});
+    written.push_back({stamp_of(row, in_seconds), pose_of(row, commas) * T_sensor_body});
   }
   std::ranges::stable_sort(written, {}, &StampedPose::stamp);
 

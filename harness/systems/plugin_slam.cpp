@@ -147,6 +147,11 @@ class PluginSlam : public SlamSystem {
     return result;
   }
 
+  void check_stamp(const char* function, Stamp stamp) const {
+    if (is_in_range(stamp)) return;
+    fail_system("{}: {}: expected a stamp within 146 years, found {}", file_, function, stamp);
+  }
+
   Estimate estimate_of(Stamp stamp, const PluginEstimate& given) const {
     const vinebench_estimate& answer = given.estimate;
     if (answer.status < VINEBENCH_INITIALIZING || answer.status > VINEBENCH_LOST) {
@@ -166,6 +171,8 @@ class PluginSlam : public SlamSystem {
     }
     if (answer.has_loop_closure != 0) {
       const vinebench_loop_closure& loop = answer.loop_closure;
+      check_stamp("process", loop.earlier);
+      check_stamp("process", loop.later);
       estimate.loop_closure = {loop.tag_id, loop.earlier, loop.later, pose_of(loop.T_earlier_later),
                                loop.correction};
     }
@@ -179,6 +186,7 @@ class PluginSlam : public SlamSystem {
         fail_system("{}: finish: expected ascending stamps, found {} after {}", file_,
                     poses[i].stamp, poses[i - 1].stamp);
       }
+      check_stamp("finish", poses[i].stamp);
       trajectory.push_back({poses[i].stamp, pose_of(poses[i].T_map_body)});
     }
     return trajectory;

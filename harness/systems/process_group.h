@@ -7,27 +7,18 @@
 #include <chrono>
 #include <filesystem>
 #include <string>
-#include <utility>
-#include <vector>
+
+#include "harness/systems/group_watcher.h"
+#include "harness/systems/spawn.h"
 
 namespace vinebench::harness {
-
-/// What a process is started with.
-struct ProcessStart {
-  std::filesystem::path file;
-  std::vector<std::string> arguments;
-  std::vector<std::pair<std::string, std::string>> environment{};  ///< added to this process' own
-  std::filesystem::path folder{};  ///< where it runs; this process' own if empty
-  std::filesystem::path log{};     ///< for its output; standard error if empty
-  std::vector<int> descriptors{};  ///< become its 3, 4, ...; all others are closed
-};
 
 /// Throws Error if the file is neither a program nor a script whose interpreter is one, or may not
 /// be executed.
 void check_executable(const std::filesystem::path& file);
 
 /// A started process in a group of its own, with the processes that it starts. Destruction kills
-/// them.
+/// them, and so does the end of this process, whatever ends it (GroupWatcher).
 class ProcessGroup {
  public:
   /// Throws Error if it cannot be started.
@@ -51,6 +42,7 @@ class ProcessGroup {
   void kill();
 
  private:
+  GroupWatcher watcher_;  // first member: the process joins its group
   pid_t process_ = 0;
   bool ended_ = false;
   int status_ = 0;

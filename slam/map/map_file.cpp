@@ -189,6 +189,8 @@ void check(const StoredKeyframe& keyframe, const EstimatorRig& rig, std::size_t 
       reader.expect(id >= -1 && id < static_cast<int>(landmarks), "a tie to no landmark");
     }
   }
+  reader.expect(is_in_range(keyframe.frame.stamp) && is_in_range(keyframe.frame.index),
+                "a keyframe's instant");
   for (const TagSighting& tag : keyframe.frame.tags) {
     reader.expect(
         tag.camera >= 0 && static_cast<std::size_t>(tag.camera) < rig.tag_cameras.cameras.size(),

@@ -53,9 +53,18 @@ TEST(TimeTest, ReadsWhatPeopleWrite) {
   EXPECT_EQ(parse_seconds("0.12345678951"), 123'456'790);
 }
 
+// 2^62 ns are 4,611,686,018 s: the differences of two such times are below 2^63 ns.
+TEST(TimeTest, DifferencesOfTimesAreTimes) {
+  EXPECT_EQ(parse_seconds("4611686018.427387903"), kMostStamp);
+  EXPECT_EQ(parse_seconds("-4611686018.427387903"), -kMostStamp);
+  EXPECT_EQ(from_seconds(1e300), kMostStamp);
+  EXPECT_EQ(from_seconds(-1e300), -kMostStamp);
+  EXPECT_EQ(kMostStamp - -kMostStamp, std::numeric_limits<Stamp>::max() - 1);
+}
+
 TEST(TimeTest, WhatIsNoTimeIsAnErrorThatQuotesIt) {
   for (const char* text : {"", "x", "1.2.3", "1 s", "--1", "1-2", "nan", "inf", ".", "-.", "-",
-                           "99999999999999999999", "1e300"}) {
+                           "99999999999999999999", "1e300", "-1e300", "4.7e9", "-4700000000.5"}) {
     EXPECT_THAT([&] { parse_seconds(text); },
                 testing::ThrowsMessage<Error>(
                     testing::HasSubstr(std::string("expected a time in seconds, found '") + text)))

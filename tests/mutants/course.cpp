@@ -43,7 +43,8 @@ Outcome Course::judge(FrameSource& source, const harness::ScenarioConfig& simula
   Outcome outcome;
   outcome.discrepancies =
       harness::known_discrepancies(simulated.simulation, static_cast<std::uint64_t>(simulated.seed),
-                                   told.rig, told.tags, told.config.dead_reckoning.wheels);
+                                   load_rig(simulated.simulation.rover.rig),
+                                   {told.rig, told.tags, told.config.dead_reckoning.wheels});
   std::erase_if(outcome.discrepancies, [&](const harness::Discrepancy& d) {
     return std::ranges::any_of(trial.discrepancies, [&d](const harness::Discrepancy& own) {
       return own.of == d.of && own.what == d.what && own.size == d.size;

@@ -154,6 +154,10 @@ expect 2 "jobs of one run" "expected several scenarios or --seeds" -- \
   run "$root/scenarios/quick-loop.yaml" --jobs 2 --out "$work/out"
 expect 2 "guard of few seeds" "--seeds: expected at least 5 seeds, found 2" -- \
   guard "$root/scenarios/quick-loop.yaml" --seeds 1..2 --out "$work/guard"
+printf '{base: %s, name: flow}\n' "$root/scenarios/quick-loop.yaml" >"$work/flow.yaml"
+expect 2 "guard without a place" "flow.yaml: would be no scenario with a block 'guard:'" -- \
+  guard "$work/flow.yaml" --write --out "$work/guard"
+[ ! -e "$work/guard" ] || report "guard without a place: has run"
 expect 2 "verdicts in a missing folder" "none/verdicts.xml: cannot be written" -- \
   run "$root/scenarios/quick-loop.yaml" --seeds 1..2 --out "$work/out" \
   --junit "$work/none/verdicts.xml"

@@ -3,6 +3,7 @@
 """The table of tools/peers.py from results made here, and its messages. Usage: peers_test.py ROOT"""
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -60,12 +61,23 @@ def main(root, out):
             " | 40 | 100 |"]
     check(f"the table:\n{done.stdout}{done.stderr}", done.stdout.splitlines()[2:] == rows)
     check("its file", (out / "table.md").read_text() == done.stdout)
-    for settings, message in (({"SEEDS": "few"}, "SEEDS: expected A..B"),
+    for settings, message in (({"SEEDS": "few"}, "SEEDS: expected A..B, such as 1..5, found 'few'"),
+                              ({"SEEDS": "5..1"}, "SEEDS: expected A..B"),
+                              ({"SEEDS": "1..²"}, "SEEDS: expected A..B"),
+                              ({"SEEDS": "1.." + 5000 * "9"}, "SEEDS: expected A..B"),
+                              ({"FRAMES": "3OO"}, "FRAMES: expected a whole number from 0 to"),
+                              ({"FRAMES": "-1"}, "FRAMES: expected a whole number from 0 to"),
+                              ({"TRAINING_SEED": ""}, "TRAINING_SEED: expected a whole number"),
                               ({"SEEDS": "8..9"}, "TRAINING_SEED: 9 is one of SEEDS"),
                               ({"VOCABULARY": str(out / "none")}, "none: is no file"),
                               ({"VINEBENCH": str(out / "none")}, "none: is no program")):
         done = peers(root, out, **settings)
-        check(message, done.returncode == 2 and message in done.stderr)
+        good = done.returncode == 2 and message in done.stderr
+        check(f"{settings}: {message}", good and len(done.stderr.splitlines()) == 1)
+    # A table made later has the same versions.
+    text = (root / "tools/peers.py").read_text()
+    packages = re.findall(r'"([^"]+)"', re.search(r"^PACKAGES = \[(.*?)\]", text, re.M | re.S)[1])
+    check("packages have versions", packages and all(re.match(r"[a-z0-9-]+==\d", p) for p in packages))
     return 1 if failures else 0
 
 

@@ -63,6 +63,7 @@ int guard(const GuardArguments& arguments) {
   if (seeds.size() < harness::kSeedsForGuard) {
     fail("--seeds: expected at least {} seeds, found {}", harness::kSeedsForGuard, seeds.size());
   }
+  if (arguments.write) harness::check_guard_place(arguments.scenario);
   const MadeRuns made = make_runs({.scenarios = {scenario},
                                    .machine = with_cache(arguments.machine, arguments.cache),
                                    .seeds = seeds,

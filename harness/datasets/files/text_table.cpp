@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <sstream>
 
 #include "core/files/files.h"
@@ -33,6 +34,13 @@ std::vector<std::string> split_fields(const std::string& line) {
   return fields;
 }
 
+/// Also "nan" and "inf", which are no headers.
+std::optional<double> numeral(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0' ? std::optional(value) : std::nullopt;
+}
+
 std::vector<TableRow> rows_of(const std::filesystem::path& file, const std::string& text) {
   std::istringstream in(text);
   std::vector<TableRow> rows;
@@ -50,9 +58,8 @@ std::vector<TableRow> rows_of(const std::filesystem::path& file, const std::stri
 }  // namespace
 
 bool is_number(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0' && std::isfinite(value);
+  const std::optional<double> value = numeral(text);
+  return value && std::isfinite(*value);
 }
 
 void TableRow::fault(const std::string& message) const {
@@ -74,10 +81,18 @@ Stamp TableRow::nanoseconds(std::size_t column) const {
   const std::string& text = fields.at(column);
   Stamp stamp = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), stamp);
-  if (error != std::errc{} || end != text.data() + text.size()) {
+  if (error != std::errc{} || end != text.data() + text.size() || !is_in_range(stamp)) {
     fault(fmt::format("expected a whole number of nanoseconds, found '{}'", text));
   }
   return stamp;
+}
+
+Stamp TableRow::seconds(std::size_t column) const {
+  try {
+    return parse_seconds(fields.at(column));
+  } catch (const Error& error) {
+    fault(error.what());
+  }
 }
 
 std::vector<TableRow> read_rows(const std::filesystem::path& file) {
@@ -91,7 +106,7 @@ std::vector<TableRow> read_ended_rows(const std::filesystem::path& file) {
 
 std::vector<TableRow> read_table(const std::filesystem::path& file) {
   std::vector<TableRow> rows = read_rows(file);
-  if (!rows.empty() && !is_number(rows.front().fields.front())) rows.erase(rows.begin());
+  if (!rows.empty() && !numeral(rows.front().fields.front())) rows.erase(rows.begin());
   return rows;
 }
 

@@ -21,6 +21,8 @@ struct TableRow {
   void expect_columns(std::size_t at_least, const std::string& names) const;
   double number(std::size_t column) const;
   Stamp nanoseconds(std::size_t column) const;
+  /// A time in seconds, as parse_seconds().
+  Stamp seconds(std::size_t column) const;
 };
 
 /// Reads a file of columns separated by commas, blanks or tabs. Empty lines, lines that begin with

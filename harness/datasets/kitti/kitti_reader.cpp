@@ -161,8 +161,7 @@ void read_times(const fs::path& folder, Recording& recording) {
     fail("{}: expected {} lines, one a frame, found {}", file.string(), frames.size(), rows.size());
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i].number(0);  // throws with the line if it is not a number
-    frames[i].stamp = parse_seconds(rows[i].fields[0]);
+    frames[i].stamp = rows[i].seconds(0);
     if (i > 0 && frames[i].stamp <= frames[i - 1].stamp) {
       rows[i].fault("expected a later time than the line before");
     }

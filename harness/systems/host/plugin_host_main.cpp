@@ -4,8 +4,6 @@
 // The process of a plug-in. It links nothing of the bench, so that the plug-in's libraries may be
 // of other versions than the bench's.
 #include <fmt/format.h>
-#include <signal.h>
-#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -15,12 +13,10 @@
 #include "harness/systems/host/plugin_host.h"
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
+  if (argc != 2 || std::to_string(getppid()) != argv[1]) {
     fmt::print(stderr, "vinebench_plugin_host: is started by vinebench\n");
     return 2;
   }
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (std::to_string(getppid()) != argv[1]) return 1;  // the bench ended before that
   try {
     vinebench::harness::serve_plugin(vinebench::harness::kHostSocket,
                                      vinebench::harness::kHostMemory);

@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "sim/render/gl/scene/shaders.h"
 #include "sim/render/gl/sky.h"
 
 namespace vinebench::sim {

@@ -102,6 +102,13 @@ TEST_F(YamlTest, DuplicateKeysAreErrors) {
               testing::HasSubstr("bad.yaml:2: count: duplicate key"));
 }
 
+// It would not be read.
+TEST_F(YamlTest, ASecondDocumentIsAnError) {
+  EXPECT_THAT(error_of("a: [1, 2]\n---\nb: 2\n"), testing::HasSubstr(":3: a second YAML document"));
+  EXPECT_THAT(error_of("{a: [1, 2]}\nb: 2\n"), testing::HasSubstr(":2: a second YAML document"));
+  EXPECT_THAT(error_of("---\na: [1\n...\n"), testing::HasSubstr("is not valid YAML"));
+}
+
 TEST_F(YamlTest, MissingFileIsNamed) {
   EXPECT_THAT([] { YamlDocument::load("/nowhere/x.yaml"); },
               testing::ThrowsMessage<Error>(testing::HasSubstr("/nowhere/x.yaml")));

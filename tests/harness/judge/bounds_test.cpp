@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/judge/bounds.h"
 
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +12,7 @@
 #include "core/config/yaml.h"
 #include "harness/report/report_json.h"
 #include "harness/report/stored_run.h"
+#include "tests/support/documented_keys.h"
 
 namespace vinebench::harness {
 namespace {
@@ -59,6 +61,7 @@ struct Keys {
   void operator()(const char* key, T&, const Range& = {}) {
     list.emplace_back(key);
   }
+  void require(bool, const char*, const char*) {}
   std::vector<std::string> list;
 };
 
@@ -75,6 +78,24 @@ TEST(BoundsTest, EveryKeyHasItsBound) {
       EXPECT_EQ(other.asked(asked).has_value(), &other == &bound) << bound.key << other.key;
     }
   }
+}
+
+template <class Config>
+std::string list_of_keys() {
+  Keys keys;
+  Config().serialize(keys);
+  return fmt::format("{{{}}}", fmt::join(keys.list, ", "));
+}
+
+TEST(BoundsTest, EveryKeyHasOneDefinition) {
+  std::set<std::string> documented;
+  for (const std::string& key : test::documented_keys("| key | met when |")) {
+    EXPECT_TRUE(documented.insert(key).second) << key << " is defined twice";
+  }
+  std::set<std::string> expected{"blind: " + list_of_keys<Expectations::Blind>(),
+                                 "median: " + list_of_keys<Expectations::Median>()};
+  for (const Bound& bound : bounds()) expected.insert(bound.key);
+  EXPECT_EQ(documented, expected);
 }
 
 TEST(BoundsTest, WhatWasNotMeasuredHasNoValue) {

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <set>
 
+#include "tests/support/documented_keys.h"
 #include "vinebench/version.h"
 
 namespace vinebench::harness {
@@ -94,6 +96,26 @@ TEST(ReportJsonTest, HasEveryKeyInItsOrder) {
                                           "discrepancies",
                                           "expectations"};
   EXPECT_EQ(keys_of(to_json(whole())), expected);
+}
+
+// One definition each, in docs/running.md.
+TEST(ReportJsonTest, EveryKeyHasOneDefinition) {
+  RunReport report = whole();
+  report.failure = SlamFailure{"crashed", 3};
+  report.hash_environment = {{"libm", "2.36"}};
+  std::set<std::string> documented;
+  for (const std::string& key : test::documented_keys("| key of `metrics.json` | definition |")) {
+    if (key == "metrics.json") continue;  // the header
+    EXPECT_TRUE(documented.insert(key).second) << key << " is defined twice";
+  }
+  std::set<std::string> expected;
+  for (const std::string& key : keys_of(to_json(report))) {
+    if (key != "loop_closures") expected.insert(key);
+  }
+  for (const char* of : {"correct", "wrong", "missed"}) {
+    expected.insert(std::string("loop_closures.") + of);
+  }
+  EXPECT_EQ(documented, expected);
 }
 
 TEST(ReportJsonTest, HasTheValues) {

@@ -11,6 +11,7 @@
 #include <map>
 
 #include "core/util/error.h"
+#include "tests/support/processes.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::harness {
@@ -90,6 +91,34 @@ TEST(RunInChildrenTest, AStopEndsTheRunningAndStartsNoFurther) {
                                  .stopped = started});
   ASSERT_EQ(outcomes.size(), 1u);
   EXPECT_EQ(outcomes.at(0).text, "job 0: the process ended by signal 15");
+}
+
+// A child that ignores SIGTERM, as one does that hangs.
+TEST(RunInChildrenTest, NoChildIsLeftWhenTheParentIsKilled) {
+  const test::TestFolder folder;
+  const std::vector<pid_t> left = test::kill_when_listed(folder / "pid", 1, [&] {
+    run_all({.count = 1, .at_once = 1, .job = [&](std::size_t) {
+               signal(SIGTERM, SIG_IGN);
+               folder.write("pid", std::to_string(getpid()) + "\n");
+               sleep(60);
+               return "";
+             }});
+  });
+  EXPECT_EQ(left.size(), 1u);
+  EXPECT_TRUE(test::end_soon(left));
+}
+
+TEST(RunInChildTest, ItIsNotLeftWhenTheParentIsKilled) {
+  const test::TestFolder folder;
+  const std::vector<pid_t> left = test::kill_when_listed(folder / "pid", 1, [&] {
+    run_in_child("a job", [&] {
+      folder.write("pid", std::to_string(getpid()) + "\n");
+      sleep(60);
+      return "";
+    });
+  });
+  EXPECT_EQ(left.size(), 1u);
+  EXPECT_TRUE(test::end_soon(left));
 }
 
 }  // namespace

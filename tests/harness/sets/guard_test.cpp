@@ -5,8 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/files/files.h"
 #include "core/util/error.h"
 #include "harness/report/report_json.h"
+#include "tests/support/test_folder.h"
 
 namespace vinebench::harness {
 namespace {
@@ -112,6 +114,43 @@ TEST(GuardTest, TheBlockTakesTheOldOnesPlace) {
   EXPECT_EQ(with_guard("name: a\n", "guard:\n  x: 1\n"), "name: a\n\nguard:\n  x: 1\n");
   EXPECT_EQ(with_guard("name: a\nguard: {losses_max: 9}\n", "guard:\n  x: 1\n"),
             "name: a\nguard:\n  x: 1\n");
+}
+
+/// Why `check_guard_place` refuses; the folder has nothing but the file afterwards.
+std::string refusal(const test::TestFolder& folder, const std::filesystem::path& file) {
+  const auto files = [&] {
+    std::size_t count = 0;
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+      ++count;
+    }
+    return count;
+  };
+  const std::size_t before = files();
+  std::string why = test::error_of([&] { check_guard_place(file); });
+  EXPECT_EQ(files(), before);
+  return why;
+}
+
+TEST(GuardTest, APlaceForItIsAScenarioThatCanBeWritten) {
+  const test::TestFolder folder;
+  const std::string base = std::string(VINEBENCH_SOURCE_DIR) + "/scenarios/quick-loop.yaml";
+  const auto good = folder.write("good.yaml", "base: " + base + "\nname: good\n");
+  EXPECT_EQ(refusal(folder, good), "");
+  EXPECT_EQ(read_file(good), "base: " + base + "\nname: good\n");
+  // A mapping in braces is complete: nothing can follow it.
+  const auto flow = folder.write("flow.yaml", "{base: " + base + ", name: flow}\n");
+  EXPECT_THAT(refusal(folder, flow), HasSubstr("flow.yaml: would be no scenario with a block"));
+  const auto quoted = folder.write("q.yaml", "base: " + base + "\n'guard': {losses_max: 0}\n");
+  EXPECT_THAT(refusal(folder, quoted), HasSubstr("q.yaml: would be no scenario with a block"));
+  std::filesystem::create_symlink(good, folder / "link.yaml");
+  EXPECT_THAT(refusal(folder, folder / "link.yaml"), HasSubstr("link.yaml: is a link"));
+  EXPECT_THAT(refusal(folder, folder / "none.yaml"), HasSubstr("none.yaml: cannot be read"));
+}
+
+// Permissions do not bind root, but nothing can be made in /proc.
+TEST(GuardTest, AFolderThatTakesNoFileIsNoPlaceForIt) {
+  const test::TestFolder folder;
+  EXPECT_THAT(refusal(folder, "/proc/self/status"), HasSubstr("/proc/self/status"));
 }
 
 }  // namespace

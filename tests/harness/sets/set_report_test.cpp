@@ -42,6 +42,26 @@ TEST(SetReportTest, TheMedianHasABoundOfItsOwn) {
   EXPECT_TRUE(summary_of({set_run(1, 0.03), set_run(2, 0.03)}).checks.empty());  // too few seeds
 }
 
+// Of 3, 1 and 2 cm the median is 2 cm.
+TEST(SetReportTest, TheMedianOfTheAlignedErrorHasOneToo) {
+  PlannedRun planned;
+  planned.scenario.name = "row";
+  const auto checks_below = [&](double limit) {
+    planned.scenario.expectations.median = {.ate_rmse_max = limit,
+                                            .ate_origin_rmse_max = std::nullopt};
+    SetOutcome outcome;
+    for (const double error : {0.03, 0.01, 0.02}) {
+      outcome.runs.push_back(set_run(static_cast<std::int64_t>(100 * error), 0.5));
+      outcome.runs.back().result->values["/ate_rmse_m"] = error;
+    }
+    return summarise({planned}, outcome).at(0).checks;
+  };
+  ASSERT_EQ(checks_below(0.02).size(), 1u);
+  EXPECT_EQ(checks_below(0.02)[0].what, "median of 3 seeds: ATE, SE(3)-aligned");
+  EXPECT_TRUE(checks_below(0.02)[0].ok);
+  EXPECT_FALSE(checks_below(0.019)[0].ok);
+}
+
 // The table's median is of the runs that have an error; the check counts the others as infinite.
 TEST(SetReportTest, ARunWithoutAnErrorIsInfinite) {
   const SeedsSummary one = summary_of({set_run(1, 0.01), crashed_run(2), set_run(3, 0.02)});

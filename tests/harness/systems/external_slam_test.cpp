@@ -12,6 +12,7 @@
 #include "harness/report/run_folder.h"
 #include "harness/run.h"
 #include "tests/support/fakes.h"
+#include "tests/support/processes.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::harness {
@@ -139,6 +140,13 @@ TEST_F(ExternalSlamTest, ItsLimitsAreThoseOfTheConfiguration) {
               HasSubstr("used more than 100 MiB of memory"));
   config_.timeout = 0.1;
   EXPECT_THAT(failure("sleep 60"), HasSubstr("took more than 0.1 s"));
+}
+
+TEST_F(ExternalSlamTest, TheProgramEndsWithABenchThatIsKilled) {
+  const std::vector<pid_t> left =
+      test::kill_when_listed(folder_ / "external/pid", 1, [&] { run("echo $$ >pid; sleep 60"); });
+  EXPECT_EQ(left.size(), 1u);
+  EXPECT_TRUE(test::end_soon(left));
 }
 
 // Before anything is recorded.

@@ -75,6 +75,17 @@ TEST(ForeignTrajectoryTest, SaysWhatIsWrong) {
   EXPECT_THAT(error("0 1 2 3 0 0 0 1\n0.1 1 2 3\n"), HasSubstr("poses.txt:2: expected 8 columns"));
   EXPECT_THAT(error("0 1 2 nan 0 0 0 1\n"), HasSubstr("expected a number, found 'nan'"));
   EXPECT_THAT(error("0 1 2 3 0 0 0 2\n"), HasSubstr("expected a unit quaternion, found norm 2"));
+  // As nanoseconds, because they would otherwise lie beyond the last frame; 2^62 ns are 4.6e18.
+  for (const char* time : {"1e300", "9223372036854775808", "4.7e18"}) {
+    EXPECT_THAT(error(std::string("0 1 2 3 0 0 0 1\n") + time + " 1 2 3 0 0 0 1\n"),
+                HasSubstr(std::string("poses.txt:2: expected a time in seconds or nanoseconds, "
+                                      "found '") +
+                          time));
+  }
+  EXPECT_THAT(error("0 1 2 3 0 0 0 1\n-1e300 1 2 3 0 0 0 1\n"),
+              HasSubstr("poses.txt:2: expected a time in seconds, found '-1e300'"));
+  EXPECT_THAT(error("nan 1 2 3 0 0 0 1\n0 1 2 3 0 0 0 1\n"),
+              HasSubstr("poses.txt:1: expected a number, found 'nan'"));
   EXPECT_THAT(error("1403636579.7 1 2 3 0 0 0 1\n"),
               HasSubstr("none of its 1 poses matches a frame: they are from 1.403636580 to"));
 }

@@ -19,6 +19,7 @@
 #include "harness/systems/plugin_slam.h"
 #include "tests/support/fakes.h"
 #include "tests/support/plugins.h"
+#include "tests/support/processes.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::harness {
@@ -147,16 +148,6 @@ pid_t host_of(pid_t parent) {
   return 0;
 }
 
-/// Whether it comes true within ten seconds.
-template <class Condition>
-bool comes(const Condition& condition) {
-  for (int i = 0; i < 1000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return false;
-}
-
 // The bench cannot tell its plug-in, which hangs, that it ends.
 TEST_F(PluginProcessTest, NoProcessIsLeftWhenTheBenchIsKilled) {
   const pid_t bench = fork();
@@ -164,10 +155,10 @@ TEST_F(PluginProcessTest, NoProcessIsLeftWhenTheBenchIsKilled) {
     run("hang.frame");
     _exit(0);
   }
-  EXPECT_TRUE(comes([&] { return host_of(bench) != 0; }));
+  EXPECT_TRUE(test::comes([&] { return host_of(bench) != 0; }, std::chrono::seconds(10)));
   kill(bench, SIGKILL);
   waitpid(bench, nullptr, 0);
-  EXPECT_TRUE(comes([&] { return host_of(bench) == 0; }));
+  EXPECT_TRUE(test::comes([&] { return host_of(bench) == 0; }, std::chrono::seconds(2)));
 }
 
 TEST_F(PluginProcessTest, TheHostIsBesideTheProgramOrInstalled) {

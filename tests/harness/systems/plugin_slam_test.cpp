@@ -78,6 +78,7 @@ TEST_P(PluginSlamTest, WhatItSaysOfAFailureIsTheFailure) {
     EXPECT_THAT(failure(std::string("fail.") + function),
                 HasSubstr(std::string("fake_plugin.so: ") + function + ": asked to fail in "));
   }
+  EXPECT_THAT(failure("bad.late"), HasSubstr("finish: expected a stamp within 146 years, found 9"));
   EXPECT_THAT(failure("bad.pose"), HasSubstr("fake_plugin.so: invalid pose"));
   EXPECT_THAT(failure("bad.covariance"), HasSubstr("process: expected a finite covariance"));
 }

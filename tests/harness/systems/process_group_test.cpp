@@ -8,8 +8,10 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <optional>
 #include <thread>
 
+#include "tests/support/processes.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::harness {
@@ -104,6 +106,35 @@ TEST_F(ProcessGroupTest, WhatItStartedEndsWithIt) {
   EXPECT_TRUE(fs::exists(folder_ / "started"));
   std::this_thread::sleep_for(std::chrono::milliseconds(700));
   EXPECT_FALSE(fs::exists(folder_ / "late"));
+}
+
+// Nobody tells the group: its watcher sees that the bench is gone. The second process is one that
+// the program has started; a third one ignores what may be ignored.
+TEST_F(ProcessGroupTest, NothingIsLeftWhenTheBenchIsKilled) {
+  const std::vector<pid_t> left = test::kill_when_listed(folder_ / "pids", 3, [&] {
+    ProcessGroup process(
+        shell("sleep 60 & echo $$ $! >pids; (trap '' HUP INT TERM; sh -c 'echo $PPID >>pids'; "
+              "while :; do sleep 60; done)"));
+    process.wait(std::chrono::seconds(60));
+  });
+  EXPECT_EQ(left.size(), 3u);
+  EXPECT_TRUE(test::end_soon(left));
+}
+
+TEST_F(ProcessGroupTest, AProgramThatSignalsItsGroupIsWatchedStill) {
+  const std::vector<pid_t> left = test::kill_when_listed(folder_ / "pids", 1, [&] {
+    ProcessGroup process(shell("trap '' TERM; kill -TERM 0; echo $$ >pids; sleep 60"));
+    process.wait(std::chrono::seconds(60));
+  });
+  EXPECT_EQ(left.size(), 1u);
+  EXPECT_TRUE(test::end_soon(left));
+}
+
+// The thread that started a process may end before it.
+TEST_F(ProcessGroupTest, OutlivesTheThreadThatStartedIt) {
+  std::optional<ProcessGroup> process;
+  std::thread([&] { process.emplace(shell("sleep 60")); }).join();
+  EXPECT_FALSE(process->wait(std::chrono::milliseconds(100)));
 }
 
 TEST_F(ProcessGroupTest, ProgramsAndScriptsAreExecutable) {

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "sim/render/gl/platform/gl_objects.h"
-#include "sim/render/gl/scene/shaders.h"
+#include "sim/render/gl/scene/mesh_shaders.h"
 #include "sim/scene/scene.h"
 
 namespace vinebench::sim {

@@ -183,6 +183,9 @@ TEST_F(EurocReaderTest, FaultyFoldersAreErrors) {
   expect_error("cam1/data.csv:1: expected 2 columns");
   test::write_text(root_ / "mav0/cam1/data.csv", "1.5,1.png\n");
   expect_error("cam1/data.csv:1: expected a whole number of nanoseconds, found '1.5'");
+  // 2^62: the difference of two such stamps would be no stamp.
+  test::write_text(root_ / "mav0/cam1/data.csv", "4611686018427387904,1.png\n");
+  expect_error("cam1/data.csv:1: expected a whole number of nanoseconds, found '46116");
   std::filesystem::remove_all(root_ / "mav0/cam1");
   expect_error("expected a cam1 beside cam0");
   std::filesystem::remove_all(root_ / "mav0/cam0");

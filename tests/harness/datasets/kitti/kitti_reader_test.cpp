@@ -78,6 +78,9 @@ TEST_F(KittiReaderTest, TimesAreThoseOfTheFile) {
   EXPECT_THAT(error_of([&] { open_recording(root_); }), HasSubstr("times.txt: expected 5 lines"));
   test::write_text(root_ / "times.txt", "0\n0.1\n0.2\n0.15\n0.4\n");
   EXPECT_THAT(error_of([&] { open_recording(root_); }), HasSubstr("times.txt:4: expected a later"));
+  test::write_text(root_ / "times.txt", "0\n0.1\n0.2\n1e300\n0.4\n");
+  EXPECT_THAT(error_of([&] { open_recording(root_); }),
+              HasSubstr("times.txt:4: expected a time in seconds, found '1e300'"));
 }
 
 TEST_F(KittiReaderTest, AMissingImageIsABlindCamera) {

@@ -8,9 +8,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <set>
 
-#include "sim/assets/asset_file.h"
-#include "tests/support/foreign_plant.h"
-#include "tests/support/warnings.h"
+#include "core/files/files.h"
+#include "tests/support/foreign_mesh_case.h"
 
 namespace vinebench::sim {
 namespace {
@@ -20,60 +19,7 @@ using test::error_of;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 using File = std::filesystem::path;
-
-class ForeignMeshTest : public testing::Test {
- protected:
-  Asset load(const File& file, const MeshImport& import = {},
-             std::optional<Label> label = std::nullopt) const {
-    return load_foreign_meshes({file}, import, label, "vines.mesh_import").at(0);
-  }
-  /// The one warning of a file, which names it; empty without one.
-  std::string warning_of(const File& file) const {
-    const test::Warnings warnings;
-    load(file);
-    if (warnings.all.empty()) return "";
-    EXPECT_EQ(warnings.all.size(), 1u);
-    EXPECT_THAT(warnings.all[0], testing::StartsWith(file.string() + ": "));
-    return warnings.all[0];
-  }
-  /// Every format with names, the same plant each.
-  std::vector<File> named_plants() const {
-    return {write_obj_plant(folder_), write_dae_plant(folder_), write_gltf_plant(folder_),
-            write_glb_plant(folder_)};
-  }
-  static const std::vector<Primitive>& primitives(const Asset& asset) {
-    return asset.model.levels.at(0).primitives;
-  }
-  static const Material& material(const Asset& asset, const Primitive& primitive) {
-    return asset.materials.at(static_cast<std::size_t>(primitive.material));
-  }
-  /// The label at each height of the plant's two parts: below 1 m and above.
-  static std::pair<std::set<Label>, std::set<Label>> labels(const Asset& asset) {
-    std::pair<std::set<Label>, std::set<Label>> found;
-    for (const Primitive& primitive : primitives(asset)) {
-      for (const Vertex& vertex : primitive.vertices) {
-        const Label label = material(asset, primitive).label;
-        if (vertex.position.z() < 0.5f) found.first.insert(label);
-        if (vertex.position.z() > 1.5f) found.second.insert(label);
-      }
-    }
-    return found;
-  }
-  static std::size_t vertices(const Asset& asset) {
-    std::size_t count = 0;
-    for (const Primitive& primitive : primitives(asset)) count += primitive.vertices.size();
-    return count;
-  }
-  static void expect_box(const Asset& asset, const Vector3f& min, const Vector3f& max) {
-    EXPECT_LT((asset.model.bounds.min() - min).norm(), 1e-5f) << asset.model.bounds.min();
-    EXPECT_LT((asset.model.bounds.max() - max).norm(), 1e-5f) << asset.model.bounds.max();
-  }
-
-  test::TestFolder folder_;
-};
 
 using Labels = std::pair<std::set<Label>, std::set<Label>>;
 
@@ -165,18 +111,6 @@ TEST_F(ForeignMeshTest, EachBunchHasANumberAndOtherPartsNone) {
   }
 }
 
-TEST_F(ForeignMeshTest, PrimitivesOfOneMaterialAreJoined) {
-  std::string text = "o a\nusemtl m\n";
-  for (int i = 0; i < 50; ++i) {
-    text += fmt::format("o part{0}\nv {0} 0 0\nv {0} 1 0\nv {0} 0 1\nf {1} {2} {3}\n", i, 3 * i + 1,
-                        3 * i + 2, 3 * i + 3);
-  }
-  const Asset asset = load(folder_.write("many.obj", text));
-  ASSERT_EQ(primitives(asset).size(), 1u);
-  EXPECT_EQ(triangle_count(asset.model.levels[0]), 50);
-  EXPECT_EQ(asset.model.bounds.max(), Vector3f(49, 1, 1));
-}
-
 TEST_F(ForeignMeshTest, ScaleYawAndUpAxisPlaceIt) {
   const File file = write_obj_plant(folder_);
   MeshImport import;
@@ -246,25 +180,6 @@ TEST_F(ForeignMeshTest, AWarningIsGivenOnceAFile) {
   EXPECT_EQ(warnings.all.size(), 1u);
 }
 
-/// An .obj of one textured triangle.
-std::string textured_obj() {
-  return "mtllib skin.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 -1 0\n"
-         "usemtl Skin\nf 1/1/1 2/2/1 3/3/1\n";
-}
-
-TEST_F(ForeignMeshTest, ImagesAreUsedFromTheMeshsFolderWhateverTheirPath) {
-  cv::imwrite((folder_ / "skin.png").string(), cv::Mat(2, 2, CV_8UC3, cv::Scalar(10, 20, 200)));
-  for (const char* path : {"skin.png", "C:\\work\\skin.png", "/nowhere/skin.png"}) {
-    folder_.write("skin.mtl", fmt::format("newmtl Skin\nKd 1 1 1\nmap_Kd {}\n", path));
-    const File file = folder_.write("skin.obj", textured_obj());
-    EXPECT_EQ(warning_of(file), "") << path;
-    const Asset asset = load(file);
-    ASSERT_EQ(asset.textures.size(), 1u) << path;
-    EXPECT_EQ(asset.textures[0].rgba.at<cv::Vec4b>(0, 0), cv::Vec4b(200, 20, 10, 255));
-    EXPECT_EQ(material(asset, primitives(asset)[0]).texture, 0);
-  }
-}
-
 /// As Blender writes it: the image by way of a surface and a sampler.
 std::string textured_dae(std::string text) {
   const std::string effects = "<library_effects>", technique = "<technique sid=\"common\">";
@@ -289,124 +204,6 @@ TEST_F(ForeignMeshTest, ADaeHasItsImageOrAWarning) {
   ASSERT_EQ(asset.textures.size(), 1u);
   EXPECT_EQ(material(asset, primitives(asset)[0]).texture, 0);
   EXPECT_EQ(material(asset, primitives(asset)[0]).colour, Vector3f(1, 1, 1));
-}
-
-TEST_F(ForeignMeshTest, AnImageThatIsMissingOrUnsupportedLeavesTheColour) {
-  const auto expect_colour = [&](const char* image, const char* reason) {
-    folder_.write("skin.mtl", fmt::format("newmtl Skin\nKd 1 0 0\nmap_Kd {}\n", image));
-    const File file = folder_.write("skin.obj", textured_obj());
-    EXPECT_THAT(warning_of(file), AllOf(HasSubstr("material 'Skin' is drawn in its colour alone"),
-                                        HasSubstr(image), HasSubstr(reason)));
-    const Asset asset = load(file);
-    EXPECT_THAT(asset.textures, IsEmpty());
-    EXPECT_EQ(material(asset, primitives(asset)[0]).colour, Vector3f(1, 0, 0));
-  };
-  expect_colour("gone.png", "no such file");
-  folder_.write("skin.tga", std::string(18, '\0') + "not supported");
-  expect_colour("skin.tga", "expected an image (PNG, JPEG, TIFF)");
-  folder_.write("broken.png", "\x89PNG\r\n\x1a\nno more");
-  expect_colour("broken.png", "broken.png: expected an image");
-}
-
-TEST_F(ForeignMeshTest, AMissingMaterialLibraryIsWarnedOf) {
-  EXPECT_THAT(warning_of(folder_.write("skin.obj", textured_obj())),
-              HasSubstr("material library skin.mtl: no such file"));
-}
-
-TEST_F(ForeignMeshTest, LooksThatAreNotDrawnAreWarnedOf) {
-  folder_.write("skin.mtl", "newmtl Skin\nKd 1 1 1\nd 0.5\nmap_d mask.png\nmap_Bump bump.png\n");
-  EXPECT_THAT(warning_of(folder_.write("skin.obj", textured_obj())),
-              AllOf(HasSubstr("material 'Skin' is drawn opaque"), HasSubstr("image of opacity"),
-                    HasSubstr("image of bumps")));
-}
-
-TEST_F(ForeignMeshTest, LinesAreLeftOutAndWarnedOf) {
-  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 0 1\nvn 0 -1 0\nf 1//1 2//1 3//1\n";
-  const File file = folder_.write("wire.obj", triangle + "o wire\nl 1 2\nl 2 3\n");
-  EXPECT_THAT(warning_of(file), HasSubstr("lines and points are left out"));
-  EXPECT_EQ(triangle_count(load(file).model.levels[0]), 1);
-}
-
-TEST_F(ForeignMeshTest, VertexColoursOfAnObjAreUsed) {
-  const Asset asset = load(folder_.write(
-      "c.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 0 1 0.5 0.5 0.5\nvn 0 -1 0\nf 1//1 2//1 3//1\n"));
-  ASSERT_TRUE(material(asset, primitives(asset)[0]).vertex_colours);
-  // sRGB 0.5 is 0.2140 linear, and that to the power 1 / 2.2 of 255 is 126.5.
-  const std::vector<Vertex>& vertices = primitives(asset)[0].vertices;
-  EXPECT_THAT(vertices.at(0).colour, ElementsAre(255, 0, 0));
-  EXPECT_THAT(vertices.at(1).colour, ElementsAre(0, 255, 0));
-  EXPECT_NEAR(vertices.at(2).colour[0], 126.5, 0.51);
-  EXPECT_FALSE(material(load(write_obj_plant(folder_)), {}).vertex_colours);
-}
-
-TEST_F(ForeignMeshTest, VertexColoursOfAGltfAreLinear) {
-  // The normals of the first part, (0, 0, 1) in the file: blue.
-  const File file = write_gltf_plant(folder_, ",\"COLOR_0\":1");
-  EXPECT_EQ(warning_of(file), "");
-  const Asset asset = load(file);
-  for (const Primitive& primitive : primitives(asset)) {
-    for (const Vertex& vertex : primitive.vertices) {
-      EXPECT_THAT(vertex.colour, ElementsAre(0, 0, 255));
-    }
-  }
-  EXPECT_THAT(vertex_colour({0.2140f, 2, -1}), ElementsAre(testing::AnyOf(126, 127), 255, 0));
-}
-
-TEST_F(ForeignMeshTest, WhatAGltfHasBesidesIsWarnedOf) {
-  EXPECT_EQ(warning_of(write_gltf_plant(folder_)), "");
-  const auto warning = [&](const std::string& attributes, const std::string& more) {
-    return warning_of(write_gltf_plant(folder_, attributes, more));
-  };
-  EXPECT_THAT(warning("", R"(,"animations":[{"channels":[],"samplers":[]}])"),
-              HasSubstr("animations are left out"));
-  EXPECT_THAT(warning(",\"COLOR_0\":1,\"COLOR_1\":1", ""),
-              HasSubstr("more than one set of vertex colours"));
-  EXPECT_THAT(warning(",\"TEXCOORD_1\":1", ""), HasSubstr("more than one UV set"));
-}
-
-TEST_F(ForeignMeshTest, AGltfWithoutItsImageIsDrawnInItsColour) {
-  std::string text = read_file(
-      write_gltf_plant(folder_, "", R"(,"textures":[{"source":0}],"images":[{"uri":"gone.png"}])"));
-  const std::string from = R"("name":"Bark")";
-  text.replace(text.find(from), from.size(),
-               from + R"(,"pbrMetallicRoughness":{"baseColorTexture":{"index":0}})");
-  const File file = folder_.write("bare.gltf", text);
-  EXPECT_THAT(warning_of(file), AllOf(HasSubstr("material 'Bark' is drawn in its colour alone"),
-                                      HasSubstr("gone.png")));
-  EXPECT_EQ(load(file).textures.size(), 0u);
-  EXPECT_THAT(error_of([&] { load_asset(file); }), HasSubstr("gone.png"));  // as for our own
-  cv::imwrite((folder_ / "gone.png").string(), cv::Mat(2, 2, CV_8UC3, cv::Scalar(10, 20, 200)));
-  EXPECT_EQ(warning_of(file), "");
-  const Asset asset = load(file);
-  ASSERT_EQ(asset.textures.size(), 1u);
-  EXPECT_EQ(asset.textures[0].rgba.at<cv::Vec4b>(0, 0), cv::Vec4b(200, 20, 10, 255));
-}
-
-TEST_F(ForeignMeshTest, ExtensionsOfLooksAreLeftOutAndThoseOfGeometryAreErrors) {
-  const auto with = [&](const std::string& extension) {
-    return write_gltf_plant(folder_, "",
-                            R"(,"extensionsRequired":[")" + extension + R"("],)" +
-                                R"("textures":[{"extensions":{")" + extension +
-                                R"(":{"source":0}}}],"images":[{"uri":"a.webp"}])");
-  };
-  std::string text = read_file(with("EXT_texture_webp"));
-  const std::string from = R"("name":"Bark")";
-  text.replace(text.find(from), from.size(),
-               from + R"(,"pbrMetallicRoughness":{"baseColorTexture":{"index":0}})");
-  EXPECT_THAT(warning_of(folder_.write("webp.gltf", text)),
-              AllOf(HasSubstr("material 'Bark'"), HasSubstr("EXT_texture_webp")));
-  EXPECT_EQ(warning_of(with("KHR_materials_unlit")), "");
-  const File draco = with("KHR_draco_mesh_compression");
-  EXPECT_THAT(error_of([&] { load(draco); }), HasSubstr("KHR_draco_mesh_compression"));
-}
-
-TEST_F(ForeignMeshTest, PrimitivesThatAreNoTrianglesAreLeftOut) {
-  std::string text = read_file(write_gltf_plant(folder_));
-  const std::string last = R"("indices":4,"material":1)";
-  text.replace(text.find(last), last.size(), last + ",\"mode\":1");
-  const File file = folder_.write("lines.gltf", text);
-  EXPECT_THAT(warning_of(file), HasSubstr("lines and points are left out"));
-  expect_box(load(file), {-0.05f, 0, 0}, {0.05f, 0, 1});
 }
 
 // A grid of n x n places as an .stl has six corners for each of its cells; each place is shared by

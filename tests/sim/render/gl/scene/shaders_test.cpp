@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "sim/render/gl/scene/mesh_shaders.h"
 #include "tests/support/gl_fixture.h"
 
 namespace vinebench::sim {
