@@ -6,14 +6,10 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <thread>
 
 #include "core/config/validate.h"
-#include "sim/render/engine_pool.h"
-#include "sim/render/factory/make_render_engine.h"
+#include "sim/drawn_scene.h"
 #include "sim/rover/driven_rover.h"
-#include "sim/rover/rover_asset.h"
-#include "sim/scene/scene_naming.h"
 #include "sim/truth/truth.h"
 #include "sim/world/world_layout.h"
 
@@ -29,7 +25,7 @@ Rig checked_rig(const SimulationConfig& config) {
 class Simulation : public SimulatedSource {
  public:
   Simulation(const SimulationConfig& config, std::uint64_t seed, const CacheFolder& cache,
-             WorkerPool& pool, const CapturePlan& plan)
+             WorkerPool& pool, const CapturePlan& plan, const std::shared_ptr<DrawnScene>& drawn)
       : config_(config),
         pool_(pool),
         plan_(plan),
@@ -44,17 +40,13 @@ class Simulation : public SimulatedSource {
         first_reading_(inertial_.measured_at_start(rover_.first_reading())),
         wheels_(config.sensors.wheels) {
     window_ = from_seconds(config.sensors.camera.half_window()) + timing_.longest_delay();
-    Scene scene = build_scene(config.world, seed, cache);
-    something_moves_ = !scene.motions.empty();
-    add_rover(scene, config.rover.model);
-    index_of_scene_ = index_of(scene);
+    drawn_ = drawn && drawn->serves(config, seed)
+                 ? drawn
+                 : std::make_shared<DrawnScene>(config, seed, cache, lanes());
     for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
       cameras_.emplace_back(config.sensors.camera, rig_.cameras[i], static_cast<int>(i), seed,
-                            scene.light);
+                            drawn_->light());
     }
-    engines_.emplace(static_cast<int>(lanes()),
-                     static_cast<int>(std::thread::hardware_concurrency()),
-                     [&] { return make_render_engine(scene, config.renderer); });
     const double route_seconds = to_seconds(rover_.route().duration());
     const double seconds = std::min(config.duration.value_or(route_seconds), route_seconds);
     frames_ = static_cast<std::int64_t>(std::floor(seconds * rig_.rate_hz + 1e-9)) + 1;
@@ -90,7 +82,7 @@ class Simulation : public SimulatedSource {
   }
 
   std::int64_t size() const override { return plan_.count(frames_); }
-  const SceneIndex& scene() const override { return index_of_scene_; }
+  const SceneIndex& scene() const override { return drawn_->index(); }
   const Rig& true_rig() const override { return rig_; }
   const Rig& rig() const override { return nominal_rig_; }
   std::optional<ImuSample> first_reading() const override { return first_reading_; }
@@ -151,6 +143,7 @@ class Simulation : public SimulatedSource {
     for (std::size_t i = 0; blurs && i < cameras; ++i) {
       sample.truth.blur_time[i] = exposure_.of(i).time;
     }
+    note_captures(sample);
     sample.truth.visible_tags.clear();
     if (plans_truth()) sample.truth.views.assign(cameras, {});
     std::vector<std::vector<int>> visible(cameras);
@@ -177,6 +170,16 @@ class Simulation : public SimulatedSource {
     tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
   }
 
+  void note_captures(Sample& sample) const {
+    sample.truth.captures.clear();
+    for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
+      const Stamp late = sample.frame.stamp - timing_.instant(index_, i);
+      sample.truth.captures.push_back({.gain_db = exposure_.of(i).gain_db,
+                                       .readout_time = config_.sensors.camera.readout_time,
+                                       .stamp_error = to_seconds(late)});
+    }
+  }
+
   void render_camera(std::size_t camera, Sample& sample, std::vector<int>& visible) {
     const bool reads_tags = std::ranges::count(rig_.tag_cameras, static_cast<int>(camera)) > 0;
     Shot shot;
@@ -190,7 +193,7 @@ class Simulation : public SimulatedSource {
         shot, [&](Stamp stamp) { return rover_.T_world_body(stamp); },
         [&](const PinholeCamera& view, const Pose& T_world_cam, const RenderRequest& request) {
           RenderedImage drawn;
-          engines_->with_engine(
+          drawn_->engines().with_engine(
               [&](RenderEngine& engine) { drawn = engine.render(view, T_world_cam, request); });
           return drawn;
         });
@@ -211,7 +214,7 @@ class Simulation : public SimulatedSource {
     request.depth = plan_.depth;
     request.instances = plan_.instances;
     request.normals = plan_.normals;
-    request.motion = plan_.motion && (config_.world.wind.speed > 0 || something_moves_);
+    request.motion = plan_.motion && (config_.world.wind.speed > 0 || drawn_->something_moves());
     request.other_time = to_seconds(timing_.instant(index_ + plan_.every));
   }
 
@@ -241,10 +244,9 @@ class Simulation : public SimulatedSource {
   SimulationConfig config_;
   WorkerPool& pool_;
   CapturePlan plan_;
-  SceneIndex index_of_scene_;
+  std::shared_ptr<DrawnScene> drawn_;
   std::vector<OccluderClass> occluders_;  ///< classes of the world's
   std::vector<WorldTag> tags_;
-  bool something_moves_ = false;  ///< beside the rover and what the wind moves
   Rig nominal_rig_;
   Rig rig_;  ///< the true rig
   DrivenRover rover_;
@@ -255,7 +257,6 @@ class Simulation : public SimulatedSource {
   ImuSample first_reading_;
   WheelSensor wheels_;
   std::vector<CameraSensor> cameras_;
-  std::optional<EnginePool> engines_;
   StageTimes times_;
   Stamp window_ = 0;  ///< maximum time between an image's exposure and the frame's instant
   std::int64_t frames_ = 0;
@@ -266,9 +267,10 @@ class Simulation : public SimulatedSource {
 
 std::unique_ptr<SimulatedSource> make_simulation(const SimulationConfig& config, std::uint64_t seed,
                                                  const CacheFolder& cache, WorkerPool& pool,
-                                                 const CapturePlan& plan) {
+                                                 const CapturePlan& plan,
+                                                 const std::shared_ptr<DrawnScene>& drawn) {
   validate(config);
-  return std::make_unique<Simulation>(config, seed, cache, pool, plan);
+  return std::make_unique<Simulation>(config, seed, cache, pool, plan, drawn);
 }
 
 }  // namespace vinebench::sim

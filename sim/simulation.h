@@ -2,43 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
+#include "core/files/cache_folder.h"
 #include "core/frame.h"
-#include "core/geometry/rig.h"
 #include "core/slam_system.h"
 #include "core/truth/frame_source.h"
 #include "core/util/stage_timer.h"
 #include "core/util/worker_pool.h"
-#include "sim/render/renderer_config.h"
-#include "sim/rover/route.h"
-#include "sim/rover/rover.h"
-#include "sim/sensors/sensors.h"
-#include "sim/world/world.h"
+#include "sim/simulation_config.h"
 
 namespace vinebench::sim {
 
-struct SimulationConfig {
-  WorldConfig world;
-  RoverConfig rover;
-  RouteConfig route;
-  RendererConfig renderer;
-  SensorsConfig sensors;
-  std::optional<double> duration;  ///< s; the whole route if absent
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive("world", world);
-    archive("rover", rover);
-    archive("route", route);
-    archive("renderer", renderer);
-    archive("sensors", sensors);
-    archive("duration", duration, Range::positive());
-  }
-};
+class DrawnScene;
 
 /// Drives the rover along its route and takes an image with every camera at each frame's instant.
 /// rig() is the nominal rig; the images are taken with the true one, which differs by the
@@ -50,8 +26,10 @@ struct SimulationConfig {
 /// A frame that is not in the plan is simulated but not delivered; its readings are part of the
 /// next one. Delivered images do not depend on the plan: with automatic exposure, the others are
 /// rendered too.
-std::unique_ptr<SimulatedSource> make_simulation(const SimulationConfig& config, std::uint64_t seed,
-                                                 const CacheFolder& cache, WorkerPool& pool,
-                                                 const CapturePlan& plan = {});
+///
+/// `drawn` is used if it serves this simulation, else a scene of its own.
+std::unique_ptr<SimulatedSource> make_simulation(
+    const SimulationConfig& config, std::uint64_t seed, const CacheFolder& cache, WorkerPool& pool,
+    const CapturePlan& plan = {}, const std::shared_ptr<DrawnScene>& drawn = nullptr);
 
 }  // namespace vinebench::sim

@@ -13,6 +13,13 @@
 
 namespace vinebench {
 
+/// How a camera's image was taken, beside the exposure time.
+struct Capture {
+  double gain_db = 0;       ///< dB
+  double readout_time = 0;  ///< s, from the first row's exposure to the last's
+  double stamp_error = 0;   ///< s, that the frame's stamp is after the middle of the exposure
+};
+
 /// The ground truth of an instant, for the evaluation only.
 struct Truth {
   Pose T_world_body;
@@ -27,6 +34,8 @@ struct Truth {
   std::vector<int> visible_tags;
   /// Of each camera, s, the exposure time that causes motion blur; empty if unknown.
   std::vector<double> blur_time{};
+  /// Of each camera; empty if unknown.
+  std::vector<Capture> captures{};
   /// Of each camera, the truth images that a CapturePlan requests, without colours, with the true
   /// camera and its pose; their motion is the wind's, to the next frame of the plan. Empty if no
   /// plan requests any.

@@ -34,6 +34,7 @@ struct Site {
     Eigen::Vector2d size = Eigen::Vector2d::Zero();    ///< m, along its own x and y
     double yaw_deg = 0;
     Eigen::Vector3d colour = Eigen::Vector3d::Zero();  ///< sRGB, 0 to 1
+    bool moves = false;                                ///< along a path that begins there
   };
   std::string name;  ///< of the world
   std::vector<Row> rows;

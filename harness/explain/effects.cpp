@@ -53,6 +53,11 @@ std::vector<double> values_of(const std::vector<StretchDrift>& drifts,
   return values;
 }
 
+/// Whether reruns may be without something that is not little.
+bool may_matter(const std::vector<double>& without, const Chance& chance, double least) {
+  return chance.typical() >= least && chance.may_take(kLeastShare, without);
+}
+
 /// Whether something is taken away that is not little.
 bool matters(double effect, const Chance& chance, double least) {
   return effect >= least && effect >= kLeastShare * chance.typical();
@@ -91,9 +96,17 @@ Chance::Chance(const std::vector<double>& values, double floor)
       log_mean_(mean_of(logarithms(values, floor))),
       log_deviation_(deviation_of(logarithms(values, floor))) {}
 
-double Chance::log_limit(std::size_t reruns) const {
-  return student(runs_ - 1) * std::max(log_deviation_, kLeastDeviation) *
+double Chance::log_error(std::size_t reruns) const {
+  return std::max(log_deviation_, kLeastDeviation) *
          std::sqrt(1.0 / static_cast<double>(reruns) + 1.0 / runs_);
+}
+
+double Chance::log_limit(std::size_t reruns) const {
+  return student(runs_ - 1) * log_error(reruns);
+}
+
+double Chance::log_less(const std::vector<double>& reruns) const {
+  return log_mean_ - mean_of(logarithms(reruns, floor_));
 }
 
 double Chance::limit(std::size_t reruns) const {
@@ -101,7 +114,11 @@ double Chance::limit(std::size_t reruns) const {
 }
 
 bool Chance::is_exceeded_by(const std::vector<double>& reruns) const {
-  return log_mean_ - mean_of(logarithms(reruns, floor_)) > log_limit(reruns.size());
+  return log_less(reruns) > log_limit(reruns.size());
+}
+
+bool Chance::may_take(double share, const std::vector<double>& reruns) const {
+  return log_less(reruns) + log_error(reruns.size()) >= -std::log(1 - share);
 }
 
 AsItWas as_it_was(const std::vector<StretchDrift>& drifts) {
@@ -119,7 +136,8 @@ Effect effect_of(const AsItWas& was, const std::vector<StretchDrift>& without) {
   const bool losses_matter = matters(effect.lost, was.lost, kLeastFrames);
   effect.drift_is_caused = drift_matters && was.metres.is_exceeded_by(metres);
   effect.losses_are_caused = losses_matter && was.lost.is_exceeded_by(lost);
-  effect.is_open = (drift_matters || losses_matter) && !effect.is_cause();
+  effect.is_open = !effect.is_cause() && (may_matter(metres, was.metres, kLeastMetres) ||
+                                          may_matter(lost, was.lost, kLeastFrames));
   return effect;
 }
 

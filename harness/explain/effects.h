@@ -45,9 +45,14 @@ class Chance {
   double limit(std::size_t reruns = 1) const;
   /// Whether it is.
   bool is_exceeded_by(const std::vector<double>& reruns) const;
+  /// Whether it may be that a share of the value is taken away by what these reruns are without:
+  /// the share that they say, and one standard error.
+  bool may_take(double share, const std::vector<double>& reruns) const;
 
  private:
+  double log_error(std::size_t reruns) const;
   double log_limit(std::size_t reruns) const;
+  double log_less(const std::vector<double>& reruns) const;
 
   int runs_ = 0;
   double typical_ = 0;
@@ -63,7 +68,7 @@ struct Effect {
   double lost = 0;               ///< frames
   bool drift_is_caused = false;  ///< beyond chance, and not little
   bool losses_are_caused = false;
-  bool is_open = false;  ///< not little, but chance could do it: more reruns may decide
+  bool is_open = false;  ///< perhaps not little, but chance could do it: more reruns may decide
 
   bool is_cause() const { return drift_is_caused || losses_are_caused; }
 };

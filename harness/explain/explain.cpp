@@ -11,23 +11,13 @@
 #include <opencv2/core/utility.hpp>
 
 #include "core/util/error.h"
-#include "harness/explain/child_drive.h"
-#include "harness/explain/repeated_run.h"
-#include "harness/sets/child_process.h"
-#include "sim/world/world_layout.h"
+#include "harness/explain/run_repeater.h"
 
 namespace vinebench::harness {
 namespace {
 
 constexpr std::size_t kFactorsInPairs = 5;
-
-/// A rerun to make: without some factors, or with a placebo.
-struct Job {
-  std::string name;
-  Variant variant;
-  std::vector<std::size_t> factors{};
-  bool from_start = false;
-};
+constexpr int kRounds = 2;  // of repeats
 
 void check_can_be_repeated(const ExplainRequest& request) {
   const ScenarioConfig& scenario = request.scenario;
@@ -48,34 +38,22 @@ class Explainer {
  public:
   explicit Explainer(const ExplainRequest& request)
       : request_(request),
-        known_(request.live_poses, request.differences),
-        original_{request.scenario},
-        rate_hz_(load_rig(request.scenario.simulation.rover.rig).rate_hz) {
+        rate_hz_(load_rig(request.scenario.simulation.rover.rig).rate_hz),
+        runs_(request, last_start(), last_frame()) {
     result_.factors = factors_of(request.scenario);
   }
 
   Explanation run() {
-    const std::int64_t last = last_start();
-    std::optional<ChildDrive> drive;
-    if (last > 0)
-      drive.emplace([&, last] { return original_drive(last - 1); }, told_rig(original_));
-    const auto slam =
-        slam::make_slam(request_.scenario.slam, told_rig(original_),
-                        sim::registered_tags(request_.scenario.simulation.world), pool_);
-    slam_ = slam.get();
     for (const Stretch& stretch : request_.stretches) {
-      while (next_ < start_of(stretch)) advance(*drive);
+      runs_.advance_to(start_of(stretch));
       result_.stretches.push_back(explain_stretch(stretch));
     }
+    result_.reruns = runs_.reruns();
+    result_.rerun_seconds = runs_.seconds();
     return result_;
   }
 
  private:
-  std::unique_ptr<FrameSource> original_drive(std::int64_t last) {
-    drawing_ = std::make_unique<WorkerPool>(1);
-    return std::make_unique<VariantDrive>(original_, Splice{}, last, request_.machine, *drawing_);
-  }
-
   /// Index of the first frame without a factor.
   std::int64_t start_of(const Stretch& stretch) const {
     const auto lead = static_cast<std::int64_t>(std::ceil(request_.lead * rate_hz_));
@@ -94,19 +72,12 @@ class Explainer {
     return last;
   }
 
-  /// The next frame as it was.
-  void advance(ChildDrive& drive) {
-    const std::optional<Sample> sample = drive.next();
-    if (!sample) fail("the drive ends before frame {}", next_);
-    if (!sample->truth.path.empty()) splice_.path_end = sample->truth.path.back();
-    splice_.before = sample->frame.stamp;
-    splice_.first = ++next_;
-    past_.push_back(step_of(*sample, slam_->process(sample->frame)));
-    known_.check(past_.back());
+  StretchDrift drift(const Rerun& rerun, const StretchExplanation& explanation) const {
+    return runs_.drift(rerun, explanation.stretch, explanation.aligned);
   }
 
   Job without(const std::vector<std::size_t>& factors) const {
-    Job job{.name = "without", .variant = original_, .factors = factors};
+    Job job{.name = "without", .variant = runs_.original(), .factors = factors};
     for (const std::size_t i : factors) {
       const Factor& factor = result_.factors[i];
       factor.remove(job.variant);
@@ -116,79 +87,9 @@ class Explainer {
     return job;
   }
 
-  /// From the start on, up to the last stretch's end, for all of them.
-  Rerun rerun(const Job& job, const Stretch& stretch) const {
-    if (job.from_start) {
-      return run_variant(job.variant, {}, last_frame(), request_.machine, nullptr);
-    }
-    return run_variant(job.variant, splice_, stretch.last, request_.machine, slam_);
-  }
-
-  /// Makes the reruns. Those whose drive turns out to be another one are made again from the start.
-  std::vector<Rerun> make(std::vector<Job>& jobs, const Stretch& stretch) {
-    std::vector<Rerun> reruns(jobs.size());
-    std::vector<std::size_t> open(jobs.size());
-    std::iota(open.begin(), open.end(), 0);
-    while (!open.empty()) {
-      std::erase_if(open, [&](std::size_t i) {
-        const auto known = from_start_.find(jobs[i].name);
-        if (known == from_start_.end()) return false;
-        jobs[i].from_start = true;
-        reruns[i] = known->second;
-        return true;
-      });
-      make_once(jobs, open, stretch, reruns);
-      std::erase_if(open, [&](std::size_t i) {
-        if (jobs[i].from_start) from_start_[jobs[i].name] = reruns[i];
-        return reruns[i].same_drive;
-      });
-      for (const std::size_t i : open) jobs[i].from_start = true;
-    }
-    return reruns;
-  }
-
-  void make_once(const std::vector<Job>& jobs, const std::vector<std::size_t>& open,
-                 const Stretch& stretch, std::vector<Rerun>& reruns) {
-    std::string failure;
-    run_in_children(
-        {.count = open.size(),
-         .at_once = request_.at_once,
-         .name = [&](std::size_t i) { return "rerun " + jobs[open[i]].name; },
-         .job = [&](std::size_t i) { return pack_rerun(rerun(jobs[open[i]], stretch)); },
-         .done =
-             [&](std::size_t i, const ChildOutcome& outcome) {
-               if (!outcome.ok) {
-                 failure = fmt::format("{}: {}", jobs[open[i]].name, outcome.text);
-                 return;
-               }
-               reruns[open[i]] = unpack_rerun(outcome.text);
-               note(jobs[open[i]], reruns[open[i]]);
-             },
-         .stopped = [&] { return !failure.empty(); }});
-    if (!failure.empty()) fail("{}", failure);
-  }
-
-  void note(const Job& job, const Rerun& rerun) {
-    ++result_.reruns;
-    result_.rerun_seconds += rerun.seconds;
-    if (request_.progress == nullptr) return;
-    *request_.progress << fmt::format("{}: {:.1f} s of processor time\n", job.name, rerun.seconds)
-                       << std::flush;
-  }
-
-  /// With the frame that it is aligned at, which is of the past unless the rerun has one of its
-  /// own.
-  StretchDrift drift(const Rerun& rerun, const StretchExplanation& explanation) const {
-    std::vector<Step> steps = rerun.steps;
-    if (!steps.empty() && steps.front().index == next_ && !past_.empty()) {
-      steps.insert(steps.begin(), past_.back());
-    }
-    return drift_of(steps, explanation.stretch, explanation.aligned);
-  }
-
   StretchExplanation explain_stretch(const Stretch& stretch) {
     StretchExplanation explanation{.stretch = stretch};
-    explanation.aligned = std::max<std::int64_t>(0, next_ - 1);
+    explanation.aligned = std::max<std::int64_t>(0, runs_.next() - 1);
     measure_chance(explanation);
     std::vector<Job> jobs;
     const std::size_t count = result_.factors.size();
@@ -199,6 +100,7 @@ class Explainer {
       std::iota(all.begin(), all.end(), 0);
       std::vector<Job> together{without(all)};
       explanation.all = effects(together, explanation)[0];
+      judge(explanation, explanation.singles);  // there may be more placebos by now
       try_pairs(explanation);
     }
     explanation.causes = causes_of(explanation);
@@ -207,51 +109,77 @@ class Explainer {
 
   /// The run itself, which must be the same, and placebos.
   void measure_chance(StretchExplanation& explanation) {
-    std::vector<Job> jobs{{.name = "as it was", .variant = original_}};
-    for (int i = 1; i <= request_.placebos; ++i) {
-      jobs.push_back(
-          {.name = fmt::format("placebo {}", i), .variant = with_other_noise(original_, i)});
-    }
-    const std::vector<Rerun> reruns = make(jobs, explanation.stretch);
-    std::ranges::for_each(reruns[0].steps, [&](const Step& step) { known_.check(step); });
-    if (reruns[0].steps.empty()) fail("the drive ends before frame {}", next_);
-    std::vector<StretchDrift> drifts;
-    for (const Rerun& one : reruns) drifts.push_back(drift(one, explanation));
-    explanation.was = drifts[0];
-    explanation.chance = as_it_was(drifts);
-    result_.null_seconds += reruns[0].seconds / static_cast<double>(request_.stretches.size());
+    std::vector<Job> itself{{.name = "as it was", .variant = runs_.original()}};
+    const Rerun rerun = runs_.make(itself, explanation.stretch.last)[0];
+    std::ranges::for_each(rerun.steps, [&](const Step& step) { runs_.known().check(step); });
+    if (rerun.steps.empty()) fail("the drive ends before frame {}", runs_.next());
+    explanation.was = drift(rerun, explanation);
+    explanation.as_it_was = {explanation.was};
+    result_.null_seconds += rerun.seconds / static_cast<double>(request_.stretches.size());
+    add_placebos(explanation);
   }
 
-  std::vector<FactorEffect> effects(std::vector<Job>& jobs, const StretchExplanation& explanation) {
+  /// As many as the request has.
+  void add_placebos(StretchExplanation& explanation) {
+    std::vector<Job> jobs;
+    for (int i = 0; i < request_.placebos; ++i) {
+      const int number = static_cast<int>(explanation.as_it_was.size()) + i;
+      jobs.push_back({.name = fmt::format("placebo {}", number),
+                      .variant = with_other_noise(runs_.original(), number)});
+    }
+    for (const Rerun& rerun : runs_.make(jobs, explanation.stretch.last)) {
+      explanation.as_it_was.push_back(drift(rerun, explanation));
+    }
+    explanation.chance = as_it_was(explanation.as_it_was);
+  }
+
+  std::vector<FactorEffect> effects(std::vector<Job>& jobs, StretchExplanation& explanation) {
     std::vector<FactorEffect> list(jobs.size());
     add_reruns(jobs, explanation, list);
+    for (int round = 0; request_.repeats > 0 && round < kRounds; ++round) {
+      if (std::ranges::none_of(list, is_open)) break;
+      if (std::ssize(explanation.as_it_was) <= request_.placebos + 1) add_placebos(explanation);
+      repeat(jobs, explanation, list);
+    }
+    return list;
+  }
+
+  static bool is_open(const FactorEffect& one) { return one.effect.is_open; }
+
+  /// Those that are open, with other noise; all are judged again.
+  void repeat(const std::vector<Job>& jobs, const StretchExplanation& explanation,
+              std::vector<FactorEffect>& list) {
     std::vector<Job> again;
     std::vector<std::size_t> of;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
-      for (int k = 1; list[i].effect.is_open && k <= request_.repeats; ++k) {
+      for (int k = 0; list[i].effect.is_open && k < request_.repeats; ++k) {
+        const int number = static_cast<int>(list[i].without.size()) + k;
         again.push_back(jobs[i]);
-        again.back().name += fmt::format(", again {}", k);
-        again.back().variant = with_other_noise(jobs[i].variant, k);
+        again.back().name += fmt::format(", again {}", number);
+        again.back().variant = with_other_noise(jobs[i].variant, number);
         of.push_back(i);
       }
     }
-    const std::vector<Rerun> reruns = make(again, explanation.stretch);
+    const std::vector<Rerun> reruns = runs_.make(again, explanation.stretch.last);
     for (std::size_t i = 0; i < again.size(); ++i) {
       list[of[i]].without.push_back(drift(reruns[i], explanation));
     }
+    judge(explanation, list);
+  }
+
+  static void judge(const StretchExplanation& explanation, std::vector<FactorEffect>& list) {
     for (FactorEffect& one : list) one.effect = effect_of(explanation.chance, one.without);
-    return list;
   }
 
   void add_reruns(std::vector<Job>& jobs, const StretchExplanation& explanation,
                   std::vector<FactorEffect>& list) {
-    const std::vector<Rerun> reruns = make(jobs, explanation.stretch);
+    const std::vector<Rerun> reruns = runs_.make(jobs, explanation.stretch.last);
     for (std::size_t i = 0; i < jobs.size(); ++i) {
       list[i].factors = jobs[i].factors;
       list[i].from_start = jobs[i].from_start;
       list[i].without.push_back(drift(reruns[i], explanation));
-      list[i].effect = effect_of(explanation.chance, list[i].without);
     }
+    judge(explanation, list);
   }
 
   void try_pairs(StretchExplanation& explanation) {
@@ -272,6 +200,7 @@ class Explainer {
       }
     }
     explanation.pairs = effects(jobs, explanation);
+    judge(explanation, explanation.singles);
     for (FactorEffect& pair : explanation.pairs) {
       pair.interaction =
           interaction_of(singles[pair.factors[0]], singles[pair.factors[1]], pair.effect);
@@ -279,16 +208,8 @@ class Explainer {
   }
 
   const ExplainRequest& request_;
-  KnownPoses known_;
-  Variant original_;
   double rate_hz_;
-  WorkerPool pool_{1};
-  std::unique_ptr<WorkerPool> drawing_;  ///< in the drive's process
-  slam::MappingSystem* slam_ = nullptr;
-  std::int64_t next_ = 0;  ///< index of the next frame
-  Splice splice_;
-  std::vector<Step> past_;
-  std::map<std::string, Rerun> from_start_;  ///< by the jobs' names
+  RunRepeater runs_;
   Explanation result_;
 };
 

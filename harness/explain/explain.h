@@ -3,30 +3,12 @@
 #pragma once
 
 #include <optional>
-#include <ostream>
 #include <string>
 #include <vector>
 
-#include "harness/explain/effects.h"
-#include "harness/machine.h"
+#include "harness/explain/explain_request.h"
 
 namespace vinebench::harness {
-
-/// A run to explain, which is repeated for it.
-struct ExplainRequest {
-  ScenarioConfig scenario;
-  std::string live_poses;  ///< of the run, as a TUM file: what its repetition must give
-  /// Why a repetition may differ, for the message; empty: unknown.
-  std::string differences{};
-  std::vector<Stretch> stretches;  ///< in order of their first frames
-  Machine machine;
-  double lead = 2;   ///< s before a stretch at which factors are taken away
-  int placebos = 4;  ///< reruns with another noise, at least 2
-  int repeats = 2;   ///< further reruns, with other noise, where chance could explain an effect
-  int pairs = 10;    ///< pairs to try at most; 0: none
-  int at_once = 1;   ///< reruns side by side
-  std::ostream* progress = nullptr;
-};
 
 /// A factor, or two of them, and what the drive is without.
 struct FactorEffect {
@@ -39,9 +21,10 @@ struct FactorEffect {
 
 struct StretchExplanation {
   Stretch stretch;
-  std::int64_t aligned = 0;  ///< index of the frame since which drift is measured
-  StretchDrift was{};        ///< of the run itself
-  AsItWas chance{};          ///< with the placebos
+  std::int64_t aligned = 0;               ///< index of the frame since which drift is measured
+  StretchDrift was{};                     ///< of the run itself
+  std::vector<StretchDrift> as_it_was{};  ///< that, and those of the placebos
+  AsItWas chance{};                       ///< with the placebos
   std::vector<FactorEffect> singles{};
   std::optional<FactorEffect> all{};  ///< without any of them; of two or more
   std::vector<FactorEffect> pairs{};  ///< those that were tried

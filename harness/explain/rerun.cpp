@@ -30,10 +30,11 @@ Step step_of(const Sample& sample, const Estimate& estimate) {
 }
 
 Rerun run_variant(const Variant& variant, const Splice& splice, std::int64_t last,
-                  const Machine& machine, slam::MappingSystem* slam) {
+                  const Machine& machine, const Prepared& prepared) {
   const double start = cpu_seconds();
   WorkerPool pool(1);
-  VariantDrive drive(variant, splice, last, machine, pool);
+  VariantDrive drive(variant, splice, last, machine, pool, prepared.drawn);
+  slam::MappingSystem* slam = prepared.slam;
   std::unique_ptr<slam::MappingSystem> own;
   if (slam == nullptr) {
     own = slam::make_slam(variant.scenario.slam, drive.rig(),

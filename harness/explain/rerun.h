@@ -29,10 +29,16 @@ struct Rerun {
   std::vector<Step> steps{};
 };
 
-/// Estimates a variant's frames up to the one of index `last`: with `slam`, which has processed
-/// those before the splice, or with one of its own from the first frame on.
+/// What this process has already, for reruns in forks of it.
+struct Prepared {
+  std::shared_ptr<sim::DrawnScene> drawn{};  ///< the scene as it was; may be missing
+  slam::MappingSystem* slam = nullptr;       ///< has processed the frames before the splice
+};
+
+/// Estimates a variant's frames up to the one of index `last`: with the prepared estimator, or with
+/// one of its own from the first frame on.
 Rerun run_variant(const Variant& variant, const Splice& splice, std::int64_t last,
-                  const Machine& machine, slam::MappingSystem* slam);
+                  const Machine& machine, const Prepared& prepared);
 
 /// A rerun as text between processes, and back.
 std::string pack_rerun(const Rerun& rerun);

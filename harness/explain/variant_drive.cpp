@@ -36,11 +36,12 @@ Rig told_rig(const Variant& variant) {
 }
 
 VariantDrive::VariantDrive(const Variant& variant, const Splice& splice, std::int64_t last,
-                           const Machine& machine, WorkerPool& pool)
+                           const Machine& machine, WorkerPool& pool,
+                           const std::shared_ptr<sim::DrawnScene>& drawn)
     : splice_(splice),
       simulation_(sim::make_simulation(variant.scenario.simulation,
                                        static_cast<std::uint64_t>(variant.scenario.seed),
-                                       machine.plant_cache, pool, plan_of(splice, last))),
+                                       machine.plant_cache, pool, plan_of(splice, last), drawn)),
       rig_(told_rig(variant)) {
   const sim::RoverConfig& rover = variant.scenario.simulation.rover;
   if (variant.without_slip) {

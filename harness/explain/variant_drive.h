@@ -10,6 +10,7 @@
 #include "harness/explain/factors.h"
 #include "harness/explain/rolling_wheels.h"
 #include "harness/machine.h"
+#include "sim/drawn_scene.h"
 
 namespace vinebench::harness {
 
@@ -26,9 +27,11 @@ struct Splice {
 /// these are one drive.
 class VariantDrive : public FrameSource {
  public:
-  /// Up to the frame of index `last`. Starts OpenGL if the scenario draws with it.
+  /// Up to the frame of index `last`. Draws with `drawn` if it serves the variant; else it starts
+  /// OpenGL if the scenario draws with it.
   VariantDrive(const Variant& variant, const Splice& splice, std::int64_t last,
-               const Machine& machine, WorkerPool& pool);
+               const Machine& machine, WorkerPool& pool,
+               const std::shared_ptr<sim::DrawnScene>& drawn = nullptr);
 
   std::optional<Sample> next() override;
   std::int64_t size() const override { return simulation_->size(); }

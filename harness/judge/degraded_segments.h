@@ -18,6 +18,10 @@ enum class Cause {
   kLittleTexture,     ///< a camera with a clear view found few features
   kWrongTag,          ///< a wrong loop closure, or a tag that contradicts the map
   kMissedTag,         ///< a tag was in view and not detected
+  kExposure,          ///< dark or saturated images, or much gain
+  kMovingObjects,     ///< something that moves covers a part of a camera's image
+  kRollingShutter,    ///< the scene moved by pixels from the first row's exposure to the last's
+  kTimeOffset,        ///< stamps, or the instants of a pair's cameras, differ by what is visible
   kRepeatedPattern,   ///< many matches, and an error that grew by a multiple of the plants' spacing
   kCalibrationError,  ///< none of these, and the true rig differs from the nominal one
   kUnexplained,
@@ -30,7 +34,8 @@ struct DegradedSegment {
   Cause cause = Cause::kUnexplained;
   std::vector<std::size_t>
       cameras{};  ///< of the rig, affected by the cause; empty: not camera-specific
-  std::optional<OccluderClass> occluder{};  ///< the class that covers most; of kOcclusion alone
+  std::optional<OccluderClass>
+      occluder{};            ///< the class that covers most; of kOcclusion and kMovingObjects
   double share = 0;          ///< of the segment's ticks in which it is present, 0 to 1
   double error_growth = 0;   ///< m, drift of the live pose during the segment
   int untracked = 0;         ///< frames without a pose supported by cameras

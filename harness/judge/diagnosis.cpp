@@ -10,6 +10,7 @@
 
 #include "core/util/percentile.h"
 #include "harness/judge/degraded_segments.h"
+#include "harness/judge/image_conditions.h"
 
 namespace vinebench::harness {
 namespace {
@@ -17,8 +18,7 @@ namespace {
 constexpr double kShown = 1.0 / 3;         // of a segment's ticks, for a cause to be named
 constexpr double kOccluded = 0.5;          // of an image's pixels
 constexpr double kClearView = 0.2;         // likewise, at most
-constexpr double kBlurPixels = 2;          // px
-constexpr double kNearThings = 1;          // m, closest usual distance
+constexpr double kSeenMoving = 0.05;       // likewise, at least
 constexpr double kFewOfUsual = 0.4;        // of a camera's median of features
 constexpr double kFewFeatures = 100;       // absolute minimum
 constexpr double kHealthyInliers = 0.5;    // of the run's median
@@ -28,7 +28,7 @@ constexpr double kSpacingTolerance = 0.2;  // of the plants' spacing
 class CauseFinder {
  public:
   CauseFinder(const RunRecord& record, const RunResults& results, const Trial& trial)
-      : record_(record), results_(results), trial_(trial) {
+      : record_(record), results_(results), trial_(trial), images_(record, trial.site) {
     for (const StereoPair& pair : record.rig.stereo_pairs) {
       cameras_.push_back(static_cast<std::size_t>(pair.left));
     }
@@ -42,21 +42,11 @@ class CauseFinder {
 
   std::vector<DegradedSegment> causes_of(const DegradedSegment& segment) const {
     std::vector<DegradedSegment> found;
-    const auto add = [&](Cause cause, const auto& shows) {
-      const DegradedSegment one = seen_by_cameras(segment, cause, shows);
-      if (!one.cameras.empty()) found.push_back(one);
-    };
-    add(Cause::kDroppedImages, [&](std::size_t i, std::size_t c) { return is_dropped(i, c); });
-    add(Cause::kOcclusion,
-        [&](std::size_t i, std::size_t c) { return occluded(i, c).total() >= kOccluded; });
-    if (!found.empty() && found.back().cause == Cause::kOcclusion) {
-      found.back().occluder = largest_occluder(found.back());
-    }
-    add(Cause::kMotionBlur, [&](std::size_t i, std::size_t c) { return is_blurred(i, c); });
-    add(Cause::kLittleTexture, [&](std::size_t i, std::size_t c) { return lacks_texture(i, c); });
+    add_images(found, segment);
     add_share(found, segment, Cause::kWrongTag, wrong_tags(segment));
     add_share(found, segment, Cause::kMissedTag, missed_tags(segment));
     if (jumped_by_plants(segment)) add_share(found, segment, Cause::kRepeatedPattern, 1);
+    add_capture(found, segment);
     std::ranges::stable_sort(found, std::greater(), &DegradedSegment::share);
     if (found.empty()) {
       add_share(found, segment,
@@ -67,6 +57,34 @@ class CauseFinder {
 
  private:
   const Tick& tick(std::size_t i) const { return record_.ticks[i]; }
+
+  /// What the images show.
+  void add_images(std::vector<DegradedSegment>& found, const DegradedSegment& segment) const {
+    add_seen(found, segment, Cause::kDroppedImages,
+             [&](std::size_t i, std::size_t c) { return images_.is_dropped(i, c); });
+    add_seen(found, segment, Cause::kOcclusion, [&](std::size_t i, std::size_t c) {
+      return images_.occlusion(i, c).total() >= kOccluded;
+    });
+    add_seen(found, segment, Cause::kMotionBlur,
+             [&](std::size_t i, std::size_t c) { return images_.is_blurred(i, c); });
+    add_seen(found, segment, Cause::kMovingObjects, [&](std::size_t i, std::size_t c) {
+      return images_.moving(i, c).total() >= kSeenMoving &&
+             images_.occlusion(i, c).total() < kOccluded;
+    });
+    for (DegradedSegment& one : found) name_occluder(one);
+    add_seen(found, segment, Cause::kLittleTexture,
+             [&](std::size_t i, std::size_t c) { return lacks_texture(i, c); });
+  }
+
+  /// How they were taken.
+  void add_capture(std::vector<DegradedSegment>& found, const DegradedSegment& segment) const {
+    add_seen(found, segment, Cause::kExposure,
+             [&](std::size_t i, std::size_t c) { return images_.is_badly_exposed(i, c); });
+    add_seen(found, segment, Cause::kRollingShutter,
+             [&](std::size_t i, std::size_t c) { return images_.is_rolling(i, c); });
+    add_seen(found, segment, Cause::kTimeOffset,
+             [&](std::size_t i, std::size_t c) { return images_.is_mistimed(i, c); });
+  }
 
   double median_features(std::size_t camera) const {
     std::vector<double> counts;
@@ -90,9 +108,9 @@ class CauseFinder {
     if (share >= kShown) found.push_back(with(segment, cause, share));
   }
 
-  /// The cameras in which it is present long enough, and the largest share among them.
-  DegradedSegment seen_by_cameras(const DegradedSegment& segment, Cause cause,
-                                  const auto& shows) const {
+  /// With the cameras in which it is present long enough, and the largest share among them.
+  void add_seen(std::vector<DegradedSegment>& found, const DegradedSegment& segment, Cause cause,
+                const auto& shows) const {
     DegradedSegment diagnosed = with(segment, cause, 0);
     for (const std::size_t camera : cameras_) {
       const double share = share_of(segment, [&](std::size_t i) { return bool(shows(i, camera)); });
@@ -100,7 +118,7 @@ class CauseFinder {
       diagnosed.cameras.push_back(camera);
       diagnosed.share = std::max(diagnosed.share, share);
     }
-    return diagnosed;
+    if (!diagnosed.cameras.empty()) found.push_back(diagnosed);
   }
 
   static double share_of(const DegradedSegment& segment, const auto& shows) {
@@ -109,41 +127,25 @@ class CauseFinder {
     return count / static_cast<double>(segment.last - segment.first + 1);
   }
 
-  bool is_dropped(std::size_t i, std::size_t camera) const {
-    return camera < tick(i).delivered.size() && !tick(i).delivered[camera];
-  }
-
-  Occlusion occluded(std::size_t i, std::size_t camera) const {
-    const std::vector<Occlusion>& cameras = tick(i).truth.occlusion;
-    return camera < cameras.size() ? cameras[camera] : Occlusion{};
-  }
-
-  /// Of the cameras that the segment names, over all its ticks.
-  OccluderClass largest_occluder(const DegradedSegment& segment) const {
+  /// The class that covers most in the cameras that the segment names, over all its ticks.
+  void name_occluder(DegradedSegment& segment) const {
+    if (segment.cause != Cause::kOcclusion && segment.cause != Cause::kMovingObjects) return;
     Occlusion sum;
     for (std::size_t i = segment.first; i <= segment.last; ++i) {
       for (const std::size_t camera : segment.cameras) {
-        const Occlusion seen = occluded(i, camera);
+        const Occlusion seen = segment.cause == Cause::kOcclusion ? images_.occlusion(i, camera)
+                                                                  : images_.moving(i, camera);
         for (std::size_t c = 0; c < kOccluderClasses; ++c) sum.shares[c] += seen.shares[c];
       }
     }
-    return sum.largest();
-  }
-
-  bool is_blurred(std::size_t i, std::size_t camera) const {
-    const std::vector<double>& times = tick(i).truth.blur_time;
-    if (camera >= times.size()) return false;
-    const auto [speed, turn] = true_motion(record_, i);
-    const double pixels_per_second =
-        record_.rig.cameras[camera].model.fx * (turn + speed / kNearThings);
-    return times[camera] * pixels_per_second >= kBlurPixels;
+    segment.occluder = sum.largest();
   }
 
   bool lacks_texture(std::size_t i, std::size_t camera) const {
     const double usual = usual_features_[camera];
     if (usual <= 0 || camera >= tick(i).estimate.cameras.size()) return false;
-    if (is_dropped(i, camera) || is_blurred(i, camera) ||
-        occluded(i, camera).total() > kClearView) {
+    if (images_.is_dropped(i, camera) || images_.is_blurred(i, camera) ||
+        images_.occlusion(i, camera).total() > kClearView) {
       return false;
     }
     const double features = tick(i).estimate.cameras[camera].features;
@@ -199,6 +201,7 @@ class CauseFinder {
   const RunRecord& record_;
   const RunResults& results_;
   const Trial& trial_;
+  ImageConditions images_;
   std::vector<std::size_t>
       cameras_;  ///< left cameras: a right camera's features are matches of theirs
   std::vector<double> usual_features_;
@@ -250,6 +253,14 @@ const char* name_of(Cause cause) {
       return "missed tag";
     case Cause::kRepeatedPattern:
       return "repeated pattern";
+    case Cause::kExposure:
+      return "exposure";
+    case Cause::kMovingObjects:
+      return "moving objects";
+    case Cause::kRollingShutter:
+      return "rolling shutter";
+    case Cause::kTimeOffset:
+      return "time offset";
     case Cause::kCalibrationError:
       return "calibration error";
     case Cause::kUnexplained:

@@ -3,8 +3,32 @@
 #include "harness/run/run_record.h"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 
 namespace vinebench::harness {
+namespace {
+
+constexpr int kDark = 64;
+constexpr int kSaturated = 250;
+constexpr int kRowStep = 4;
+
+}  // namespace
+
+Brightness brightness_of(const cv::Mat& image) {
+  std::array<std::int64_t, 256> counts{};
+  for (int y = 0; y < image.rows; y += kRowStep) {
+    const auto* row = image.ptr<std::uint8_t>(y);
+    const std::uint8_t* end = row + static_cast<std::size_t>(image.cols) * image.elemSize();
+    for (; row != end; ++row) ++counts[*row];
+  }
+  const auto share = [&](int from, int to) {
+    const auto total = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+    const auto part = std::accumulate(counts.begin() + from, counts.begin() + to, std::int64_t{0});
+    return total > 0 ? static_cast<double>(part) / static_cast<double>(total) : 0;
+  };
+  return {.dark = share(0, kDark), .saturated = share(kSaturated, 256)};
+}
 
 Trajectory true_trajectory(const RunRecord& record) {
   Trajectory trajectory;
@@ -67,6 +91,7 @@ void RunRecorder::on_tick(const Sample& sample, const Estimate& estimate) {
   record_.ticks.back().truth.path = {};  // many poses, of no use to the judge
   for (const cv::Mat& image : sample.frame.images) {
     record_.ticks.back().delivered.push_back(!image.empty());
+    record_.ticks.back().brightness.push_back(brightness_of(image));
   }
 }
 

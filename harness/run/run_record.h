@@ -10,6 +10,14 @@
 
 namespace vinebench::harness {
 
+/// How bright an image is, by its codes (0 to 255, of all channels).
+struct Brightness {
+  double dark = 0;       ///< share of those below 64, a quarter of the range
+  double saturated = 0;  ///< share of those of 250 and more
+};
+/// Over every fourth row; zeros for an empty image.
+Brightness brightness_of(const cv::Mat& image);
+
 /// The record of one tick, without images.
 struct Tick {
   std::int64_t index = 0;
@@ -17,7 +25,8 @@ struct Tick {
   Truth truth;
   Estimate estimate;
   std::vector<SourceEvent> events;
-  std::vector<bool> delivered{};  ///< whether each camera delivered an image
+  std::vector<bool> delivered{};         ///< whether each camera delivered an image
+  std::vector<Brightness> brightness{};  ///< of each camera's image
 };
 
 /// A run, or its part up to an interruption: the only input of evaluation, log, plot and metrics.

@@ -276,7 +276,8 @@ Site site_of(const WorldConfig& world) {
     const double yaw =
         occluder.path ? yaw_of(layout.occluders[i].rotation) / kRadiansPerDegree : occluder.yaw_deg;
     site.objects.push_back(
-        {class_of(occluder), centre, size_of(occluder).head<2>(), yaw, colour_of(occluder)});
+        {class_of(occluder), centre, size_of(occluder).head<2>(), yaw, colour_of(occluder),
+         occluder.path.has_value()});
   }
   site.tags = world_tags(world);
   site.vine_spacing = world.vines.spacing;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -25,9 +26,24 @@ struct PlantedCause {
 
 const std::vector<PlantedCause>& all_causes();
 
-/// The drive in the file with these causes (indices into all_causes()) and two mild other ones,
-/// drawn by the seed.
-harness::ScenarioConfig planted_drive(const std::filesystem::path& file,
-                                      const std::vector<std::size_t>& causes, std::int64_t seed);
+/// A drive with one cause, two, or none (indices into all_causes()).
+struct Case {
+  std::vector<std::size_t> causes;
+  std::int64_t seed = 1;
+
+  std::vector<std::string> names() const;
+};
+
+/// The part of the drive that is explained, which lasts to its end.
+inline constexpr double kStretchFrom = 2.0;  // s
+inline constexpr double kLead = 0.6;         // s
+inline constexpr double kRate = 15;          // Hz, the rig's
+
+/// Its drive, with two mild other causes that the seed draws; of its own ones `planted` alone. The
+/// strength of a cause depends on the seed alone.
+harness::ScenarioConfig planted_drive(const Case& one, const std::vector<std::size_t>& planted);
+inline harness::ScenarioConfig planted_drive(const Case& one) {
+  return planted_drive(one, one.causes);
+}
 
 }  // namespace vinebench::planted

@@ -186,6 +186,22 @@ TEST_F(SimulationTest, ReadingsReachTheStampAndNoFurther) {
   }
 }
 
+// The right camera exposes 4 ms after the frame's instant, and every stamp says 1 ms too much.
+TEST_F(SimulationTest, TheTruthKnowsHowImagesWereTaken) {
+  SimulationConfig taken = config();
+  taken.duration = 0.1;
+  taken.sensors.camera.exposure.gain_db = 6;
+  taken.sensors.camera.readout_time = 0.01;
+  taken.sensors.timing.stamp_offset = 0.001;
+  taken.sensors.timing.triggers = {{"right", 0.004}};
+  const std::vector<Capture> captures = run(taken).back().truth.captures;
+  ASSERT_EQ(captures.size(), 3u);
+  EXPECT_EQ(captures[0].gain_db, 6);
+  EXPECT_EQ(captures[0].readout_time, 0.01);
+  EXPECT_DOUBLE_EQ(captures[0].stamp_error, 0.001);
+  EXPECT_DOUBLE_EQ(captures[1].stamp_error, -0.003);
+}
+
 TEST_F(SimulationTest, LookingAheadChangesNoTruth) {
   const std::vector<Sample> plain = run(config());
   SimulationConfig rolling = config();

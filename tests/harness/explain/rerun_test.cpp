@@ -30,7 +30,7 @@ TEST_F(RerunTest, SurvivesItsMessage) {
 // The same estimator's state, the same frames: the same poses to the bit, by either way.
 TEST_F(RerunTest, GoesOnWithTheEstimatorThatItIsGiven) {
   write_large_rig();
-  const Rerun whole = run_variant({scenario()}, {}, kFrames - 1, machine(), nullptr);
+  const Rerun whole = run_variant({scenario()}, {}, kFrames - 1, machine(), {});
   ASSERT_EQ(whole.steps.size(), static_cast<std::size_t>(kFrames));
   EXPECT_GT(whole.seconds, 0);
 
@@ -42,7 +42,7 @@ TEST_F(RerunTest, GoesOnWithTheEstimatorThatItIsGiven) {
     slam->process(sample->frame);
     splice = {sample->frame.index + 1, sample->frame.stamp, sample->truth.path.back()};
   }
-  const Rerun rest = run_variant({scenario()}, splice, kFrames - 1, machine(), slam.get());
+  const Rerun rest = run_variant({scenario()}, splice, kFrames - 1, machine(), {.slam = slam.get()});
   EXPECT_TRUE(rest.same_drive);
   ASSERT_EQ(rest.steps.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -58,7 +58,7 @@ TEST_F(RerunTest, GoesOnWithTheEstimatorThatItIsGiven) {
 TEST_F(RerunTest, StopsWhereTheDriveIsAnotherOne) {
   Splice splice{3, from_seconds(2.0 / 15), StampedPose{0, {}}};
   splice.path_end->pose.translation.x() = 1;
-  const Rerun rerun = run_variant({scenario()}, splice, kFrames - 1, machine(), nullptr);
+  const Rerun rerun = run_variant({scenario()}, splice, kFrames - 1, machine(), {});
   EXPECT_FALSE(rerun.same_drive);
   EXPECT_TRUE(rerun.steps.empty());
 }

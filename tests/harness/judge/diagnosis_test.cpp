@@ -115,6 +115,55 @@ TEST_F(DiagnosisTest, MotionBlurIsCountedInPixels) {
   EXPECT_THAT(causes(), ElementsAre(Cause::kUnexplained));
 }
 
+/// How the images of the left camera were taken.
+std::vector<Capture> captures(const Capture& left) {
+  return {left, {}, {}};
+}
+
+TEST_F(DiagnosisTest, SaturatedImagesAreABadExposure) {
+  meanwhile([](Tick& tick) {
+    weaken(tick);
+    tick.brightness = {{.dark = 0, .saturated = 0.6}, {}, {}};
+  });
+  EXPECT_THAT(causes(), ElementsAre(Cause::kExposure));
+  EXPECT_THAT(format_diagnosis(record_, found()), HasSubstr("exposure in front_left"));
+}
+
+TEST_F(DiagnosisTest, MuchGainIsABadExposure) {
+  meanwhile([](Tick& tick) {
+    weaken(tick);
+    tick.truth.captures = captures({.gain_db = 20});
+  });
+  EXPECT_THAT(causes(), ElementsAre(Cause::kExposure));
+}
+
+// 150 px/s at 1 m: 3 px in 20 ms; 0.75 px in 5 ms, of which half a pixel is too much.
+TEST_F(DiagnosisTest, ShutterAndTimesAreCountedInPixels) {
+  meanwhile([](Tick& tick) {
+    weaken(tick);
+    tick.truth.captures = captures({.readout_time = 0.020});
+  });
+  EXPECT_THAT(causes(), ElementsAre(Cause::kRollingShutter));
+  meanwhile([](Tick& tick) { tick.truth.captures = captures({.stamp_error = 0.005}); });
+  EXPECT_THAT(causes(), ElementsAre(Cause::kTimeOffset));
+}
+
+// A tenth of the image is too little for an occlusion; a person who stands is no moving object.
+TEST_F(DiagnosisTest, SomeoneWhoWalksThroughTheViewIsAMovingObject) {
+  trial_.site.objects = {{.kind = OccluderClass::kPerson, .moves = true}};
+  meanwhile([](Tick& tick) {
+    weaken(tick);
+    tick.truth.occlusion[0].share(OccluderClass::kPerson) = 0.1;
+  });
+  ASSERT_THAT(causes(), ElementsAre(Cause::kMovingObjects));
+  EXPECT_EQ(found()[0].occluder, OccluderClass::kPerson);
+  trial_.site.objects[0].moves = false;
+  EXPECT_THAT(causes(), ElementsAre(Cause::kUnexplained));
+  trial_.site.objects[0].moves = true;
+  meanwhile([](Tick& tick) { tick.truth.occlusion[0].share(OccluderClass::kPerson) = 0.6; });
+  EXPECT_THAT(causes(), ElementsAre(Cause::kOcclusion));
+}
+
 TEST_F(DiagnosisTest, AnErrorThatGrowsFastIsFoundWithoutWeakTracking) {
   slide();
   EXPECT_THAT(causes(), ElementsAre(Cause::kUnexplained));

@@ -38,6 +38,21 @@ TEST(RunRecordTest, KeepsWhatEachTickLeaves) {
   EXPECT_EQ(live_trajectory(record).size(), 1u);  // dead reckoning is no tracking
 }
 
+// Rows 0 and 4 of five count, 4 codes each; row 1 does not.
+TEST(RunRecordTest, BrightnessIsThatOfEveryFourthRow) {
+  cv::Mat image(5, 4, CV_8UC1, cv::Scalar(100));
+  image.at<std::uint8_t>(0, 0) = 63;
+  image.at<std::uint8_t>(0, 1) = 64;
+  image.at<std::uint8_t>(4, 0) = 250;
+  image.at<std::uint8_t>(4, 1) = 255;
+  image.at<std::uint8_t>(4, 2) = 249;
+  image.row(1) = 0;
+  EXPECT_DOUBLE_EQ(brightness_of(image).dark, 1.0 / 8);
+  EXPECT_DOUBLE_EQ(brightness_of(image).saturated, 2.0 / 8);
+  EXPECT_EQ(brightness_of(cv::Mat()).dark, 0);
+  EXPECT_EQ(brightness_of(cv::Mat(4, 4, CV_8UC3, cv::Scalar(0, 0, 255))).dark, 2.0 / 3);
+}
+
 TEST(RunRecordTest, PathLengthsPassOverUnknownPoses) {
   RunRecord record;
   record.ticks.resize(4);

@@ -253,6 +253,7 @@ TEST(SiteTest, IsTheLayoutSeenFromAbove) {
   ASSERT_EQ(site.tags.size(), 2u);
   EXPECT_EQ(site.tags[0].T_world_tag.translation, tag_pose(lay_out(world).tags[0]).translation);
   EXPECT_EQ(site.objects.at(0).centre, Eigen::Vector2d(4, 1));
+  EXPECT_FALSE(site.objects.at(0).moves);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/render/gl/platform/gl_context.h"
 
+#include <cstdlib>
+
 #include "core/util/error.h"
 
 namespace vinebench::sim {
@@ -36,6 +38,11 @@ std::string gl_text(GlBackend backend, GLenum name) {
 std::recursive_mutex& gl_mutex() {
   static std::recursive_mutex mutex;
   return mutex;
+}
+
+void draw_without_threads() {
+  setenv("LP_NUM_THREADS", "0", 1);                // of the rasteriser
+  setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);  // it writes its files in a thread
 }
 
 void CurrentContext::wait() {

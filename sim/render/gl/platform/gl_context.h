@@ -43,6 +43,10 @@ class GlContext {
 bool has_osmesa();
 bool has_egl();
 
+/// From now on OSMesa's software renderer draws in the thread that calls it, and has no other: for
+/// processes that are forked. Call it before the first context; changes no pixel.
+void draw_without_threads();
+
 /// A software context through OSMesa. Throws Error when there is none to be had.
 std::unique_ptr<GlContext> make_osmesa_context();
 
