@@ -93,7 +93,7 @@ void expose_badly(ScenarioConfig& scenario, RandomSequence& draw) {
 
 void add_exposure_causes(std::vector<PlantedCause>& list) {
   list.push_back({"noise", [](ScenarioConfig& scenario, RandomSequence& draw) {
-                    camera(scenario).noise.read_noise = draw.uniform(100, 160);
+                    camera(scenario).noise.read_noise = draw.uniform(150, 220);
                   }});
   list.push_back({"exposure",
                   expose_badly,
@@ -136,7 +136,7 @@ void add_glass_causes(std::vector<PlantedCause>& list) {
                   }});
   list.push_back({"leaf", [](ScenarioConfig& scenario, RandomSequence& draw) {
                     sim::LensLeafConfig leaf;
-                    leaf.size = draw.uniform(1.1, 1.5);
+                    leaf.size = draw.uniform(1.0, 1.3);
                     leaf.position = {draw.uniform(0.4, 0.6), draw.uniform(0.4, 0.6)};
                     leaf.angle_deg = draw.uniform(-180, 180);
                     leaf.scope.from = 1.8;

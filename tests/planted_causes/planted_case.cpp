@@ -34,11 +34,13 @@ std::vector<std::string> coinciding(const std::vector<DegradedSegment>& diagnosi
 /// Runs the drive into the folder; with what coincides and its cost.
 Json run_drive(const Case& one, const harness::Machine& machine,
                const std::filesystem::path& folder) {
-  const harness::ScenarioConfig scenario = planted_drive(one);
   harness::RunOptions options;
   options.folder = folder;
   options.images = 0;
-  const FolderLock lock = harness::prepare_scenario_folder(folder, scenario);
+  const FolderLock lock = harness::prepare_scenario_folder(folder, planted_drive(one));
+  // As explain will read it: the file has fewer digits than the draws.
+  const harness::ScenarioConfig scenario =
+      harness::load_scenario(folder / "scenario.resolved.yaml");
   const harness::RunReport report = harness::run_scenario(scenario, machine, 1, options).report;
   const auto first = static_cast<std::int64_t>(kStretchFrom * kRate);
   return {{"coincide", coinciding(report.diagnosis, first)}, {"run", report.cost.cpu_seconds}};

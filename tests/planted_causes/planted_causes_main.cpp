@@ -4,7 +4,7 @@
 // Plants each cause in a short drive, or two of them, measures the harm that they do, explains the
 // drive, and prints how often the causes are named by intervention and by coincidence. Usage:
 // planted_causes [--seeds 1..7] [--pairs N] [--controls N] [--only NAME]... [--jobs N] [--log FILE]
-// [--harm-only]. The table is Markdown, on standard output.
+// [--harm-only] [--minutes M]. The table is Markdown, on standard output.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -32,6 +32,7 @@ struct Options {
   std::string log = "/dev/null";
   bool without_singles = false;
   bool harm_only = false;
+  double minutes = 1e6;  ///< after which no further case is begun
 };
 
 std::vector<std::size_t> chosen_causes(const std::vector<std::string>& only) {
@@ -45,24 +46,32 @@ std::vector<std::size_t> chosen_causes(const std::vector<std::string>& only) {
   return chosen;
 }
 
+/// Two different ones.
+std::vector<std::size_t> draw_pair(const std::vector<std::size_t>& chosen, RandomSequence& draw) {
+  const int count = static_cast<int>(chosen.size());
+  const int one = draw.below(count);
+  const int other = (one + 1 + draw.below(count - 1)) % count;
+  return {chosen[static_cast<std::size_t>(one)], chosen[static_cast<std::size_t>(other)]};
+}
+
+/// Seed by seed, with an even share of the pairs and controls, so that any first part is a sample.
 std::vector<Case> make_cases(const Options& options) {
   const std::vector<std::size_t> chosen = chosen_causes(options.only);
   const std::vector<std::int64_t> seeds = harness::parse_seeds(options.seeds);
+  const int count = static_cast<int>(seeds.size());
   std::vector<Case> cases;
-  for (const std::int64_t seed : seeds) {
-    if (options.without_singles) continue;
-    for (const std::size_t cause : chosen) cases.push_back({{cause}, seed});
+  for (int i = 0; i < count; ++i) {
+    const std::int64_t seed = seeds[static_cast<std::size_t>(i)];
+    const auto share = [&](int all) { return (i + 1) * all / count - i * all / count; };
+    for (const std::size_t cause : chosen) {
+      if (!options.without_singles) cases.push_back({{cause}, seed});
+    }
+    RandomSequence draw(RandomStream(static_cast<std::uint64_t>(seed), "pairs"));
+    for (int k = 0; k < share(options.pairs) && chosen.size() > 1; ++k) {
+      cases.push_back({draw_pair(chosen, draw), seed});
+    }
+    for (int k = 0; k < share(options.controls); ++k) cases.push_back({{}, seed + 100 * k});
   }
-  const int count = static_cast<int>(chosen.size());
-  RandomSequence draw(RandomStream(static_cast<std::uint64_t>(seeds.at(0)), "pairs"));
-  for (int i = 0; i < options.pairs && count > 1; ++i) {
-    const int one = draw.below(count);
-    const int other = (one + 1 + draw.below(count - 1)) % count;
-    cases.push_back(
-        {{chosen[static_cast<std::size_t>(one)], chosen[static_cast<std::size_t>(other)]},
-         seeds[static_cast<std::size_t>(i) % seeds.size()]});
-  }
-  for (int i = 0; i < options.controls; ++i) cases.push_back({{}, seeds.at(0) + i});
   return cases;
 }
 
@@ -80,27 +89,43 @@ std::string head_of(const Case& one, const Verdict& verdict) {
                      verdict.reruns, verdict.rerun_seconds, verdict.error);
 }
 
-std::vector<Verdict> run_cases(const std::vector<Case>& cases, const Options& options) {
+/// Leaves out of `cases` those that were not begun in time.
+std::vector<Verdict> run_cases(std::vector<Case>& cases, const Options& options) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::duration<double, std::ratio<60>>(options.minutes);
   std::ofstream log(options.log);
   std::vector<Verdict> verdicts(cases.size());
-  harness::run_in_children(
-      {.count = cases.size(),
-       .at_once = options.jobs,
-       .name = [&](std::size_t i) { return name_of_case(cases[i]); },
-       .job =
-           [&](std::size_t i) { return run_case(cases[i], options.placebos, options.harm_only); },
-       .done =
-           [&](std::size_t i, const harness::ChildOutcome& outcome) {
-             if (outcome.ok) {
-               verdicts[i] = read_verdict(outcome.text);
-             } else {
-               verdicts[i].error = outcome.text;
-             }
-             const std::string head = head_of(cases[i], verdicts[i]);
-             fmt::print(stderr, "{}", head);
-             log << head << verdicts[i].text << std::flush;
-           }});
-  return verdicts;
+  std::vector<bool> left_out(cases.size());
+  harness::run_in_children({.count = cases.size(),
+                            .at_once = options.jobs,
+                            .name = [&](std::size_t i) { return name_of_case(cases[i]); },
+                            .job =
+                                [&](std::size_t i) {
+                                  if (Clock::now() > end) return std::string();
+                                  return run_case(cases[i], options.placebos, options.harm_only);
+                                },
+                            .done =
+                                [&](std::size_t i, const harness::ChildOutcome& outcome) {
+                                  left_out[i] = outcome.ok && outcome.text.empty();
+                                  if (left_out[i]) return;
+                                  if (outcome.ok) {
+                                    verdicts[i] = read_verdict(outcome.text);
+                                  } else {
+                                    verdicts[i].error = outcome.text;
+                                  }
+                                  const std::string head = head_of(cases[i], verdicts[i]);
+                                  fmt::print(stderr, "{}", head);
+                                  log << head << verdicts[i].text << std::flush;
+                                }});
+  std::vector<Case> begun;
+  std::vector<Verdict> found;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (left_out[i]) continue;
+    begun.push_back(cases[i]);
+    found.push_back(verdicts[i]);
+  }
+  cases = begun;
+  return found;
 }
 
 int run(int argc, char** argv) {
@@ -113,10 +138,11 @@ int run(int argc, char** argv) {
   app.add_flag("--without-singles", options.without_singles, "no drives with one cause");
   app.add_flag("--harm-only", options.harm_only, "measure the harm, explain nothing");
   app.add_option("--placebos", options.placebos)->check(CLI::Range(2, 100));
+  app.add_option("--minutes", options.minutes, "begin no further case after these");
   app.add_option("--jobs", options.jobs)->check(CLI::Range(1, 1024));
   app.add_option("--log", options.log, "file for the explanations");
   CLI11_PARSE(app, argc, argv);
-  const std::vector<Case> cases = make_cases(options);
+  std::vector<Case> cases = make_cases(options);
   const auto start = std::chrono::steady_clock::now();
   const std::vector<Verdict> verdicts = run_cases(cases, options);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;

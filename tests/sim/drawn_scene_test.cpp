@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/config_files.h"
 #include "sim/sim.h"
 #include "tests/support/test_folder.h"
 
@@ -13,6 +14,8 @@ namespace {
 SimulationConfig config() {
   SimulationConfig config;
   config.world.rows = {{{0, 1.5}, {2, 1.5}}};
+  config.rover =
+      load_rover(std::filesystem::path(VINEBENCH_SOURCE_DIR) / "models/csl-rover/rover.yaml");
   config.renderer.engine = RenderEngineKind::kFake;
   return config;
 }
