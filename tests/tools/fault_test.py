@@ -3,15 +3,16 @@
 """Lets file operations of recordings, runs and sets fail, in turn one alone (EIO) and one with all
 later ones (ENOSPC, a full disk). Expects exit code 2 with one message, and that whatever has a
 final name is whole, or of a growing list a beginning.
-Usage: fault_test.py VINEBENCH SHIM ROOT [--every K]
-  --every K  at every K-th file operation (default: 60)"""
+Usage: fault_test.py VINEBENCH SHIM ROOT [--every K] [--first A] [--last B]
+  --every K  at every K-th file operation (default: 60)
+  --first A, --last B  of the operations A to B of each command (default: all)"""
 import json
 import pathlib
 import shutil
 import sys
 import tempfile
 
-from interruption import content, parse_arguments, run, write_scenario
+from interruption import content, numbers, parse_arguments, run, write_scenario
 
 GROWING = (".csv", ".jsonl", ".xxh128", "times.txt", "poses.txt", "tum/body.txt", "tum/left.txt",
            "tum/right.txt", "tum/side.txt")
@@ -109,16 +110,17 @@ def main():
         ]
         for name, command in cases:
             case = Case(name, out, [str(word) for word in command])
-            number, done = 1, 0
-            while case.fail_at("EIO" if done % 2 else "ENOSPC", number):
+            done = 0
+            for number in numbers(arguments):
+                if not case.fail_at("EIO" if done % 2 else "ENOSPC", number):
+                    break
                 done += 1
-                number += arguments.every
-            print(f"{name}: {done} faults")
+            print(f"{name}: {done} faults", flush=True)
             faults += done
     print(f"{faults} faults, {failures} failures")
     return 1 if failures else 0
 
 
-arguments = parse_arguments(every=60)
+arguments = parse_arguments(every=60, first=1, last=0)
 vinebench, shim, root = arguments.vinebench, arguments.shim, arguments.root
 sys.exit(main())

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What kill_test.py and fault_test.py share: a small scenario and programs that end early."""
 import argparse
+import itertools
 import os
 import pathlib
 import subprocess
@@ -39,6 +40,17 @@ renderer: {{engine: fake}}
 duration: 0.2
 """)
     return scenario
+
+
+def numbers(arguments: argparse.Namespace):
+    """Of the operations at which to end a program: --first, --first + --every, ... up to --last
+    (0: to the end). Says every hundred of them how far it is."""
+    for done, number in enumerate(itertools.count(arguments.first, arguments.every)):
+        if arguments.last and number > arguments.last:
+            return
+        if done % 100 == 99:
+            print(f"  operation {number}", flush=True)
+        yield number
 
 
 def run(command, *, shim=None, fault=None, folder=None):

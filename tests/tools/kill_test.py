@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Kills recordings and sets of them, at file operations and at random times, and expects that
 `check` says what there is and that `record --resume` gives the bytes of an uninterrupted one.
-Usage: kill_test.py VINEBENCH SHIM ROOT [--every K] [--times N] [--seed S]
+Usage: kill_test.py VINEBENCH SHIM ROOT [--every K] [--first A] [--last B] [--times N] [--seed S]
   --every K  at every K-th file operation (default: 160)
+  --first A, --last B  of the operations A to B of each recording (default: all)
   --times N  at N random times, half of them in a set (default: 6)
   --seed S   of these times (default: 1)"""
 import pathlib
@@ -15,7 +16,7 @@ import sys
 import tempfile
 import time
 
-from interruption import content, parse_arguments, run, write_scenario
+from interruption import content, numbers, parse_arguments, run, write_scenario
 
 FORMATS = "euroc,kitti,tum,dcvslam,rgb,depth,coco"
 INTERRUPTED = re.compile(r"INTERRUPTED, \d+ of \d+ (frames|sequences)")
@@ -93,11 +94,10 @@ def report(text):
     print("FAILED:", text, flush=True)
 
 
-def kill_at_operations(recording, every):
+def kill_at_operations(recording):
     """Also while the resumed recording removes what the first one left."""
-    kills = 0
-    number = 1
-    while True:
+    kills = last = 0
+    for number in numbers(arguments):
         recording.clear()
         at = recording.kill_at(number)
         if not at:
@@ -107,8 +107,8 @@ def kill_at_operations(recording, every):
         again = recording.kill_at(1 + number * 7 % 60, "--resume")
         kills += 1 if again else 0
         recording.expect(f"killed at operation {number}, {at}, and when resumed at {again}")
-        number += every
-    print(f"{recording.name}: {kills} kills at file operations, of {number - every} and more")
+        last = number
+    print(f"{recording.name}: {kills} kills at file operations up to number {last}", flush=True)
     return kills
 
 
@@ -118,7 +118,7 @@ def kill_at_times(recording, count, draw):
         seconds = draw.uniform(0, recording.seconds)
         recording.kill_after(seconds)
         recording.expect(f"killed after {seconds:.4f} s of {recording.seconds:.2f}")
-    print(f"{recording.name}: {count} kills at random times")
+    print(f"{recording.name}: {count} kills at random times", flush=True)
     return count
 
 
@@ -132,12 +132,12 @@ def main():
         sequence = Recording("sequence", usual, work)
         several = Recording("set", [*usual, "--seeds", "3..5", "--frames", "0..1"], work)
         for recording in (sequence, several):
-            kills += kill_at_operations(recording, arguments.every)
+            kills += kill_at_operations(recording)
             kills += kill_at_times(recording, (arguments.times + 1) // 2, draw)
     print(f"{kills} kills, {failures} failures")
     return 1 if failures else 0
 
 
-arguments = parse_arguments(every=160, times=6, seed=1)
+arguments = parse_arguments(every=160, first=1, last=0, times=6, seed=1)
 vinebench, shim, root = arguments.vinebench, arguments.shim, arguments.root
 sys.exit(main())
