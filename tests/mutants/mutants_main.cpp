@@ -13,12 +13,12 @@
 #include <cstdio>
 #include <exception>
 #include <map>
-#include <opencv2/core/utility.hpp>
 #include <set>
 #include <sstream>
 #include <thread>
 
 #include "tests/mutants/course.h"
+#include "tools/arithmetic.h"
 
 namespace vinebench::mutants {
 namespace {
@@ -169,7 +169,7 @@ int run(int argc, char** argv) {
 }  // namespace vinebench::mutants
 
 int main(int argc, char** argv) {
-  cv::setUseOptimized(false);  // as the program does
+  vinebench::tools::pin_arithmetic();  // its shaders must not be mixed with other programs'
   try {
     return vinebench::mutants::run(argc, argv);
   } catch (const std::exception& error) {
