@@ -42,7 +42,8 @@ TEST_F(RerunTest, GoesOnWithTheEstimatorThatItIsGiven) {
     slam->process(sample->frame);
     splice = {sample->frame.index + 1, sample->frame.stamp, sample->truth.path.back()};
   }
-  const Rerun rest = run_variant({scenario()}, splice, kFrames - 1, machine(), {.slam = slam.get()});
+  const Rerun rest =
+      run_variant({scenario()}, splice, kFrames - 1, machine(), {.slam = slam.get()});
   EXPECT_TRUE(rest.same_drive);
   ASSERT_EQ(rest.steps.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
