@@ -157,8 +157,8 @@ bool do_not_add_up(const AsItWas& was, const std::vector<Effect>& singles, const
   double metres = all.metres;
   double lost = all.lost;
   for (const Effect& single : singles) {
-    metres -= single.metres;
-    lost -= single.lost;
+    metres -= std::max(0.0, single.metres);
+    lost -= std::max(0.0, single.lost);
   }
   return (all.drift_is_caused && std::abs(metres) >= kLeastJoint * was.metres.typical()) ||
          (all.losses_are_caused && std::abs(lost) >= kLeastJoint * was.lost.typical());

@@ -97,7 +97,8 @@ Interaction interaction_of(const Effect& one, const Effect& other, const Effect&
 bool is_joint_cause(const AsItWas& was, const Effect& one, const Effect& other, const Effect& both);
 
 /// Whether the effect of all together is one beyond chance and the singles' sum misses it by 30 %
-/// of the drift or of the lost frames: pairs are then tried.
+/// of the drift or of the lost frames: pairs are then tried. What is worse without a factor counts
+/// as no effect of it.
 bool do_not_add_up(const AsItWas& was, const std::vector<Effect>& singles, const Effect& all);
 
 }  // namespace vinebench::harness

@@ -133,10 +133,11 @@ class Explainer {
     explanation.chance = as_it_was(explanation.as_it_was);
   }
 
-  std::vector<FactorEffect> effects(std::vector<Job>& jobs, StretchExplanation& explanation) {
+  std::vector<FactorEffect> effects(std::vector<Job>& jobs, StretchExplanation& explanation,
+                                    int rounds = kRounds) {
     std::vector<FactorEffect> list(jobs.size());
     add_reruns(jobs, explanation, list);
-    for (int round = 0; request_.repeats > 0 && round < kRounds; ++round) {
+    for (int round = 0; request_.repeats > 0 && round < rounds; ++round) {
       if (std::ranges::none_of(list, is_open)) break;
       if (std::ssize(explanation.as_it_was) <= request_.placebos + 1) add_placebos(explanation);
       repeat(jobs, explanation, list);
@@ -199,7 +200,7 @@ class Explainer {
         jobs.push_back(without({order[a], order[b]}));
       }
     }
-    explanation.pairs = effects(jobs, explanation);
+    explanation.pairs = effects(jobs, explanation, 1);
     judge(explanation, explanation.singles);
     for (FactorEffect& pair : explanation.pairs) {
       pair.interaction =

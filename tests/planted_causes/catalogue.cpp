@@ -104,14 +104,14 @@ void add_exposure_causes(std::vector<PlantedCause>& list) {
                     sim::CameraSensorConfig& sensor = camera(scenario);
                     sensor.exposure.time = draw.uniform(0.062, 0.066);
                     sensor.exposure.reference_time = sensor.exposure.time;
-                    sensor.blur_subframes = 4;
+                    sensor.blur_subframes = 3;
                   },
                   {},
                   {Cause::kMotionBlur}});
   list.push_back({"rolling-shutter",
                   [](ScenarioConfig& scenario, RandomSequence& draw) {
                     camera(scenario).readout_time = draw.uniform(0.05, 0.063);
-                    camera(scenario).readout_bands = 8;
+                    camera(scenario).readout_bands = 4;
                   },
                   {},
                   {Cause::kRollingShutter}});

@@ -149,6 +149,8 @@ TEST(EffectsTest, PairsAreCausesWhereSinglesAreNot) {
   EXPECT_FALSE(is_joint_cause(was, both, nothing, both));  // one alone does it
   const Effect half = effect_of(was, {drifted(0.0125)});
   EXPECT_FALSE(do_not_add_up(was, {half, half}, both));
+  const Effect worse = effect_of(was, {drifted(0.030)});
+  EXPECT_FALSE(do_not_add_up(was, {both, worse}, both));  // what is worse without it takes nothing
   EXPECT_NEAR(interaction_of(both, both, both).metres, -0.015, 1e-12);
 }
 
