@@ -275,9 +275,8 @@ Site site_of(const WorldConfig& world) {
     const Eigen::Vector2d centre = layout.occluders[i].translation.head<2>();
     const double yaw =
         occluder.path ? yaw_of(layout.occluders[i].rotation) / kRadiansPerDegree : occluder.yaw_deg;
-    site.objects.push_back(
-        {class_of(occluder), centre, size_of(occluder).head<2>(), yaw, colour_of(occluder),
-         occluder.path.has_value()});
+    site.objects.push_back({class_of(occluder), centre, size_of(occluder).head<2>(), yaw,
+                            colour_of(occluder), occluder.path.has_value()});
   }
   site.tags = world_tags(world);
   site.vine_spacing = world.vines.spacing;
