@@ -88,6 +88,7 @@ RunOutcome drive(const ScenarioConfig& scenario, const Machine& machine, int thr
 RunOutcome visit_earlier(const ScenarioConfig& scenario, const Machine& machine, int threads,
                          const RunOptions& options, const std::filesystem::path& map) {
   ScenarioConfig earlier = scenario;
+  earlier.name += " (earlier visit)";  // compared runs have names of their own
   earlier.earlier_visit.reset();
   earlier.simulation = simulation_of(*scenario.earlier_visit, scenario.simulation);
   earlier.expectations = earlier.goal = earlier.now = {};
@@ -96,7 +97,7 @@ RunOutcome visit_earlier(const ScenarioConfig& scenario, const Machine& machine,
   run.maps.save = map;
   run.progress = options.progress;
   run.terminal = options.terminal;
-  run.title = options.title + ", earlier visit";
+  run.title = earlier.name;
   run.stopped = options.stopped;
   std::optional<FolderLock> lock;
   if (!options.folder.empty()) {

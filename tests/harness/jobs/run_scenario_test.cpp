@@ -101,6 +101,7 @@ TEST_F(SecondVisitTest, ItsMapIsWhereTheRunBegins) {
   EXPECT_EQ(report.frames, kFrames);
   const Json earlier = Json::parse(read_file(options.folder / "earlier-visit/metrics.json"));
   EXPECT_EQ(earlier["frames"], 16);
+  EXPECT_EQ(earlier["scenario"], "court (earlier visit)");  // compare finds two runs
   EXPECT_TRUE(earlier["expectations"].empty());
   const RunReport alone = run_scenario(scenario(), machine(), 1, {}).report;
   EXPECT_EQ(alone.results.coverage, 1);
