@@ -2,9 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/config/yaml.h"
 
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/parser.h>
+
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <optional>
+#include <sstream>
 
 #include "core/files/files.h"
 #include "core/util/error.h"
@@ -108,18 +113,64 @@ void assign(YAML::Node node, const std::vector<std::string>& parts, std::size_t 
 
 }  // namespace
 
+namespace {
+
+/// Where the content of a document begins, without building it.
+class ContentMark : public YAML::EventHandler {
+ public:
+  const std::optional<YAML::Mark>& mark() const { return mark_; }
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { note(mark); }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                const std::string&) override {
+    note(mark);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    note(mark);
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    note(mark);
+  }
+  void OnMapEnd() override {}
+
+ private:
+  void note(const YAML::Mark& mark) {
+    if (!mark_) mark_ = mark;
+  }
+  std::optional<YAML::Mark> mark_;
+};
+
+/// Where a document after the first begins, if there is one with content. Looks at two more alone:
+/// yaml-cpp gives some broken texts as empty documents without end.
+std::optional<YAML::Mark> second_document(const std::string& text) {
+  constexpr int kMore = 2;
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  ContentMark first;
+  if (!parser.HandleNextDocument(first)) return std::nullopt;
+  for (int i = 0; i < kMore; ++i) {
+    ContentMark next;
+    if (!parser.HandleNextDocument(next)) return std::nullopt;
+    if (next.mark()) return next.mark();
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 YAML::Node load_yaml_tree(const std::filesystem::path& file) {
   const std::string text = read_file(file, FileKind::kYaml);
   try {
-    YAML::Node tree;
-    for (const YAML::Node& document : YAML::LoadAll(text)) {
-      if (document.IsNull()) continue;
-      if (!tree.IsNull()) {
-        fail("{}:{}: a second YAML document; expected one", file.string(),
-             document.Mark().line + 1);
-      }
-      TreeCheck(file.string()).check(document);
-      tree.reset(document);
+    YAML::Node tree = YAML::Load(text);
+    TreeCheck(file.string()).check(tree);
+    if (const auto mark = second_document(text)) {
+      fail("{}:{}: a second YAML document; expected one", file.string(), mark->line + 1);
     }
     return tree;
   } catch (const YAML::Exception& error) {

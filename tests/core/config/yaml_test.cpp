@@ -109,6 +109,11 @@ TEST_F(YamlTest, ASecondDocumentIsAnError) {
   EXPECT_THAT(error_of("---\na: [1\n...\n"), testing::HasSubstr("is not valid YAML"));
 }
 
+// yaml-cpp makes of this one empty document after another, without end.
+TEST_F(YamlTest, ALineThatBeginsWithACommaIsAnErrorSoon) {
+  EXPECT_THAT(error_of("\n, seed: 2}\ntags: [{id: 3, hr"), testing::HasSubstr("bad.yaml:"));
+}
+
 TEST_F(YamlTest, MissingFileIsNamed) {
   EXPECT_THAT([] { YamlDocument::load("/nowhere/x.yaml"); },
               testing::ThrowsMessage<Error>(testing::HasSubstr("/nowhere/x.yaml")));
