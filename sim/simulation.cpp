@@ -58,6 +58,9 @@ class Simulation : public SimulatedSource {
       sample.frame.index = index_;
       sample.frame.stamp = timing_.stamp(index_);
       drive(sample.frame);
+      if (index_ == 0) {
+        exposure_.meter([&](std::size_t camera) { return capture(camera, shot_of(camera)).rgb; });
+      }
       rover_.hand_out_path(sample.frame.stamp, sample.truth.path);
       const bool wanted = plan_.has_frame(index_);
       if (!wanted && !takes_all()) continue;
@@ -180,16 +183,16 @@ class Simulation : public SimulatedSource {
     }
   }
 
-  void render_camera(std::size_t camera, Sample& sample, std::vector<int>& visible) {
-    const bool reads_tags = std::ranges::count(rig_.tag_cameras, static_cast<int>(camera)) > 0;
+  Shot shot_of(std::size_t camera) const {
     Shot shot;
     shot.frame = index_;
     shot.instant = timing_.instant(index_, camera);
     shot.exposure = exposure_.of(camera);
-    const bool wants_labels = reads_tags || !occluders_.empty();
-    if (plan_.has_camera(camera)) ask_for_truth(shot.request);
-    shot.request.labels |= wants_labels;
-    RenderedImage image = cameras_[camera].capture(
+    return shot;
+  }
+
+  RenderedImage capture(std::size_t camera, const Shot& shot) {
+    return cameras_[camera].capture(
         shot, [&](Stamp stamp) { return rover_.T_world_body(stamp); },
         [&](const PinholeCamera& view, const Pose& T_world_cam, const RenderRequest& request) {
           RenderedImage drawn;
@@ -197,6 +200,15 @@ class Simulation : public SimulatedSource {
               [&](RenderEngine& engine) { drawn = engine.render(view, T_world_cam, request); });
           return drawn;
         });
+  }
+
+  void render_camera(std::size_t camera, Sample& sample, std::vector<int>& visible) {
+    const bool reads_tags = std::ranges::count(rig_.tag_cameras, static_cast<int>(camera)) > 0;
+    Shot shot = shot_of(camera);
+    const bool wants_labels = reads_tags || !occluders_.empty();
+    if (plan_.has_camera(camera)) ask_for_truth(shot.request);
+    shot.request.labels |= wants_labels;
+    RenderedImage image = capture(camera, shot);
     if (wants_labels) {
       sample.truth.occlusion[camera] = occlusion_in(image.labels, occluders_);
     }

@@ -52,7 +52,10 @@ void add_occluders(std::vector<Factor>& list) {
 void brighten(sim::ExposureConfig& exposure) {
   exposure.automatic = false;
   exposure.gain_db = 0;
-  exposure.reference_time = exposure.time;  // blur stays
+  if (!exposure.time) return;
+  // Right for that time, so that blur stays.
+  exposure.reference_time =
+      *exposure.time * sim::ExposureConfig().reference_time / sim::kNominalTime;
 }
 
 void raise_sun(sim::WorldConfig& world) {

@@ -120,9 +120,12 @@ void render_view(const ViewRequest& request) {
   const Pose T_world_cam = parse_view(request.pose) * camera.T_body_cam;
   const sim::Scene scene = scene_of(request, world);
   const auto renderer = sim::make_render_engine(scene, renderer_config(request));
-  const TruthView view{camera.model, T_world_cam,
-                       sim::render_with_glare(*renderer, scene.light, camera.model, T_world_cam,
-                                              request_of(request))};
+  sim::RenderRequest drawn = request_of(request);
+  drawn.exposure =
+      metered_exposure(*renderer, scene.light, camera.model, T_world_cam, drawn.T_world_rover);
+  const TruthView view{
+      camera.model, T_world_cam,
+      sim::render_with_glare(*renderer, scene.light, camera.model, T_world_cam, drawn)};
   write_images(request, view.image);
   write_warps(request, *renderer, view, camera);
 }

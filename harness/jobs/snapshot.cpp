@@ -12,6 +12,7 @@
 #include "core/util/error.h"
 #include "harness/datasets/labels/label_table.h"
 #include "sim/render/factory/make_render_engine.h"
+#include "sim/sensors/camera/exposure.h"
 #include "sim/sensors/effects/glare.h"
 #include "sim/world/world_layout.h"
 
@@ -70,6 +71,17 @@ cv::Mat colour_labels(const cv::Mat& labels) {
   return colours;
 }
 
+double metered_exposure(sim::RenderEngine& renderer, const sim::Light& light,
+                        const PinholeCamera& camera, const Pose& T_world_cam,
+                        const std::optional<Pose>& T_world_rover) {
+  return sim::metered_factor([&](double factor) {
+    sim::RenderRequest request;
+    request.exposure = factor;
+    request.T_world_rover = T_world_rover;
+    return sim::render_with_glare(renderer, light, camera, T_world_cam, request).rgb;
+  });
+}
+
 cv::Mat turntable(const sim::WorldConfig& world, std::uint64_t seed, const PinholeCamera& camera,
                   const sim::RendererConfig& config, const CacheFolder& plant_cache) {
   constexpr int kViews = 8;
@@ -80,6 +92,7 @@ cv::Mat turntable(const sim::WorldConfig& world, std::uint64_t seed, const Pinho
   const double distance = 1.5 + 0.75 * box.diagonal().norm();
   const sim::Scene scene = sim::build_scene(world, seed, plant_cache);
   const auto renderer = sim::make_render_engine(scene, config);
+  sim::RenderRequest request;
   cv::Mat sheet(camera.height * (kViews / kColumns), camera.width * kColumns, CV_8UC3);
   for (int i = 0; i < kViews; ++i) {
     const double yaw = (i + 0.5) * 2 * std::numbers::pi / kViews;
@@ -90,7 +103,11 @@ cv::Mat turntable(const sim::WorldConfig& world, std::uint64_t seed, const Pinho
                    {0, kPitchDown, yaw});
     const cv::Rect place((i % kColumns) * camera.width, (i / kColumns) * camera.height,
                          camera.width, camera.height);
-    sim::render_with_glare(*renderer, scene.light, camera, T_world_cam, {})
+    if (i == 0) {
+      request.exposure =
+          metered_exposure(*renderer, scene.light, camera, T_world_cam, std::nullopt);
+    }
+    sim::render_with_glare(*renderer, scene.light, camera, T_world_cam, request)
         .rgb.copyTo(sheet(place));
   }
   return sheet;

@@ -5,12 +5,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/geometry/camera.h"
 #include "harness/experiment/scenario.h"
+#include "sim/render/render_engine.h"
 #include "sim/render/renderer_config.h"
+#include "sim/scene/scene.h"
 #include "sim/world/world.h"
 
 namespace vinebench::harness {
@@ -25,6 +28,11 @@ Pose parse_view(const std::string& text);
 
 /// Labels (CV_8UC1 of Label) in colours for the camera, CV_8UC3.
 cv::Mat colour_labels(const cv::Mat& labels);
+
+/// The exposure at which that view has the brightness that cameras steer to (sim/sensors).
+double metered_exposure(sim::RenderEngine& renderer, const sim::Light& light,
+                        const PinholeCamera& camera, const Pose& T_world_cam,
+                        const std::optional<Pose>& T_world_rover);
 
 /// A contact sheet of eight views of a world from all sides, from above eye level.
 cv::Mat turntable(const sim::WorldConfig& world, std::uint64_t seed, const PinholeCamera& camera,

@@ -129,23 +129,23 @@ class Photographer {
     sim::ExposureControl control(exposure, rig);
     sim::CameraSensor sensor(request_.simulation.sensors.camera, rig.cameras.front(), 0,
                              request_.seed, light_);
-    cv::Mat rgb;
-    for (int i = 0; i < (exposure.automatic ? kExposures : 1); ++i) {
+    const auto look = [&](std::size_t) {
       sim::Shot shot;
       shot.frame = index;
       shot.instant = stamp_of_frame(index, rig.rate_hz);
       shot.exposure = control.of(0);
-      rgb = sensor
-                .capture(
-                    shot, [&](Stamp) { return view.T_world_cam; },
-                    [&](const PinholeCamera& camera, const Pose& T_world_cam,
-                        const sim::RenderRequest& request) {
-                      return engine_->render(camera, T_world_cam, request);
-                    })
-                .rgb;
-      control.observe({rgb});
-    }
-    return rgb;
+      return sensor
+          .capture(
+              shot, [&](Stamp) { return view.T_world_cam; },
+              [&](const PinholeCamera& camera, const Pose& T_world_cam,
+                  const sim::RenderRequest& request) {
+                return engine_->render(camera, T_world_cam, request);
+              })
+          .rgb;
+    };
+    control.meter(look);
+    for (int i = 0; exposure.automatic && i < kExposures; ++i) control.observe({look(0)});
+    return look(0);
   }
 
  private:

@@ -146,6 +146,15 @@ void compute_normals(Primitive& primitive) {
   for (Vertex& vertex : primitive.vertices) vertex.normal.stableNormalize();
 }
 
+Eigen::Vector3f linear_colour(const std::array<std::uint8_t, 3>& vertex_colour) {
+  Eigen::Vector3f linear;
+  for (int i = 0; i < 3; ++i) {
+    linear[i] =
+        std::pow(static_cast<float>(vertex_colour.at(static_cast<std::size_t>(i))) / 255.0f, 2.2f);
+  }
+  return linear;
+}
+
 std::array<std::uint8_t, 3> vertex_colour(const Eigen::Vector3f& linear) {
   std::array<std::uint8_t, 3> bytes{};
   for (int i = 0; i < 3; ++i) {

@@ -45,6 +45,7 @@ cv::Mat decode_image(std::string_view bytes, const std::string& where);
 
 /// Vertex::colour of linear RGB, 0 to 1.
 std::array<std::uint8_t, 3> vertex_colour(const Eigen::Vector3f& linear);
+Eigen::Vector3f linear_colour(const std::array<std::uint8_t, 3>& vertex_colour);
 
 /// Normals from the triangles around each vertex, weighted by their areas.
 void compute_normals(Primitive& primitive);

@@ -117,6 +117,7 @@ class GltfWriter {
         Value(Value::Object{{kLabel, Value(std::string(name_of(material.label)))},
                             {kTranslucency, Value(static_cast<double>(material.translucency))}});
     model_.materials.push_back(out);
+    has_colours_.push_back(material.vertex_colours);
   }
 
   tinygltf::Primitive part(const Primitive& primitive) {
@@ -141,12 +142,24 @@ class GltfWriter {
     out.attributes[kOcclusion] = attribute(offsetof(PackedVertex, occlusion), TINYGLTF_TYPE_SCALAR);
     out.attributes[kPart] = attribute(offsetof(PackedVertex, part), TINYGLTF_TYPE_SCALAR,
                                       TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE);
+    if (has_colours_.at(static_cast<std::size_t>(primitive.material))) add_colours(primitive, out);
     const std::vector<std::uint32_t>& indices = primitive.indices;
     const int list = add_view(indices.data(), indices.size() * sizeof(std::uint32_t),
                               TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
     out.indices = add_accessor(list, 0, indices.size(), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
                                TINYGLTF_TYPE_SCALAR);
     return out;
+  }
+
+  /// As linear light in floats, of which the reader makes the same bytes.
+  void add_colours(const Primitive& primitive, tinygltf::Primitive& out) {
+    std::vector<Eigen::Vector3f> colours;
+    colours.reserve(primitive.vertices.size());
+    for (const Vertex& vertex : primitive.vertices) colours.push_back(linear_colour(vertex.colour));
+    const int view = add_view(colours.data(), colours.size() * sizeof(Eigen::Vector3f),
+                              TINYGLTF_TARGET_ARRAY_BUFFER);
+    out.attributes["COLOR_0"] =
+        add_accessor(view, 0, colours.size(), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
   }
 
   void add(const Model& model) {
@@ -175,6 +188,7 @@ class GltfWriter {
   }
 
   tinygltf::Model model_;
+  std::vector<bool> has_colours_;  ///< materials whose vertices have colours
 };
 
 }  // namespace

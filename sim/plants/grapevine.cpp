@@ -178,12 +178,25 @@ class Grower {
     const Vector3f midrib = 0.5f * out + Vector3f(normal(0.45f), 0, -uniform(0.5f, 1.0f));
     const Axes axes = axes_along(face, midrib);
     leaf.axes = {-axes.y, axes.x, axes.z};
-    leaf.cell = leaf_cell(variant(node, lateral));
+    leaf.cell = leaf_cell(variant(node, lateral), random_.below(kLeafPrints));
+    if (random_.below(2) == 0) std::swap(leaf.cell.from.x(), leaf.cell.to.x());  // mirrored
+    leaf.tint = own_colour();
     keep_within_canopy(leaf);
     const float outward = leaf.foot.y() / plant_.half_depth;
     leaf.shading_normal = 0.55f * Vector3f(0, outward, 0.45f).normalized();
     plant_.petioles.push_back({node.at, leaf.foot, lateral ? 0.0011f : 0.0016f});
     plant_.leaves.push_back(leaf);
+  }
+
+  /// No two leaves are of one green: some are brighter, some more yellow.
+  std::array<std::uint8_t, 3> own_colour() {
+    const float light = std::clamp(0.80f + normal(0.10f), 0.5f, 0.95f);
+    const float yellow = std::clamp(normal(0.6f), -1.0f, 1.5f);
+    const auto byte = [](float share) {
+      return static_cast<std::uint8_t>(255 * std::clamp(share, 0.0f, 1.0f));
+    };
+    return {byte(light * (1 + 0.10f * yellow)), byte(light * (1 + 0.03f * yellow)),
+            byte(light * (1 - 0.14f * yellow))};
   }
 
   /// Which of the atlas' leaves: 0 to 3 in their prime, 4 and 5 old, 6 young, 7 turned.

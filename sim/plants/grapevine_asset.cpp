@@ -10,20 +10,26 @@ namespace {
 
 constexpr std::array<MeshDetail, 3> kNear{{{0.5, 11000, 9, 4, 1, true, 2, true},
                                            {1.15, 4600, 7, 3, 1, false, 1, false},
-                                           {3.3, 2500, 5, 3, 2, false, 0, false}}};
+                                           {3.3, 2500, 5, 3, 2, false, kLeafCards, false}}};
 
 std::vector<Material> plant_materials() {
   std::vector<Material> materials(kPlantMaterials);
   materials[kTrunkMaterial] = make_material("bark", Label::kTrunk, kBarkTexture);
   materials[kCaneMaterial] = make_material("cane", Label::kCane, kCaneTexture);
   materials[kBunchMaterial] = make_material("bunch", Label::kBunch, kBunchTexture);
+  materials[kBunchMaterial].translucency = 0.25f;
   Material& leaf = materials[kLeafMaterial] = make_material("leaf", Label::kLeaf, kLeafTexture);
   leaf.double_sided = true;
   leaf.translucency = 0.35f;
+  leaf.vertex_colours = true;
   Material& foliage = materials[kFoliageMaterial] = leaf;
   foliage.name = "foliage";
   foliage.texture = kFoliageTexture;
   foliage.cutout = true;
+  foliage.vertex_colours = false;
+  Material& card = materials[kLeafCardMaterial] = leaf;
+  card.name = "leaf card";
+  card.cutout = true;
   Material& shelter = materials[kShelterMaterial] = make_material("grow tube", Label::kTrunk, -1);
   shelter.colour = {0.42f, 0.52f, 0.30f};
   shelter.double_sided = true;

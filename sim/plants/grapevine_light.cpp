@@ -47,7 +47,7 @@ float CanopyLight::at(const Vector3f& point) const {
     light += share * std::exp(-0.5f * leaf_area_along(point, direction));
     weight += share;
   }
-  return std::clamp(0.12f + 0.88f * light / weight, 0.0f, 1.0f);
+  return std::clamp(0.06f + 0.94f * light / weight, 0.0f, 1.0f);
 }
 
 const float* CanopyLight::find(const Vector3f& point) const {

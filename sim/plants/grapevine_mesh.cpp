@@ -89,8 +89,12 @@ void add_shoots(Parts& parts, const Grapevine& plant, const MeshDetail& detail) 
 }
 
 void add_leaves(Parts& parts, const Grapevine& plant, int detail) {
-  MeshBuilder builder(parts.at(kLeafMaterial));
+  MeshBuilder builder(parts.at(detail == kLeafCards ? kLeafCardMaterial : kLeafMaterial));
   for (const BladePlacement& leaf : plant.leaves) {
+    if (detail == kLeafCards) {
+      builder.card(leaf);
+      continue;
+    }
     builder.blade(leaf, leaf.size < kSmallLeaf ? std::min(detail, 1) : detail);
   }
 }

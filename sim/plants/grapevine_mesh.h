@@ -18,9 +18,13 @@ enum PlantMaterial {
   kLeafMaterial,
   kBunchMaterial,
   kFoliageMaterial,
+  kLeafCardMaterial,
   kShelterMaterial,
   kPlantMaterials
 };
+
+/// Leaves as folded squares with the image of a leaf: their outline has its teeth.
+inline constexpr int kLeafCards = -1;
 
 /// Level of detail of a near plant.
 struct MeshDetail {
@@ -30,7 +34,7 @@ struct MeshDetail {
   int cane_sides;
   int stride;   ///< points of a path from one ring to the next
   bool stalks;  ///< petioles, tendrils, stalks of bunches
-  int leaf;     ///< detail of a blade's outline
+  int leaf;     ///< detail of a blade's outline; kLeafCards for cut-out leaves
   bool fine_berries;
 };
 

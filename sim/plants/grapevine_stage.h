@@ -25,4 +25,7 @@ struct GrowthStage {
 /// Stages 0, 9, 65, 75, 83, 89 and 95. Throws Error that names them for any other.
 const GrowthStage& growth_stage(int bbch);
 
+/// Share of the ground's green that has dried or died back at that stage, 0 to 1.
+double withered_share(int bbch);
+
 }  // namespace vinebench::sim

@@ -3,6 +3,7 @@
 #include "sim/plants/plant_painter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
@@ -30,6 +31,7 @@ struct Sample {
 struct Projected {
   float x, y, depth, light, occlusion;
   Eigen::Vector2f uv;
+  std::array<std::uint8_t, 3> tint;
 };
 
 class Canvas {
@@ -71,7 +73,8 @@ class Canvas {
             v.position.dot(window_.towards),
             light_on(v.normal, window_.towards, v.occlusion),
             v.occlusion,
-            v.uv};
+            v.uv,
+            v.colour};
   }
 
   void triangle(const Projected& a, const Projected& b, const Projected& c,
@@ -108,6 +111,9 @@ class Canvas {
       return std::clamp(static_cast<int>((t - std::floor(t)) * static_cast<float>(n)), 0, n - 1);
     };
     s.colour = texture.at<cv::Vec3b>(texel(uv.y(), texture.rows), texel(uv.x(), texture.cols));
+    for (int i = 0; i < 3; ++i) {
+      s.colour[i] = static_cast<std::uint8_t>(s.colour[i] * a.tint.at(i) / 255);  // as shaders do
+    }
   }
 
   /// Means of light and occlusion over all visible pixels.

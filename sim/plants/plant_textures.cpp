@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/plants/plant_textures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
 
 #include "sim/textures/textures.h"
@@ -14,8 +17,9 @@ namespace vinebench::sim {
 namespace {
 
 constexpr int kLeafPixels = 256;
-constexpr int kPaintScale = 2;  // leaves are painted larger and averaged down
-constexpr int kBunchPixels = 128;
+constexpr int kLeafColumns = 8;  // cells of the atlas
+constexpr int kPaintScale = 2;   // leaves are painted larger and averaged down
+constexpr int kBunchPixels = 256;
 
 /// Point of a blade (in sizes) to pixels of a square image.
 cv::Point2f leaf_pixel(const Eigen::Vector2f& p, int side) {
@@ -55,19 +59,26 @@ void draw_vein(cv::Mat& veins, const Eigen::Vector2f& from, const Eigen::Vector2
 }
 
 /// 1 on a vein, 0 between: five from the foot into the lobes, with side veins.
-cv::Mat leaf_veins(int side) {
+cv::Mat leaf_veins(int side, RandomSequence& random) {
   cv::Mat veins8(side, side, CV_8UC1, cv::Scalar(0));
   cv::Mat veins(side, side, CV_32F, cv::Scalar(0));
   const std::array<std::pair<float, float>, 5> lobes{
       {{0, 1.0f}, {60, 0.84f}, {-60, 0.84f}, {128, 0.6f}, {-128, 0.6f}}};
-  for (const auto& [degrees, length] : lobes) {
-    const float angle = (90 + degrees) * std::numbers::pi_v<float> / 180;
+  const auto about = [&](float value, double sigma) {
+    return value * static_cast<float>(1 + random.normal(0, sigma));
+  };
+  for (const auto& [degrees, full] : lobes) {
+    const float length = about(full, 0.05);
+    const float bent = degrees + static_cast<float>(random.normal(0, 5));
+    const float angle = (90 + bent) * std::numbers::pi_v<float> / 180;
     const Eigen::Vector2f along(std::cos(angle), std::sin(angle));
     const Eigen::Vector2f across(-along.y(), along.x());
     draw_vein(veins, Eigen::Vector2f::Zero(), length * along, side / 85);
-    for (int i = 1; i <= 5; ++i) {
-      const float at = length * i / 6.5f, reach = 0.42f * (length - at) + 0.04f;
+    const int side_veins = 4 + random.below(3);
+    for (int i = 1; i <= side_veins; ++i) {
       for (const float s : {-1.0f, 1.0f}) {
+        const float at = about(length * i / (side_veins + 1.5f), 0.06);
+        const float reach = 0.42f * (length - at) + 0.04f;
         draw_vein(veins, at * along, (at + 0.75f * reach) * along + s * reach * across, side / 256);
       }
     }
@@ -125,22 +136,46 @@ LeafColours leaf_colours(const Cultivar::Leaf& look, const LeafAge& age) {
           0.85f * autumn + 0.15f * withered, age.edge_share};
 }
 
-cv::Mat paint_leaf(std::uint64_t seed, int variant, const Cultivar::Leaf& look,
+/// Light on the blade: its halves are folded, its surface is blistered between the veins.
+cv::Mat leaf_relief(int side, RandomSequence& random, std::uint64_t seed, const std::string& name) {
+  const double fold = random.normal(0, 0.14), lengthwise = random.normal(0, 0.10);
+  cv::Mat light = 0.45 * (fractal_noise({side, side}, {24, 24}, 4, 0.8, seed, name) - 0.5) + 1;
+  for (int y = 0; y < side; ++y) {
+    const double along = 1 - 2.0 * y / side;
+    for (int x = 0; x < side; ++x) {
+      const double across = (2.0 * x / side - 1) * 6;
+      const double half = across / (1 + std::abs(across));
+      light.at<float>(y, x) += static_cast<float>(fold * half + lengthwise * along);
+    }
+  }
+  return light;
+}
+
+cv::Mat lit(const cv::Mat& rgb, const cv::Mat& light) {
+  cv::Mat out = rgb.clone();
+  for (int y = 0; y < out.rows; ++y) {
+    for (int x = 0; x < out.cols; ++x) out.at<cv::Vec3f>(y, x) *= light.at<float>(y, x);
+  }
+  return out;
+}
+
+cv::Mat paint_leaf(std::uint64_t seed, int variant, int print, const Cultivar::Leaf& look,
                    const LeafColours& colours) {
   const int side = kLeafPixels * kPaintScale;
-  RandomSequence random(RandomStream(seed, "leaf", variant));
-  const std::string name = "leaf" + std::to_string(variant);
+  RandomSequence random(RandomStream(seed, "leaf", variant * kLeafPrints + print));
+  const std::string name = fmt::format("leaf {} {}", variant, print);
   const cv::Mat mottle = fractal_noise({side, side}, {5, 5}, 6, 0.62, seed, name);
   cv::Mat rgb = blend(mottle, colours.dark, colours.light);
+  rgb = lit(rgb, leaf_relief(side, random, seed, name + " relief"));
   const cv::Mat alpha = leaf_alpha(side, look, random);
   cv::Mat inside, rim;
   cv::distanceTransform(alpha > 127, inside, cv::DIST_L2, 3);
   cv::Mat turned = 1.6 * colours.edge_share - inside / (0.16 * side) + (mottle - 0.5) * 1.2;
   turned = cv::min(cv::max(turned, 0.0f), 1.0f);
   rgb = mix(turned, rgb, cv::Mat(rgb.size(), CV_32FC3, cv::Scalar(colours.edge)));
-  const cv::Mat vein = 0.5 * leaf_veins(side);
+  const cv::Mat vein = 0.6 * leaf_veins(side, random);
   rgb = mix(vein, rgb, cv::Mat(rgb.size(), CV_32FC3, cv::Scalar(colours.vein)));
-  const int spots = 2 + random.below(6);
+  const int spots = 4 + random.below(16);
   for (int i = 0; i < spots; ++i) {
     const cv::Point2d at(random.uniform(0.2, 0.8) * side, random.uniform(0.1, 0.8) * side);
     const cv::Scalar brown(random.uniform(60, 110), random.uniform(50, 70), random.uniform(20, 35));
@@ -151,9 +186,16 @@ cv::Mat paint_leaf(std::uint64_t seed, int variant, const Cultivar::Leaf& look,
   return small;
 }
 
+/// Skin below its bloom, a pale wax that hides most of a dark colour.
+cv::Vec3f waxed(const cv::Vec3f& skin) {
+  const float dark = 1 - std::max({skin[0], skin[1], skin[2]}) / 255;
+  const float wax = 0.10f + 0.30f * dark;
+  return skin + wax * (cv::Vec3f(158, 162, 170) - skin);
+}
+
 /// Colour of a berry at ripeness `ripe`, 0 to 1; pink in between.
 cv::Vec3f berry_colour(const Cultivar::Berry& look, float ripe) {
-  const cv::Vec3f green = bytes(look.green), full = bytes(look.ripe);
+  const cv::Vec3f green = waxed(bytes(look.green)), full = waxed(bytes(look.ripe));
   const bool red = look.ripe.y() < look.green.y() - 0.15;
   const cv::Vec3f middle = red ? cv::Vec3f(150, 92, 104) : 0.5f * (green + full);
   return ripe < 0.5f ? green + 2 * ripe * (middle - green)
@@ -174,10 +216,10 @@ std::array<cv::Vec3f, kBerryVariants> berry_colours(const Cultivar& cultivar,
   return colours;
 }
 
-/// One berry on an image: darker towards its rim because of its neighbours.
+/// One berry on an image: darker towards its rim because of its neighbours, the sky's sheen above.
 void paint_berry(cv::Mat& rgb, const cv::Point2d& at, const cv::Size2d& radius,
                  const cv::Vec3f& skin, double rim) {
-  constexpr int kRings = 8;
+  constexpr int kRings = 14;
   for (int i = 0; i < kRings; ++i) {
     const double out = 1 - static_cast<double>(i) / kRings;
     const cv::Size axes(cvRound(radius.width * out * 16), cvRound(radius.height * out * 16));
@@ -185,28 +227,42 @@ void paint_berry(cv::Mat& rgb, const cv::Point2d& at, const cv::Size2d& radius,
     const cv::Point2d lifted = at - cv::Point2d(0, 0.12 * radius.height * (1 - out));
     cv::ellipse(rgb, fixed(lifted), axes, 0, 0, 360, shade, cv::FILLED, cv::LINE_AA, 4);
   }
+  constexpr int kSheen = 5;
+  for (int i = 1; i <= kSheen; ++i) {
+    const double out = 0.34 * (1 - static_cast<double>(i - 1) / kSheen);
+    const cv::Size axes(cvRound(radius.width * out * 16), cvRound(radius.height * out * 16));
+    const cv::Vec3f sky(222, 228, 238);
+    const cv::Vec3f bright = 1.2f * skin + 0.09f * static_cast<float>(i) * (sky - skin);
+    const cv::Point2d above = at - cv::Point2d(0.2 * radius.width, 0.36 * radius.height);
+    cv::ellipse(rgb, fixed(above), axes, 0, 0, 360, cv::Scalar(bright), cv::FILLED, cv::LINE_AA, 4);
+  }
 }
 
 /// Packed berries, seamless around the bunch.
 cv::Mat paint_packed(std::uint64_t seed, const Cultivar& cultivar, const GrowthStage& stage) {
   const auto colours = berry_colours(cultivar, stage);
   const int side = kBunchPixels;
-  cv::Mat rgb(side, side, CV_32FC3, cv::Scalar(0.22f * colours[1]));
+  cv::Mat rgb(side, side, CV_32FC3, cv::Scalar(0.42f * colours[1]));
   const double berry = cultivar.berry.diameter * std::max(0.2f, stage.berry);
   const auto width = cultivar.bunch.width * static_cast<double>(stage.bunch_width());
   const int columns = std::clamp(cvRound(2.6 * width / berry), 5, 24);
   const int rows = std::clamp(cvRound(1.15 * cultivar.bunch.length * stage.bunch / berry), 4, 40);
   const cv::Size2d step(static_cast<double>(side) / columns, static_cast<double>(side) / rows);
   RandomSequence random(RandomStream(seed, "bunch"));
-  for (int i = 0; i < columns * rows; ++i) {
+  std::vector<int> order(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  std::iota(order.begin(), order.end(), 0);
+  for (std::size_t i = order.size(); i > 1; --i) {  // some lie before others, on all sides
+    std::swap(order[i - 1], order[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+  }
+  for (const int i : order) {
     const double shift = 0.5 * (i / columns % 2);
-    const cv::Point2d at((i % columns + shift + random.uniform(-0.15, 0.15)) * step.width,
-                         (i / columns + 0.5 + random.uniform(-0.15, 0.15)) * step.height);
-    const double size = random.uniform(0.50, 0.60);
-    const cv::Vec3f skin = static_cast<float>(random.uniform(0.8, 1.05)) *
+    const cv::Point2d at((i % columns + shift + random.uniform(-0.22, 0.22)) * step.width,
+                         (i / columns + 0.5 + random.uniform(-0.22, 0.22)) * step.height);
+    const double size = random.uniform(0.50, 0.68);
+    const cv::Vec3f skin = static_cast<float>(random.uniform(0.82, 1.1)) *
                            colours.at(static_cast<std::size_t>(random.below(kBerryVariants)));
     for (const double wrap : {-1.0, 0.0, 1.0}) {
-      paint_berry(rgb, at + cv::Point2d(wrap * side, 0), step * size, skin, 0.42);
+      paint_berry(rgb, at + cv::Point2d(wrap * side, 0), step * size, skin, 0.66);
     }
   }
   return rgb;
@@ -222,17 +278,23 @@ TextureCell atlas_cell(int index, int columns, int rows, float rim) {
 }  // namespace
 
 Texture leaf_texture(std::uint64_t seed, const Cultivar& cultivar, const GrowthStage& stage) {
-  Texture texture{"leaf", cv::Mat(2 * kLeafPixels, 4 * kLeafPixels, CV_8UC4), false};
-  for (int i = 0; i < kLeafVariants; ++i) {
-    const LeafAge& age = (stage.autumn > 0.5f ? kAutumn : kSummer).at(static_cast<std::size_t>(i));
-    const cv::Rect cell((i % 4) * kLeafPixels, (i / 4) * kLeafPixels, kLeafPixels, kLeafPixels);
-    paint_leaf(seed, i, cultivar.leaf, leaf_colours(cultivar.leaf, age)).copyTo(texture.rgba(cell));
+  constexpr int kRows = kLeafVariants * kLeafPrints / kLeafColumns;
+  Texture texture{"leaf", cv::Mat(kRows * kLeafPixels, kLeafColumns * kLeafPixels, CV_8UC4), false};
+  for (int i = 0; i < kLeafVariants * kLeafPrints; ++i) {
+    const int variant = i / kLeafPrints;
+    const LeafAge& age =
+        (stage.autumn > 0.5f ? kAutumn : kSummer).at(static_cast<std::size_t>(variant));
+    const cv::Rect cell((i % kLeafColumns) * kLeafPixels, (i / kLeafColumns) * kLeafPixels,
+                        kLeafPixels, kLeafPixels);
+    paint_leaf(seed, variant, i % kLeafPrints, cultivar.leaf, leaf_colours(cultivar.leaf, age))
+        .copyTo(texture.rgba(cell));
   }
   return texture;
 }
 
-TextureCell leaf_cell(int variant) {
-  return atlas_cell(variant, 4, 2, 0.5f / kLeafPixels);
+TextureCell leaf_cell(int variant, int print) {
+  constexpr int kRows = kLeafVariants * kLeafPrints / kLeafColumns;
+  return atlas_cell(variant * kLeafPrints + print, kLeafColumns, kRows, 0.5f / kLeafPixels);
 }
 
 Texture bark_texture(std::uint64_t seed) {
@@ -269,10 +331,10 @@ Texture bunch_texture(std::uint64_t seed, const Cultivar& cultivar, const Growth
     const cv::Vec3f& skin = colours.at(static_cast<std::size_t>(i));
     of_berry.setTo(cv::Scalar(0.5f * skin));
     const double middle = 0.5 * (cell - 1);
-    paint_berry(of_berry, {middle, middle}, {0.5 * cell, 0.5 * cell}, skin, 0.5);
+    paint_berry(of_berry, {middle, middle}, {0.5 * cell, 0.5 * cell}, skin, 0.74);
     // The bloom (a whitish wax) is partly rubbed off.
     const cv::Mat bloom =
-        0.28 * fractal_noise({cell, cell}, {3, 3}, 5, 0.6, seed, "berry" + std::to_string(i));
+        0.40 * fractal_noise({cell, cell}, {3, 3}, 5, 0.6, seed, "berry" + std::to_string(i));
     const cv::Mat wax(of_berry.size(), CV_32FC3, cv::Scalar(0.55f * skin + cv::Vec3f(72, 74, 80)));
     mix(bloom, of_berry, wax).copyTo(of_berry);
   }

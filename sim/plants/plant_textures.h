@@ -18,12 +18,14 @@ namespace vinebench::sim {
 std::vector<Texture> plant_textures(const Cultivar& cultivar, const GrowthStage& stage,
                                     std::uint64_t seed);
 
-/// Atlas of eight vine leaves, transparent outside the blade: 0 to 3 mature, 4 and 5 old, 6 young,
-/// 7 with autumn colour; at leaf fall 4 to 7 are yellow to brown.
+/// Atlas of eight kinds of vine leaves, each with kLeafPrints prints of its veins and blotches,
+/// transparent outside the blade: 0 to 3 mature, 4 and 5 old, 6 young, 7 with autumn colour; at
+/// leaf fall 4 to 7 are yellow to brown.
 Texture leaf_texture(std::uint64_t seed, const Cultivar& cultivar = {},
                      const GrowthStage& stage = {});
 inline constexpr int kLeafVariants = 8;
-TextureCell leaf_cell(int variant);
+inline constexpr int kLeafPrints = 4;
+TextureCell leaf_cell(int variant, int print);
 
 Texture bark_texture(std::uint64_t seed);
 

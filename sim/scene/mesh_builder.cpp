@@ -181,7 +181,9 @@ void MeshBuilder::blade(const BladePlacement& blade, int detail) {
     const Eigen::Vector3f normal = (own.normalized() + blade.shading_normal).normalized();
     const float u = std::clamp((p.x() + kLeafHalf) / (2 * kLeafHalf), 0.0f, 1.0f);
     const float v = std::clamp(1 - (p.y() - kLeafBottom) / (2 * kLeafHalf), 0.0f, 1.0f);
-    return vertex(at, normal, blade.cell.at(u, v));
+    const std::uint32_t added = vertex(at, normal, blade.cell.at(u, v));
+    primitive_.vertices[added].colour = blade.tint;
+    return added;
   };
   std::vector<std::uint32_t> rim;
   for (const Eigen::Vector2f& p : leaf_outline(detail, blade.lobes)) rim.push_back(add(p));
@@ -194,16 +196,23 @@ void MeshBuilder::blade(const BladePlacement& blade, int detail) {
   curved(rim, foot, {add(ray(-62, 0.46f)), add(ray(0, 0.52f)), add(ray(62, 0.46f))});
 }
 
+/// Folded along the midrib, both halves hanging.
 void MeshBuilder::card(const BladePlacement& blade) {
-  const Eigen::Vector3f normal = (blade.axes.z + blade.shading_normal).normalized();
-  const auto add = [&](float u, float v) {
+  const auto add = [&](float u, float v, float fold) {
     const float across = (2 * u - 1) * kLeafHalf;
     const float along = kLeafBottom + (1 - v) * 2 * kLeafHalf;
-    return vertex(blade.foot + blade.size * (across * blade.axes.x + along * blade.axes.y), normal,
-                  blade.cell.at(u, v));
+    const float sag = -blade.curl * (across * across + along * along) + 0.25f * std::abs(across);
+    const Eigen::Vector3f own = blade.axes.z - fold * blade.axes.x;
+    const std::uint32_t added =
+        vertex(blade.foot +
+                   blade.size * (across * blade.axes.x + along * blade.axes.y + sag * blade.axes.z),
+               (own.normalized() + blade.shading_normal).normalized(), blade.cell.at(u, v));
+    primitive_.vertices[added].colour = blade.tint;
+    return added;
   };
-  const std::uint32_t a = add(0, 1), b = add(1, 1), c = add(1, 0), d = add(0, 0);
-  quad(a, b, c, d);
+  const std::uint32_t foot = add(0.5f, 1, 0), tip = add(0.5f, 0, 0);
+  quad(add(0, 1, -0.3f), foot, tip, add(0, 0, -0.3f));
+  quad(foot, add(1, 1, 0.3f), add(1, 0, 0.3f), tip);
 }
 
 void MeshBuilder::dome(const Eigen::Vector3f& centre, float radius, const Eigen::Vector3f& outward,

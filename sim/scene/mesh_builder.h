@@ -43,6 +43,7 @@ struct BladePlacement {
   Eigen::Vector3f shading_normal;  ///< blended with the blade's own
   TextureCell cell;
   float lobes = 0.5f;  ///< depth of the sinuses: 0 an entire leaf, 1 cut to the veins
+  std::array<std::uint8_t, 3> tint{255, 255, 255};  ///< Vertex::colour
 };
 
 /// Outline of a vine leaf about the foot, in sizes: x across, y along the midrib, counter-clockwise
@@ -78,7 +79,7 @@ class MeshBuilder {
   /// Triangles around the foot, rim hanging down, folded along the midrib. Detail 2 has points
   /// between foot and rim, so that the blade is curved.
   void blade(const BladePlacement& blade, int detail);
-  /// Two triangles with the whole texture cell, for cut-out leaves.
+  /// Four triangles with the whole texture cell, for cut-out leaves.
   void card(const BladePlacement& blade);
   /// The hemisphere that faces along `outward`.
   void dome(const Eigen::Vector3f& centre, float radius, const Eigen::Vector3f& outward, int sides,

@@ -39,6 +39,8 @@ void check_names(const SensorsConfig& config, const Rig& rig,
 
 SensorsConfig perfect_sensors() {
   SensorsConfig config;
+  config.camera.exposure.time = config.camera.exposure.reference_time;
+  config.camera.point_spread = 0;
   config.camera.noise.enabled = false;
   config.inertial.gyroscope = {};
   config.inertial.accelerometer = {};

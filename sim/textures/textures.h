@@ -28,9 +28,13 @@ cv::Mat mix(const cv::Mat& amount, const cv::Mat& a, const cv::Mat& b);
 /// CV_32FC3 of 0 to 255 (and 8-bit alpha, opaque where empty) to the CV_8UC4 of a Texture.
 cv::Mat to_rgba(const cv::Mat& rgb, const cv::Mat& alpha = {});
 
-Texture soil_texture(std::uint64_t seed);    ///< for kSoilTile metres a side
-inline constexpr double kSoilTile = 2.3;     ///< m; not a multiple of common spacings
-Texture meadow_texture(std::uint64_t seed);  ///< grass, for kSoilTile metres a side
+// Of the ground: `withered` is the share of green that is straw and litter, 0 to 1.
+
+/// For kSoilTile metres a side.
+Texture soil_texture(std::uint64_t seed, double withered = 0);
+inline constexpr double kSoilTile = 2.3;  ///< m; not a multiple of common spacings
+/// Grass, for kSoilTile metres a side.
+Texture meadow_texture(std::uint64_t seed, double withered = 0);
 
 /// Cross-section of a mown aisle with wheel tracks; m.
 struct AisleProfile {
@@ -40,7 +44,7 @@ struct AisleProfile {
   double track_width = 0.28;
 };
 /// From row to row across (u) and kAisleLength times as far along (v).
-Texture aisle_texture(std::uint64_t seed, const AisleProfile& profile);
+Texture aisle_texture(std::uint64_t seed, const AisleProfile& profile, double withered = 0);
 inline constexpr double kAisleLength = 2;
 
 Texture wood_texture(std::uint64_t seed);
@@ -49,8 +53,11 @@ Texture carton_texture(std::uint64_t seed);
 /// The same with a logo, lines of text and symbols.
 Texture print_texture(std::uint64_t seed);
 Texture cloth_texture(std::uint64_t seed);  ///< almost white, for clothes and plastics
-Texture grass_texture(std::uint64_t seed);
+Texture grass_texture(std::uint64_t seed, double withered = 0);
 Texture stone_texture(std::uint64_t seed);
-Texture hedge_texture(std::uint64_t seed);  ///< trees and bushes, alpha above their tops
+/// Fields and woods on far hills, through the air before them.
+Texture woods_texture(std::uint64_t seed, double withered = 0);
+/// Trees and bushes, alpha above their tops.
+Texture hedge_texture(std::uint64_t seed, double withered = 0);
 
 }  // namespace vinebench::sim

@@ -68,7 +68,7 @@ void scatter_leaves(cv::Mat& rgb, RandomSequence& random, int count, double size
     const double size = size_px * random.uniform(0.5, 1.1);
     const double turn = random.uniform(0, 2 * std::numbers::pi);
     const double squeeze = random.uniform(0.5, 1.0);
-    const cv::Scalar skin = jitter(random, {126, 88, 50}, 0.35);
+    const cv::Scalar skin = jitter(random, {122, 92, 60}, 0.35);
     draw_wrapped(rgb, at, 2 * size, [&](const cv::Point2d& p) {
       std::vector<cv::Point> outline, shadow;
       for (const Eigen::Vector2f& o : leaf_outline(2)) {
@@ -110,7 +110,30 @@ cv::Mat coarse_noise(cv::Size size, cv::Size cells, int octaves, double gain, st
 /// Short grass from above, without individual blades.
 cv::Mat turf(cv::Size size, int cells, std::uint64_t seed, std::string_view name) {
   const cv::Size grid(cells, cells * size.height / size.width);
-  return blend(fractal_noise(size, grid, 6, 0.85, seed, name), {30, 40, 14}, {132, 136, 72});
+  return blend(fractal_noise(size, grid, 6, 0.85, seed, name), {28, 40, 18}, {124, 138, 74});
+}
+
+/// Fibres one or two texels wide, straight or broken once, each with its shadow beside it: straw,
+/// roots and mown grass.
+void scatter_fibres(cv::Mat& rgb, RandomSequence& random, int count, const cv::Vec3d& colour,
+                    double length, const cv::Mat* share = nullptr) {
+  for (int i = 0; i < count; ++i) {
+    const cv::Point2d at = somewhere(random, rgb);
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    const double reach = length * random.uniform(0.2, 1.0);
+    const cv::Point2d along(reach * std::cos(angle), reach * std::sin(angle));
+    const cv::Point2d knee =
+        0.5 * along + random.uniform(-0.15, 0.15) * cv::Point2d(-along.y, along.x);
+    const cv::Scalar skin = jitter(random, colour, 0.35);
+    const bool lies = !share || random.uniform() < value_at(*share, at);
+    if (!lies) continue;
+    const cv::Point2d below(1, 1);
+    draw_wrapped(rgb, at, length, [&](const cv::Point2d& p) {
+      cv::line(rgb, p + below, p + along + below, cv::Scalar(34, 30, 22), 1, cv::LINE_AA);
+      cv::line(rgb, p, p + knee, skin, 1, cv::LINE_AA);
+      cv::line(rgb, p + knee, p + along, skin, 1, cv::LINE_AA);
+    });
+  }
 }
 
 /// Blades of grass, 2 to 7 cm long, where `share` says so.
@@ -120,14 +143,17 @@ void scatter_blades(cv::Mat& rgb, RandomSequence& random, const cv::Mat& share, 
     const cv::Point2d at = somewhere(random, rgb);
     const double angle = random.uniform(0, 2 * std::numbers::pi);
     const double length = scale * random.uniform(0.02, 0.07);
-    const cv::Vec3d fresh(random.uniform(74, 112), random.uniform(98, 132), random.uniform(34, 58));
-    const cv::Vec3d dry(random.uniform(130, 160), random.uniform(124, 146), 80);
-    const cv::Scalar skin = jitter(random, random.below(6) == 0 ? dry : fresh, 0.25);
+    const cv::Vec3d fresh(random.uniform(74, 122), random.uniform(94, 132), random.uniform(40, 72));
+    const cv::Vec3d dry(random.uniform(140, 186), random.uniform(130, 168), 98);
+    const cv::Scalar skin = jitter(random, random.below(4) == 0 ? dry : fresh, 0.45);
     const bool grows = random.uniform() < value_at(share, at);
     if (!grows) continue;
     const cv::Point2d offset(length * std::cos(angle), length * std::sin(angle));
-    draw_wrapped(rgb, at, 2 * length,
-                 [&](const cv::Point2d& p) { cv::line(rgb, p, p + offset, skin, 1, cv::LINE_AA); });
+    draw_wrapped(rgb, at, 2 * length, [&](const cv::Point2d& p) {
+      const cv::Point2d below(p.x + 1, p.y + 1);
+      cv::line(rgb, below, below + offset, cv::Scalar(26, 34, 16), 1, cv::LINE_AA);
+      cv::line(rgb, p, p + offset, skin, 1, cv::LINE_AA);
+    });
   }
 }
 
@@ -165,6 +191,25 @@ void scatter_flowers(cv::Mat& rgb, RandomSequence& random, int count) {
     draw_wrapped(rgb, at, 6, [&](const cv::Point2d& p) {
       cv::circle(rgb, p, 2 + i % 2, petals, cv::FILLED, cv::LINE_AA);
     });
+  }
+}
+
+/// What is green becomes as pale a straw or as dark a brown, in patches that cover that share.
+void wither(cv::Mat& rgb, double share, std::uint64_t seed, std::string_view name) {
+  if (share <= 0) return;
+  const auto by = static_cast<float>(share);
+  const cv::Size cells(24, std::max(1, 24 * rgb.rows / rgb.cols));
+  const cv::Mat patches = fractal_noise(rgb.size(), cells, 5, 0.85, seed, name);
+  for (int y = 0; y < rgb.rows; ++y) {
+    for (int x = 0; x < rgb.cols; ++x) {
+      cv::Vec3f& c = rgb.at<cv::Vec3f>(y, x);
+      const float dry = std::clamp(8 * (by - patches.at<float>(y, x)) + by, 0.0f, 1.0f);
+      const float excess = 2 * c[1] - c[0] - c[2];
+      const float green = std::clamp(8 * excess / std::max(c[0] + c[1] + c[2], 1.0f), 0.0f, 1.0f);
+      const float light = 0.3f * c[0] + 0.6f * c[1] + 0.1f * c[2];
+      const cv::Vec3f straw(1.13f * light, 1.0f * light, 0.76f * light);
+      c += dry * green * (straw - c);
+    }
   }
 }
 
@@ -207,34 +252,41 @@ cv::Mat track_share(cv::Size size, const AisleProfile& aisle, std::uint64_t seed
 
 }  // namespace
 
-Texture soil_texture(std::uint64_t seed) {
+Texture soil_texture(std::uint64_t seed, double withered) {
   const cv::Size size(2048, 2048);
   const cv::Mat clods = fractal_noise(size, {24, 24}, 7, 0.72, seed, "clods");
   const cv::Mat damp = fractal_noise(size, {3, 3}, 4, 0.55, seed, "damp");
   cv::Mat rgb = mix(damp, blend(clods, {56, 40, 28}, {164, 132, 98}),
                     blend(clods, {74, 56, 38}, {192, 164, 128}));
   RandomSequence random(RandomStream(seed, "soil"));
+  scatter_stones(rgb, random, 6000, 2, 8);
   scatter_straws(rgb, random, 500, {150, 130, 88}, 60);
   scatter_stones(rgb, random, 1800, 3, 34);
-  scatter_leaves(rgb, random, 30, 50);
-  scatter_straws(rgb, random, 350, {84, 104, 46}, 40);
+  scatter_fibres(rgb, random, 5000, {186, 166, 122}, 46);
+  scatter_fibres(rgb, random, 1500, {84, 66, 46}, 60);
+  scatter_leaves(rgb, random, 60 + cvRound(250 * withered), 50);
+  scatter_fibres(rgb, random, cvRound(1500 * withered), {96, 70, 50}, 200);
+  scatter_fibres(rgb, random, 1600, {96, 112, 56}, 40);
+  wither(rgb, withered, seed, "soil dry");
   return {"soil", to_rgba(rgb), true};
 }
 
-Texture meadow_texture(std::uint64_t seed) {
+Texture meadow_texture(std::uint64_t seed, double withered) {
   const cv::Size size(1024, 1024);
   cv::Mat rgb = mix(fractal_noise(size, {3, 3}, 4, 0.6, seed, "meadow patches"),
                     turf(size, 10, seed, "meadow"), 1.2 * turf(size, 10, seed, "meadow dry"));
   RandomSequence random(RandomStream(seed, "meadow"));
   const cv::Mat everywhere(size, CV_32F, cv::Scalar(1));
-  scatter_blades(rgb, random, everywhere, 9000, size.width / kSoilTile);
+  scatter_blades(rgb, random, everywhere, 14000, size.width / kSoilTile);
   scatter_tufts(rgb, random, everywhere, 420, 0.09 * size.width / kSoilTile);
-  scatter_straws(rgb, random, 160, {150, 136, 84}, 40);
+  scatter_fibres(rgb, random, 2200, {188, 176, 128}, 40);
+  scatter_blades(rgb, random, everywhere, 6000, 0.7 * size.width / kSoilTile);
   scatter_flowers(rgb, random, 40);
+  wither(rgb, withered, seed, "meadow dry");
   return {"meadow", to_rgba(rgb), true};
 }
 
-Texture aisle_texture(std::uint64_t seed, const AisleProfile& profile) {
+Texture aisle_texture(std::uint64_t seed, const AisleProfile& profile, double withered) {
   const cv::Size size(1536, static_cast<int>(1536 * kAisleLength));
   const double scale = size.width / profile.width;  // px per m
   const cv::Size pieces(2, 4);
@@ -250,17 +302,24 @@ Texture aisle_texture(std::uint64_t seed, const AisleProfile& profile) {
                     cv::repeat(turf(size / 2, 6, seed, "aisle turf"), 2, 2));
   RandomSequence random(RandomStream(seed, "aisle"));
   const cv::Mat bare = 1 - grass;
-  scatter_stones(rgb, random, 3200, 0.003 * scale, 0.028 * scale, &bare);
-  scatter_leaves(rgb, random, 70, 0.05 * scale);
-  scatter_blades(rgb, random, grass, 30000, scale);
+  scatter_stones(rgb, random, 5200, 0.003 * scale, 0.028 * scale, &bare);
+  scatter_fibres(rgb, random, 9000, {176, 158, 116}, 0.06 * scale, &bare);
+  scatter_fibres(rgb, random, 2500, {80, 62, 44}, 0.10 * scale, &bare);
+  scatter_leaves(rgb, random, 160 + cvRound(900 * withered), 0.05 * scale);
+  scatter_fibres(rgb, random, cvRound(2500 * withered), {96, 70, 50}, 0.25 * scale);
+  scatter_blades(rgb, random, grass, 42000, scale);
   scatter_tufts(rgb, random, grass, 1500, 0.075 * scale);
-  scatter_straws(rgb, random, 500, {150, 134, 88}, 0.09 * scale);
+  scatter_fibres(rgb, random, 7000, {190, 178, 132}, 0.08 * scale, &grass);
+  scatter_blades(rgb, random, grass, 14000, 0.7 * scale);
+  wither(rgb, withered, seed, "aisle dry");
   return {"aisle", to_rgba(rgb), true};
 }
 
-Texture grass_texture(std::uint64_t seed) {
+Texture grass_texture(std::uint64_t seed, double withered) {
   const cv::Mat streaks = fractal_noise({64, 64}, {8, 2}, 3, 0.6, seed, "grass");
-  return {"grass", to_rgba(blend(streaks, {62, 84, 28}, {142, 154, 72})), true};
+  cv::Mat rgb = blend(streaks, {62, 84, 28}, {142, 154, 72});
+  wither(rgb, withered, seed, "grass dry");
+  return {"grass", to_rgba(rgb), true};
 }
 
 Texture stone_texture(std::uint64_t seed) {
@@ -268,12 +327,25 @@ Texture stone_texture(std::uint64_t seed) {
   return {"stone", to_rgba(blend(grain, {84, 78, 68}, {186, 176, 158})), true};
 }
 
-Texture hedge_texture(std::uint64_t seed) {
+Texture woods_texture(std::uint64_t seed, double withered) {
+  const cv::Size size(1024, 128);
+  const cv::Mat crowns = fractal_noise(size, {128, 16}, 4, 0.8, seed, "woods crowns");
+  const cv::Mat fields = fractal_noise(size, {12, 5}, 3, 0.6, seed, "woods fields");
+  const cv::Mat woods = cv::min(cv::max(6 * (fields - 0.5) + 0.5, 0.0), 1.0);
+  cv::Mat rgb = mix(woods, blend(crowns, {92, 112, 80}, {142, 152, 112}),
+                    blend(crowns, {34, 52, 42}, {116, 132, 106}));
+  wither(rgb, withered, seed, "woods dry");
+  const cv::Mat air(size, CV_32FC3, cv::Scalar(126, 142, 152));
+  return {"woods", to_rgba(0.68 * rgb + 0.32 * air), true};
+}
+
+Texture hedge_texture(std::uint64_t seed, double withered) {
   const cv::Size size(2048, 256);
   const cv::Mat leaves = fractal_noise(size, {64, 12}, 5, 0.8, seed, "hedge leaves");
   const cv::Mat crowns = fractal_noise(size, {24, 3}, 3, 0.6, seed, "hedge crowns");
   const cv::Mat shade = 0.55 * leaves + 0.45 * crowns;
-  const cv::Mat rgb = blend(shade, {22, 34, 18}, {118, 136, 74});
+  cv::Mat rgb = blend(shade, {22, 34, 18}, {118, 136, 74});
+  wither(rgb, withered, seed, "hedge dry");
   const cv::Mat skyline = fractal_noise({size.width, 16}, {20, 1}, 5, 0.6, seed, "skyline").row(8);
   cv::Mat alpha(size, CV_8UC1);
   for (int y = 0; y < size.height; ++y) {

@@ -6,6 +6,7 @@
 
 #include "core/util/random.h"
 #include "sim/assets/asset.h"
+#include "sim/plants/grapevine_stage.h"
 #include "sim/scene/mesh_builder.h"
 #include "sim/textures/textures.h"
 #include "sim/vineyard/ground.h"
@@ -55,8 +56,9 @@ void add_backdrop(Scene& scene, const WorldConfig& world, const Terrain& terrain
                   std::uint64_t seed) {
   const Eigen::Vector2d middle = terrain.frame().middle();
   const double edge = 0.5 * world.ground_size;
+  const double withered = withered_share(world.vines.bbch);
   Asset hedge;
-  hedge.add(hedge_texture(seed));
+  hedge.add(hedge_texture(seed, withered));
   hedge.add(make_material("hedge", Label::kGrass, 0));
   hedge.materials[0].cutout = true;
   hedge.model.name = "hedge";
@@ -72,8 +74,8 @@ void add_backdrop(Scene& scene, const WorldConfig& world, const Terrain& terrain
 
   const RandomStream random(seed, "hills");
   Asset hills;
-  hills.add(make_material("hills", Label::kGrass, -1));
-  hills.materials[0].colour = {0.16f, 0.22f, 0.20f};
+  hills.add(woods_texture(seed, withered));
+  hills.add(make_material("hills", Label::kGrass, 0));
   hills.model.name = "hills";
   const double far = std::min(4 * edge, kHillsWithin);
   if (far < 1.1 * edge) return;  // hidden by the hedge
@@ -86,7 +88,7 @@ void add_backdrop(Scene& scene, const WorldConfig& world, const Terrain& terrain
   };
   hills.model.levels.push_back({1e9,
                                 {ring_wall(
-                                    far, 96, 1, [](int) { return -1.0; }, height)}});
+                                    far, 96, 8, [](int) { return -1.0; }, height)}});
   add_round(scene, middle, std::move(hills));
 }
 

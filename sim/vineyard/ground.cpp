@@ -8,6 +8,7 @@
 
 #include "core/util/random.h"
 #include "sim/assets/asset.h"
+#include "sim/plants/grapevine_stage.h"
 #include "sim/scene/mesh_builder.h"
 #include "sim/textures/textures.h"
 #include "sim/world/row_index.h"
@@ -247,15 +248,18 @@ Primitive apron_mesh(const WorldConfig& world, const Terrain& terrain) {
 
 Asset ground_asset(const WorldConfig& world, const Terrain& terrain, std::uint64_t seed) {
   Asset asset;
+  const double withered = withered_share(world.vines.bbch);
   if (world.ground.aisles == WorldConfig::Ground::Aisles::kSoil) {
-    asset.add(soil_texture(seed));
+    asset.add(soil_texture(seed, withered));
     asset.add(make_material("soil", Label::kGround, 0));
     asset.materials[0].terrain = true;
     return asset;
   }
-  asset.add(meadow_texture(seed));
-  asset.add(aisle_texture(seed, {terrain.frame().spacing, world.ground.bare_strip,
-                                 world.ground.track_gauge, world.ground.track_width}));
+  asset.add(meadow_texture(seed, withered));
+  asset.add(aisle_texture(seed,
+                          {terrain.frame().spacing, world.ground.bare_strip,
+                           world.ground.track_gauge, world.ground.track_width},
+                          withered));
   asset.add(make_material("meadow", Label::kGrass, 0));
   asset.add(make_material("aisle", Label::kGround, 1));
   for (Material& material : asset.materials) material.terrain = true;

@@ -7,6 +7,7 @@
 
 #include "core/util/random.h"
 #include "sim/assets/asset.h"
+#include "sim/plants/grapevine_stage.h"
 #include "sim/plants/plant_textures.h"
 #include "sim/scene/mesh_builder.h"
 #include "sim/textures/textures.h"
@@ -121,7 +122,7 @@ class Patch {
                            {std::cos(turn), std::sin(turn), 0});
     leaf.foot.z() = 0.2f * leaf.size;
     leaf.shading_normal = Vector3f::Zero();
-    leaf.cell = leaf_cell(random_.below(kLeafVariants));
+    leaf.cell = leaf_cell(random_.below(kLeafVariants), random_.below(kLeafPrints));
     MeshBuilder(parts_[kFallenLeaf]).blade(leaf, fine_ ? 1 : 0);
   }
 
@@ -159,8 +160,8 @@ class Strewer {
         terrain_(layout.terrain),
         rows_(layout.rows),
         random_(RandomStream(seed, "ground cover")) {
-    const std::vector<Texture> textures{grass_texture(seed), stone_texture(seed),
-                                        leaf_texture(seed)};
+    const std::vector<Texture> textures{grass_texture(seed, withered_share(world.vines.bbch)),
+                                        stone_texture(seed), leaf_texture(seed)};
     for (std::size_t kind = 0; kind < kPatches.size(); ++kind) {
       for (int v = 0; v < kVariants; ++v) {
         models_[kind][v] = add_patch(scene, kPatches[kind], seed, v, textures);

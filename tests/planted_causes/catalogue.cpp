@@ -103,7 +103,7 @@ void add_exposure_causes(std::vector<PlantedCause>& list) {
                   [](ScenarioConfig& scenario, RandomSequence& draw) {
                     sim::CameraSensorConfig& sensor = camera(scenario);
                     sensor.exposure.time = draw.uniform(0.062, 0.066);
-                    sensor.exposure.reference_time = sensor.exposure.time;
+                    sensor.exposure.reference_time *= *sensor.exposure.time / sim::kNominalTime;
                     sensor.blur_subframes = 3;
                   },
                   {},

@@ -39,9 +39,11 @@ double value_noise(const RandomStream& stream, double x, double y) {
 double cloud(const RandomStream& stream, const Eigen::Vector3d& ray) {
   if (ray.z() < 0.05) return 0;
   const Eigen::Vector2d p = ray.head<2>() / (ray.z() + 0.25);
-  const double shape = 0.60 * value_noise(stream, 1.4 * p.x(), 1.4 * p.y()) +
-                       0.28 * value_noise(stream, 3.1 * p.x() + 50, 3.1 * p.y() - 50) +
-                       0.12 * value_noise(stream, 6.7 * p.x() - 90, 6.7 * p.y() + 90);
+  const double shape = 0.54 * value_noise(stream, 1.4 * p.x(), 1.4 * p.y()) +
+                       0.25 * value_noise(stream, 3.1 * p.x() + 50, 3.1 * p.y() - 50) +
+                       0.12 * value_noise(stream, 6.7 * p.x() - 90, 6.7 * p.y() + 90) +
+                       0.06 * value_noise(stream, 15.1 * p.x() + 20, 15.1 * p.y() - 20) +
+                       0.03 * value_noise(stream, 33.7 * p.x() - 70, 33.7 * p.y() + 70);
   return smooth_step(0.48, 0.85, shape) * smooth_step(0.05, 0.3, ray.z());
 }
 
@@ -62,12 +64,12 @@ Eigen::Vector3d clear_sky(const Light& light, const RandomStream& stream,
 /// Linear light from that direction.
 Eigen::Vector3d sky_light(const Light& light, const RandomStream& stream,
                           const Eigen::Vector3d& ray) {
-  Eigen::Vector3d c = clear_sky(light, stream, ray);
+  Eigen::Vector3d c = kSkySeen * clear_sky(light, stream, ray);
   if (light.overcast > 0) {
     // Moon and Spencer's overcast sky, brighter towards the zenith, with a little structure.
     const double height = std::clamp(ray.z(), 0.0, 1.0);
     const double grey = (1 + 2 * height) / 2.2 * (0.92 + 0.16 * cloud(stream, ray));
-    c += light.overcast * (grey * 1.1 * light.sky.cast<double>() - c);
+    c += light.overcast * (kSkySeen * grey * 1.1 * light.sky.cast<double>() - c);
   }
   Eigen::Vector3d land = light.bounce.cast<double>().cwiseProduct(Eigen::Vector3d(0.8, 0.95, 0.8));
   if (light.haze > 0) {

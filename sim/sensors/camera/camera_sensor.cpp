@@ -44,6 +44,7 @@ Stamp CameraSensor::truth_instant(const Shot& shot) const {
 RenderedImage CameraSensor::capture(const Shot& shot, const PoseAt& T_world_body,
                                     const Render& render) {
   RenderedImage image = expose(shot, T_world_body, render);
+  spread_points(image.rgb, config_.point_spread);
   effects_.develop(image.rgb, shot);
   return image;
 }

@@ -12,22 +12,26 @@
 #include "sim/render/render_engine.h"
 #include "sim/sensors/camera/exposure.h"
 #include "sim/sensors/camera/lens.h"
+#include "sim/sensors/camera/point_spread.h"
 #include "sim/sensors/effects/effect_list.h"
 
 namespace vinebench::sim {
 
-/// How the cameras make images of what is before them. Only the noise is on by default.
+/// How the cameras make images of what is before them. Only the lens' point spread and the noise
+/// are on by default.
 struct CameraSensorConfig : EffectsConfig {
   ExposureConfig exposure;
-  int blur_subframes = 1;   ///< instants that an exposure is the mean of; 1 draws no blur
-  double readout_time = 0;  ///< s from the first row's exposure to the last's; 0: all at once
-  int readout_bands = 16;   ///< bands of rows, each drawn as of one instant
+  int blur_subframes = 1;     ///< instants that an exposure is the mean of; 1 draws no blur
+  double readout_time = 0;    ///< s from the first row's exposure to the last's; 0: all at once
+  int readout_bands = 16;     ///< bands of rows, each drawn as of one instant
+  double point_spread = 0.5;  ///< px, standard deviation of a point's image by the lens
   template <class Archive>
   void serialize(Archive& archive) {
     archive("exposure", exposure);
     archive("blur_subframes", blur_subframes, Range::between(1, 256));
     archive("readout_time", readout_time, Range::between(0, 0.2));
     archive("readout_bands", readout_bands, Range::between(2, 4096));
+    archive("point_spread", point_spread, Range::between(0, kWidestPointSpread));
     EffectsConfig::serialize(archive);
   }
   /// How long before and after its instant an image can be exposed at most, s.
@@ -39,9 +43,9 @@ struct CameraSensorConfig : EffectsConfig {
 /// One camera: from the scene to the image that it delivers.
 ///
 /// The scene is drawn at the instants of the sub-frames and bands of rows, with the exposure's
-/// factor; averaged as linear light; bent by the lens. The effects of effect_list.cpp work on the
-/// views before that and on the light and the codes after it. An effect that is off costs nothing,
-/// and with all of them off the image is the engine's to the byte.
+/// factor; averaged as linear light; bent and spread by the lens. The effects of effect_list.cpp
+/// work on the views before that and on the light and the codes after it. An effect that is off
+/// costs nothing, and with all of them off the image is the engine's to the byte.
 class CameraSensor {
  public:
   /// `camera` is the true one, the `index`-th of the rig; `light` is the scene's.

@@ -19,7 +19,7 @@ ExposureControl::ExposureControl(const ExposureConfig& config, const Rig& rig)
     : config_(config),
       step_(config.time_constant > 0 ? 1 - std::exp(-1 / (rig.rate_hz * config.time_constant)) : 1),
       group_of_(rig.cameras.size(), rig.cameras.size()) {
-  const Exposure first{config.time, config.gain_db};
+  const Exposure first{config.time.value_or(kNominalTime), config.metered() ? 0 : config.gain_db};
   const auto add = [&](std::size_t camera, std::size_t group) {
     if (group_of_[camera] < rig.cameras.size()) return;  // in another pair already
     group_of_[camera] = group;
@@ -46,17 +46,38 @@ void ExposureControl::observe(const std::vector<cv::Mat>& images) {
       sum += mean_brightness(images[camera]);
       ++delivered;
     }
-    if (delivered > 0) steer(group, sum / delivered);
+    if (delivered > 0) steer(group, sum / delivered, step_);
   }
 }
 
-void ExposureControl::steer(Group& group, double brightness) const {
+void ExposureControl::meter(const Take& take) {
+  if (!config_.metered()) return;
+  for (Group& group : groups_) {
+    if (group.cameras.empty()) continue;
+    for (int look = 0; look < kLooks; ++look) {
+      steer(group, mean_brightness(take(group.cameras.front())), 1);
+    }
+    group.exposure.gain_db += config_.gain_db;
+  }
+}
+
+void ExposureControl::steer(Group& group, double brightness, double step) const {
   Exposure& now = group.exposure;
   const double wanted =
       light_of_code(config_.target) / light_of_code(std::max(brightness, kDarkest));
-  const double product = now.time * now.gain() * std::pow(wanted, step_);
+  const double product = now.time * now.gain() * std::pow(wanted, step);
   now.time = std::clamp(product, config_.min_time, config_.max_time);
   now.gain_db = std::clamp(20 * std::log10(product / now.time), 0.0, config_.max_gain_db);
+}
+
+double metered_factor(const std::function<cv::Mat(double factor)>& draw) {
+  const ExposureConfig config;
+  Rig rig;
+  rig.cameras.resize(1);
+  ExposureControl control(config, rig);
+  const auto factor = [&] { return control.of(0).factor(config.reference_time); };
+  control.meter([&](std::size_t) { return draw(factor()); });
+  return factor();
 }
 
 double mean_brightness(const cv::Mat& image) {

@@ -53,8 +53,14 @@ Asset two_levels() {
   asset.add(make_material("bark", Label::kTrunk, 1));
   asset.materials[1].colour = {0.1f, 0.2f, 0.7f};
   asset.add(make_material("plain", Label::kBunch, -1));
+  asset.materials[2].vertex_colours = true;
   asset.model.name = "vine";
   asset.model.levels = {{2.5, {triangle(0), triangle(1, 0.05f)}}, {1e9, {triangle(2, -0.1f)}}};
+  std::uint8_t shade = 0;
+  for (Vertex& vertex : asset.model.levels[1].primitives[0].vertices) {
+    vertex.colour = {shade, 129, static_cast<std::uint8_t>(255 - shade)};
+    shade = static_cast<std::uint8_t>(shade + 77);
+  }
   asset.update_bounds();
   return asset;
 }
@@ -64,6 +70,7 @@ void expect_same(const Vertex& a, const Vertex& b) {
   EXPECT_EQ(a.normal, b.normal);
   EXPECT_EQ(a.uv, b.uv);
   EXPECT_EQ(a.occlusion, b.occlusion);
+  EXPECT_EQ(a.colour, b.colour);
 }
 
 TEST(GlbTest, EveryBitComesBack) {
@@ -79,9 +86,10 @@ TEST(GlbTest, EveryBitComesBack) {
   ASSERT_EQ(back.materials.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     const Material &a = asset.materials[i], &b = back.materials[i];
-    EXPECT_EQ(
-        std::tie(a.name, a.label, a.colour, a.texture, a.cutout, a.double_sided, a.translucency),
-        std::tie(b.name, b.label, b.colour, b.texture, b.cutout, b.double_sided, b.translucency));
+    EXPECT_EQ(std::tie(a.name, a.label, a.colour, a.texture, a.cutout, a.double_sided,
+                       a.translucency, a.vertex_colours),
+              std::tie(b.name, b.label, b.colour, b.texture, b.cutout, b.double_sided,
+                       b.translucency, b.vertex_colours));
   }
   EXPECT_EQ(back.model.name, "vine");
   ASSERT_EQ(back.model.levels.size(), 2u);
@@ -99,6 +107,14 @@ TEST(GlbTest, EveryBitComesBack) {
   }
   EXPECT_EQ(back.model.bounds.min(), asset.model.bounds.min());
   EXPECT_EQ(to_glb(back), to_glb(asset));
+}
+
+TEST(VertexColourTest, EveryByteComesBackFromItsLight) {
+  for (int byte = 0; byte < 256; ++byte) {
+    const std::array<std::uint8_t, 3> colour{static_cast<std::uint8_t>(byte),
+                                             static_cast<std::uint8_t>(255 - byte), 255};
+    EXPECT_EQ(vertex_colour(linear_colour(colour)), colour);
+  }
 }
 
 /// A .gltf of one triangle with corners (0, 0, 0), (1, 0, 0), (0, 2, 0) and an embedded buffer.

@@ -48,6 +48,11 @@ TEST_F(GrapevineAssetTest, MaterialsHaveTheLabelsOfTheirParts) {
   EXPECT_GT(materials[kLeafMaterial].translucency, 0);
   EXPECT_FALSE(materials[kLeafMaterial].cutout);
   EXPECT_TRUE(materials[kFoliageMaterial].cutout);
+  EXPECT_TRUE(materials[kLeafCardMaterial].cutout);
+  // Each blade has a green of its own, which the painted views have in their image.
+  EXPECT_TRUE(materials[kLeafMaterial].vertex_colours);
+  EXPECT_TRUE(materials[kLeafCardMaterial].vertex_colours);
+  EXPECT_FALSE(materials[kFoliageMaterial].vertex_colours);
   EXPECT_EQ(materials[kTrunkMaterial].translucency, 0);
 }
 
@@ -57,7 +62,8 @@ TEST_F(GrapevineAssetTest, MeshesComeFirstThenCards) {
   for (std::size_t i = 0; i < levels.size(); ++i) {
     std::set<int> materials;
     for (const Primitive& part : levels[i].primitives) materials.insert(part.material);
-    EXPECT_EQ(materials.count(kLeafMaterial), i < 3 ? 1u : 0u) << i;
+    EXPECT_EQ(materials.count(kLeafMaterial), i < 2 ? 1u : 0u) << i;
+    EXPECT_EQ(materials.count(kLeafCardMaterial), i == 2 ? 1u : 0u) << i;
     EXPECT_EQ(materials.count(kFoliageMaterial), i < 3 ? 0u : 1u) << i;
     if (i == 0) continue;
     EXPECT_GT(levels[i].until, levels[i - 1].until);

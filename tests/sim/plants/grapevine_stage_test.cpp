@@ -30,6 +30,12 @@ TEST(GrowthStageTest, EveryStageHasItsCode) {
   EXPECT_STREQ(growth_stage(83).name, "veraison");
 }
 
+TEST(GrowthStageTest, TheGroundIsGreenestInSummer) {
+  EXPECT_GT(withered_share(0), withered_share(9));
+  EXPECT_GT(withered_share(9), withered_share(75));
+  EXPECT_GT(withered_share(95), withered_share(89));
+}
+
 // Before the berries swell, a bunch has a fifth of its width.
 TEST(GrowthStageTest, BunchesWidenWithTheirBerries) {
   GrowthStage stage;

@@ -23,7 +23,7 @@ TEST(PlantTexturesTest, ASeedIsOneSetOfImages) {
 TEST(PlantTexturesTest, LeavesAreGreenInsideTheirOutline) {
   const Texture& leaves = test::textures().at(2);
   ASSERT_EQ(leaves.name, "leaf");
-  const TextureCell cell = leaf_cell(0);
+  const TextureCell cell = leaf_cell(0, 0);
   const Eigen::Vector2f middle = cell.at(0.5f, 0.5f), corner = cell.at(0.02f, 0.02f);
   const auto texel = [&](const Eigen::Vector2f& uv) {
     return leaves.rgba.at<cv::Vec4b>(static_cast<int>(uv.y() * leaves.rgba.rows),

@@ -71,6 +71,33 @@ TEST(MeshBuilderTest, ATubesNormalsPointAwayFromItsPath) {
   EXPECT_NEAR(primitive.vertices.back().uv.x(), 1, 1e-6f);
 }
 
+TEST(MeshBuilderTest, ACardIsALeafOfFourTrianglesWithItsWholeImage) {
+  BladePlacement leaf;
+  leaf.foot = {1, 2, 3};
+  leaf.axes = {Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()};
+  leaf.size = 2;
+  leaf.curl = 0;
+  leaf.shading_normal = Vector3f::Zero();
+  leaf.tint = {200, 210, 190};
+  Primitive primitive;
+  MeshBuilder(primitive).card(leaf);
+  ASSERT_EQ(primitive.vertices.size(), 6u);
+  EXPECT_EQ(primitive.indices.size(), 12u);
+  Eigen::AlignedBox3f box;
+  Eigen::AlignedBox2f image;
+  for (const Vertex& vertex : primitive.vertices) {
+    box.extend(vertex.position);
+    image.extend(vertex.uv);
+    EXPECT_EQ(vertex.colour, leaf.tint);
+  }
+  // Across 2 x 1.5 about the foot; along from -0.48 to 1.02 sizes; the rim folded up by a quarter
+  // of its distance from the midrib.
+  EXPECT_LT((box.min() - Vector3f(1 - 1.5f, 2 - 0.96f, 3)).norm(), 1e-5f);
+  EXPECT_LT((box.max() - Vector3f(1 + 1.5f, 2 + 2.04f, 3 + 2 * 0.25f * 0.75f)).norm(), 1e-5f);
+  EXPECT_EQ(image.min(), Eigen::Vector2f::Zero());
+  EXPECT_EQ(image.max(), Eigen::Vector2f::Ones());
+}
+
 TEST(LeafOutlineTest, EveryDetailHasTheSameArea) {
   for (const float lobes : {0.0f, 0.5f, 1.0f}) {
     const float area = leaf_outline_area(lobes);

@@ -13,7 +13,10 @@ namespace {
 using test::same_texels;
 
 TEST(GroundTexturesTest, ASeedIsOneImageThatRepeats) {
-  for (const auto make : {grass_texture, stone_texture}) {
+  using Make = Texture (*)(std::uint64_t);
+  const Make grass = [](std::uint64_t seed) { return grass_texture(seed, 0.3); };
+  const Make woods = [](std::uint64_t seed) { return woods_texture(seed, 0.3); };
+  for (const Make make : {grass, woods, Make(stone_texture)}) {
     const Texture first = make(1);
     EXPECT_TRUE(first.repeat) << first.name;
     EXPECT_TRUE(same_texels(first, make(1))) << first.name;
@@ -41,6 +44,23 @@ TEST(GroundTexturesTest, AnAisleIsBareUnderTheVinesAndGreenInItsMiddle) {
   };
   EXPECT_GT(greenness(0.48, 0.52), 0);
   EXPECT_GT(greenness(0.48, 0.52), greenness(0, 0.05) + 10);
+}
+
+/// Share of the texels whose green exceeds their red and blue by a twelfth of their sum.
+double green_share(const Texture& texture) {
+  int green = 0;
+  for (auto it = texture.rgba.begin<cv::Vec4b>(); it != texture.rgba.end<cv::Vec4b>(); ++it) {
+    const int r = (*it)[0], g = (*it)[1], b = (*it)[2];
+    green += 12 * (2 * g - r - b) > r + g + b ? 1 : 0;
+  }
+  return green / static_cast<double>(texture.rgba.total());
+}
+
+TEST(GroundTexturesTest, WhatWithersIsNoLongerGreen) {
+  const double fresh = green_share(grass_texture(1, 0));
+  EXPECT_GT(fresh, 0.9);
+  EXPECT_LT(green_share(grass_texture(1, 0.5)), 0.8 * fresh);
+  EXPECT_EQ(green_share(grass_texture(1, 1)), 0);
 }
 
 }  // namespace

@@ -129,7 +129,7 @@ class LensTruthTest : public TwoPanelsTruthTest {
     config.readout_bands = std::max(2, bands);
     CameraSensor sensor(config, camera, 0, 1, scene_.light);
     Shot shot;
-    shot.exposure = {config.exposure.time, config.exposure.gain_db};
+    shot.exposure = {*config.exposure.time, config.exposure.gain_db};
     shot.request = truth_request();
     return sensor.capture(
         shot, [&](Stamp) { return camera_at(0); },

@@ -84,7 +84,7 @@ GlVertexArray make_vertex_array(const GlFunctions& gl) {
 }
 
 GlTexture make_texture(const GlFunctions& gl, const std::vector<cv::Mat>& levels, bool repeat,
-                       bool smooth) {
+                       bool smooth, float coarser) {
   GlTexture texture(gl, generate(gl.GenTextures));
   gl.BindTexture(GL_TEXTURE_2D, texture.get());
   gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
@@ -100,8 +100,7 @@ GlTexture make_texture(const GlFunctions& gl, const std::vector<cv::Mat>& levels
   const GLint smaller = smooth ? GL_LINEAR_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_NEAREST;
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, levels.size() > 1 ? smaller : GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, static_cast<GLint>(levels.size()) - 1);
-  // Round up to the coarser level: a texel is then never smaller than a pixel, and nothing aliases.
-  if (smooth && levels.size() > 1) gl.TexParameterf(GL_TEXTURE_2D, GL_TEXTURE_LOD_BIAS, 0.5f);
+  if (smooth && levels.size() > 1) gl.TexParameterf(GL_TEXTURE_2D, GL_TEXTURE_LOD_BIAS, coarser);
   return texture;
 }
 

@@ -59,9 +59,12 @@ GlBuffer make_buffer(const GlFunctions& gl, GLenum target, const std::vector<T>&
 GlVertexArray make_vertex_array(const GlFunctions& gl);
 
 /// A texture of the given mip levels (CV_8UC4, finest first), of which the nearest is sampled:
-/// bilinearly where `smooth`, else one texel, at two thirds of the cost.
+/// bilinearly where `smooth`, else one texel, at two thirds of the cost. `coarser` shifts the
+/// choice of smooth ones: with kNoAliasing to the next coarser level, whose texels are never
+/// smaller than a pixel.
+inline constexpr float kNoAliasing = 0.5f;
 GlTexture make_texture(const GlFunctions& gl, const std::vector<cv::Mat>& levels, bool repeat,
-                       bool smooth = true);
+                       bool smooth = true, float coarser = kNoAliasing);
 
 /// Makes it the texture of that unit, and the unit the active one.
 void bind_texture(const GlFunctions& gl, GLint unit, const GlTexture& texture);

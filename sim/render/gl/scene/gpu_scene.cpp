@@ -14,6 +14,8 @@
 namespace vinebench::sim {
 namespace {
 
+/// Ground is seen at grazing angles, where the level that fits its depth would blur its width.
+constexpr float kGroundSharpness = -0.5f;
 constexpr std::size_t kSmall = 32;    // triangles; fewer are not worth an order
 constexpr std::size_t kLarge = 1500;  // triangles; a thing of fewer is drawn in one order
 
@@ -151,6 +153,11 @@ bool is_cutout(const Scene& scene, int texture) {
                      [&](const Material& m) { return m.texture == texture && m.cutout; });
 }
 
+bool is_ground(const Scene& scene, int texture) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [&](const Material& m) { return m.texture == texture && m.terrain; });
+}
+
 /// Whether only things grown use it: small and rough, they do not show how they are sampled.
 bool is_vegetation(const Scene& scene, int texture) {
   for (const Material& material : scene.materials) {
@@ -246,7 +253,11 @@ GpuScene::GpuScene(const GlFunctions& functions, const Scene& scene)
     const Texture& texture = scene.textures[i];
     const bool cutout = is_cutout(scene, static_cast<int>(i));
     const bool smooth = !is_vegetation(scene, static_cast<int>(i));
-    textures.push_back(make_texture(gl, mip_levels(texture.rgba, cutout), texture.repeat, smooth));
+    const bool ground = is_ground(scene, static_cast<int>(i));
+    const std::vector<cv::Mat> levels =
+        ground ? rough_mip_levels(texture.rgba) : mip_levels(texture.rgba, cutout);
+    textures.push_back(
+        make_texture(gl, levels, texture.repeat, smooth, ground ? kGroundSharpness : kNoAliasing));
   }
   Geometry geometry;
   for (const Model& model : scene.models) {

@@ -67,6 +67,39 @@ cv::Mat to_bytes(const cv::Mat& light, bool cutout, float alpha_scale) {
   return rgba;
 }
 
+/// Deviation from the mean of 5 x 5 texels.
+cv::Mat fine_part(const cv::Mat& light) {
+  cv::Mat mean;
+  cv::blur(light, mean, {5, 5});
+  return light - mean;
+}
+
+double green_deviation(const cv::Mat& fine) {
+  double sum = 0;
+  for (auto it = fine.begin<cv::Vec4f>(); it != fine.end<cv::Vec4f>(); ++it) {
+    sum += static_cast<double>((*it)[1]) * static_cast<double>((*it)[1]);
+  }
+  return std::sqrt(sum / static_cast<double>(fine.total()));
+}
+
+/// Light with its fine part's deviation raised to that, of colours alone.
+cv::Mat roughened(const cv::Mat& light, double wanted) {
+  const cv::Mat fine = fine_part(light);
+  const double factor =
+      std::clamp(wanted / std::max(1e-6, green_deviation(fine)), 1.0, kMostRaised);
+  cv::Mat rough = light.clone();
+  for (int y = 0; y < rough.rows; ++y) {
+    for (int x = 0; x < rough.cols; ++x) {
+      cv::Vec4f& to = rough.at<cv::Vec4f>(y, x);
+      const cv::Vec4f& by = fine.at<cv::Vec4f>(y, x);
+      for (int c = 0; c < 3; ++c) {
+        to[c] = std::max(0.0f, to[c] + static_cast<float>(factor - 1) * by[c]);
+      }
+    }
+  }
+  return rough;
+}
+
 /// The factor that brings the share of alphas of at least one half to `coverage`.
 float coverage_scale(const cv::Mat& light, double coverage) {
   std::vector<float> alphas;
@@ -97,6 +130,22 @@ std::vector<cv::Mat> mip_levels(const cv::Mat& rgba, bool cutout) {
     const cv::Size half(std::max(1, light.cols / 2), std::max(1, light.rows / 2));
     cv::resize(light, light, half, 0, 0, cv::INTER_AREA);
     levels.push_back(to_bytes(light, cutout, cutout ? coverage_scale(light, coverage) : 1.0f));
+  }
+  return levels;
+}
+
+double near_contrast(const cv::Mat& rgba) {
+  return green_deviation(fine_part(to_light(rgba, false)));
+}
+
+std::vector<cv::Mat> rough_mip_levels(const cv::Mat& rgba) {
+  std::vector<cv::Mat> levels{rgba.clone()};
+  cv::Mat light = to_light(rgba, false);
+  const double wanted = kKeptContrast * green_deviation(fine_part(light));
+  while (light.cols > 1 || light.rows > 1) {
+    const cv::Size half(std::max(1, light.cols / 2), std::max(1, light.rows / 2));
+    cv::resize(light, light, half, 0, 0, cv::INTER_AREA);
+    levels.push_back(to_bytes(roughened(light, wanted), false, 1.0f));
   }
   return levels;
 }

@@ -39,7 +39,7 @@ float encoded(double light) {
 
 Eigen::Vector3f horizon_light(const Light& light) {
   const Eigen::Vector3f clear = light.sky.cwiseProduct(Eigen::Vector3f(1.55f, 1.50f, 1.35f));
-  return clear + light.overcast * (1.25f * light.sky - clear);
+  return static_cast<float>(kSkySeen) * (clear + light.overcast * (1.25f * light.sky - clear));
 }
 
 ViewBlock make_view_block(const PinholeCamera& camera, const Pose& T_world_cam, const Light& light,

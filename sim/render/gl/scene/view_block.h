@@ -46,6 +46,10 @@ ViewBlock make_view_block(const PinholeCamera& camera, const Pose& T_world_cam, 
 /// How a light value is stored in an image: sRGB taken as the power 1 / 2.2.
 float encoded(double light);
 
+/// A clear sky's radiance, as a share of that of a white wall in the open which it and the sun
+/// light: cameras expose for the vines before it and keep its blue.
+inline constexpr double kSkySeen = 0.5;
+
 /// The light at the horizon, which haze fades to; linear RGB.
 Eigen::Vector3f horizon_light(const Light& light);
 

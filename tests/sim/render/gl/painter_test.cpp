@@ -96,7 +96,8 @@ TEST_F(PainterTest, HazeTurnsFarThingsIntoTheHorizon) {
   scene_.light.haze = 0.1f;
   // Of the panel's corners, all of them sqrt(4 + 0.5) m away; encoded colours are mixed.
   const double share = 1 - std::exp(-0.1 * std::sqrt(4.5));
-  EXPECT_NEAR(at(draw(), 80, 60)[0], (1 - share) * byte_of(0.25) + share * byte_of(1.55 * 0.25), 1);
+  EXPECT_NEAR(at(draw(), 80, 60)[0],
+              (1 - share) * byte_of(0.25) + share * byte_of(kSkySeen * 1.55 * 0.25), 1);
 }
 
 TEST_F(PainterTest, AWireCoversPixelsByItsShareAndOneThatIsThickTakesTheirLabel) {

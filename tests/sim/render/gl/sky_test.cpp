@@ -78,8 +78,8 @@ TEST_F(SkyTest, HazeHidesTheHorizonFirst) {
   const cv::Vec4b clear_zenith = at({0, 0, 1});
   light_.haze = 2e-4f;
   // At the horizon 1000 m / 0.03 of air: all of it; straight up 18 %.
-  EXPECT_NEAR(at({0, 1, 0.03})[0], byte_of(1.55 * 0.3), 2);
-  EXPECT_NEAR(at({0, 1, -0.3})[0], byte_of(1.55 * 0.3), 2);  // and the land
+  EXPECT_NEAR(at({0, 1, 0.03})[0], byte_of(0.5 * 1.55 * 0.3), 2);
+  EXPECT_NEAR(at({0, 1, -0.3})[0], byte_of(0.5 * 1.55 * 0.3), 2);  // and the land
   EXPECT_NEAR(at({0, 0, 1})[0], clear_zenith[0], 25);
 }
 

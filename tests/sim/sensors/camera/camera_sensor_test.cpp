@@ -25,6 +25,11 @@ CameraSensorConfig off() {
   return perfect_sensors().camera;
 }
 
+/// As given, or the one at which the engine's image stays as it is.
+double time_of(const CameraSensorConfig& config) {
+  return config.exposure.time.value_or(config.exposure.reference_time);
+}
+
 /// A wall 2 m in front of a camera that looks along +y, black left of x = 0, white right of it.
 class EdgeTest : public testing::Test {
  protected:
@@ -56,7 +61,7 @@ class EdgeTest : public testing::Test {
     CameraSensor sensor(config, camera(), 0, 1, kDark);
     Shot shot;
     shot.instant = instant;
-    shot.exposure = {config.exposure.time, config.exposure.gain_db};
+    shot.exposure = {time_of(config), config.exposure.gain_db};
     shot.request.labels = true;
     shot.request.depth = true;
     return sensor.capture(
@@ -116,7 +121,8 @@ TEST_F(EdgeTest, TheRoverIsWhereTheCameraIsInEachSubframeAndBand) {
 TEST_F(EdgeTest, BlurIsAsLongAsExposureTimesImageSpeed) {
   for (const double exposure : {0.05, 0.1}) {
     CameraSensorConfig config = off();
-    config.exposure.time = config.exposure.reference_time = exposure;
+    config.exposure.reference_time = exposure;
+    config.exposure.time = exposure;
     config.blur_subframes = 24;
     const double still = edge(capture(config, 0).rgb, 40, 80).second;
     const auto [middle, moving] = edge(capture(config).rgb, 40, 80);
@@ -153,7 +159,8 @@ TEST_F(EdgeTest, WithoutMotionNeitherBlurNorReadoutShow) {
 
 TEST_F(EdgeTest, LabelsAndDepthAreThoseOfTheMiddle) {
   CameraSensorConfig config = off();
-  config.exposure.time = config.exposure.reference_time = 0.1;
+  config.exposure.reference_time = 0.1;
+  config.exposure.time = 0.1;
   config.blur_subframes = 5;
   const RenderedImage blurred = capture(config);
   const RenderedImage clean = renderer_.render(camera().model, pose_at(kSpeed, 0), {true, true});
@@ -163,6 +170,7 @@ TEST_F(EdgeTest, LabelsAndDepthAreThoseOfTheMiddle) {
 
 TEST_F(EdgeTest, BlurChangesNoNoiseDraw) {
   CameraSensorConfig noisy;
+  noisy.point_spread = 0;  // of codes in one, of light in the other
   CameraSensorConfig both = noisy;
   both.blur_subframes = 3;
   EXPECT_EQ(different_values(capture(noisy, 0).rgb, capture(both, 0).rgb), 0);
@@ -184,7 +192,7 @@ class WallTest : public testing::Test {
     CameraSensor sensor(config, camera(name), index, 1, kDark);
     Shot shot;
     shot.instant = from_seconds(seconds);
-    shot.exposure = {config.exposure.time, config.exposure.gain_db};
+    shot.exposure = {time_of(config), config.exposure.gain_db};
     return sensor
         .capture(
             shot, [](Stamp) { return Pose{}; },
@@ -205,7 +213,7 @@ TEST_F(WallTest, ExposureAndGainMultiplyTheLight) {
   CameraSensorConfig config = off();
   capture(config);
   EXPECT_EQ(exposure_, 1);
-  config.exposure.time = 0.006;
+  config.exposure.time = 3 * config.exposure.reference_time;
   config.exposure.gain_db = 20;
   capture(config);
   EXPECT_NEAR(exposure_, 30, 1e-9);  // three times the reference time, ten times the signal
@@ -260,7 +268,7 @@ class CameraLensTest : public testing::Test {
                         const CameraSensorConfig& config = off()) {
     CameraSensor sensor(config, {"camera", model, {}}, 0, 1, kDark);
     Shot shot;
-    shot.exposure = {config.exposure.time, 0};
+    shot.exposure = {time_of(config), 0};
     shot.request.labels = true;
     return sensor.capture(
         shot, [&](Stamp) { return T_world_cam; },

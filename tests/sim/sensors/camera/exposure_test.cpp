@@ -29,6 +29,8 @@ cv::Mat image(double light, const Exposure& exposure, const ExposureConfig& conf
 ExposureConfig automatic() {
   ExposureConfig config;
   config.automatic = true;
+  config.reference_time = 0.002;
+  config.time = 0.002;
   return config;
 }
 
@@ -44,11 +46,56 @@ std::vector<double> brightness_over(ExposureControl& control, const ExposureConf
   return brightness;
 }
 
-TEST(ExposureTest, FixedStaysFixed) {
+/// The exposure that is metered on a wall of that light, after one of another light in the other
+/// group.
+Exposure metered(const ExposureConfig& config, double light) {
+  ExposureControl control(config, pair_and_side());
+  control.meter([&](std::size_t camera) {
+    return image(camera == 2 ? 1e-3 : light, control.of(camera), config);
+  });
+  return control.of(1);
+}
+
+TEST(ExposureTest, MeteredOnTheFirstImage) {
   const ExposureConfig config;
+  for (const double light : {0.01, 0.1, 0.9}) {
+    // The last is burnt out at first. Code 110 is a light of (110 / 255)^2.2 = 0.157.
+    const Exposure exposure = metered(config, light);
+    EXPECT_NEAR(light * exposure.factor(config.reference_time), 0.157, 0.01) << light;
+  }
+}
+
+TEST(ExposureTest, AGivenGainIsBesideTheMeteredOne) {
+  ExposureConfig config;
+  const Exposure plain = metered(config, 0.1);
+  config.gain_db = -6;
+  const Exposure darker = metered(config, 0.1);
+  EXPECT_EQ(darker.time, plain.time);
+  EXPECT_EQ(darker.gain_db, plain.gain_db - 6);
+}
+
+TEST(ExposureTest, AFactorIsMeteredOnWhatIsDrawnWithIt) {
+  const double factor = metered_factor([](double by) {
+    return cv::Mat(8, 8, CV_8UC3, cv::Scalar::all(std::round(code_of_light(0.05 * by))));
+  });
+  EXPECT_NEAR(0.05 * factor, 0.157, 0.002);  // half a code is 1 % of light
+}
+
+TEST(ExposureTest, AGivenTimeIsNotMetered) {
+  ExposureConfig config;
+  config.time = 0.003;
+  config.gain_db = -6;
+  const Exposure exposure = metered(config, 1e-5);
+  EXPECT_EQ(exposure.time, 0.003);
+  EXPECT_EQ(exposure.gain_db, -6);
+}
+
+TEST(ExposureTest, FixedStaysFixed) {
+  ExposureConfig config;
+  config.time = config.reference_time;
   ExposureControl control(config, pair_and_side());
   brightness_over(control, config, 0.01, 5);
-  EXPECT_EQ(control.of(0).time, config.time);
+  EXPECT_EQ(control.of(0).time, *config.time);
   EXPECT_EQ(control.of(0).gain_db, 0);
   EXPECT_EQ(control.of(0).factor(config.reference_time), 1);
 }
@@ -102,13 +149,13 @@ TEST(ExposureTest, APairSharesAndTheSideCameraDoesNot) {
   const cv::Mat bright(8, 8, CV_8UC1, cv::Scalar(200));
   control.observe({dark, bright, bright});
   EXPECT_EQ(&control.of(0), &control.of(1));
-  EXPECT_EQ(control.of(0).time, config.time);  // (20 + 200) / 2 is the target
-  EXPECT_LT(control.of(2).time, config.time);
+  EXPECT_EQ(control.of(0).time, *config.time);  // (20 + 200) / 2 is the target
+  EXPECT_LT(control.of(2).time, *config.time);
   const double side = control.of(2).time;
   control.observe({cv::Mat(), cv::Mat(), cv::Mat()});  // nothing was delivered
   EXPECT_EQ(control.of(2).time, side);
   control.observe({dark, cv::Mat(), cv::Mat()});
-  EXPECT_GT(control.of(1).time, config.time);
+  EXPECT_GT(control.of(1).time, *config.time);
 }
 
 }  // namespace

@@ -48,6 +48,26 @@ TEST(MipLevelsTest, TheFinestIsACopy) {
   EXPECT_EQ(cv::norm(finest, rgba, cv::NORM_INF), 0);
 }
 
+/// White noise: the mean of four texels has half the deviation of one.
+TEST(MipLevelsTest, GroundKeepsItsContrastAtEveryDistance) {
+  const RandomStream random(1, "noise");
+  cv::Mat rgba(256, 256, CV_8UC4, cv::Scalar(128, 128, 128, 255));
+  for (int i = 0; i < 256 * 256; ++i) {
+    // From 164 to 206, a light of 0.38 to 0.63: two such levels are raised without clipping.
+    const double code = 164 + 42 * random.uniform(static_cast<std::uint64_t>(i));
+    rgba.at<cv::Vec4b>(i / 256, i % 256)[1] = static_cast<std::uint8_t>(code);
+  }
+  const std::vector<cv::Mat> plain = mip_levels(rgba, false), rough = rough_mip_levels(rgba);
+  const double finest = near_contrast(rgba);
+  EXPECT_EQ(cv::norm(rough[0], rgba, cv::NORM_INF), 0);
+  EXPECT_NEAR(near_contrast(plain[1]) / finest, 0.5, 0.03);
+  EXPECT_NEAR(near_contrast(rough[1]) / finest, kKeptContrast, 0.04);
+  // A quarter is raised by as much as is allowed.
+  EXPECT_NEAR(near_contrast(rough[2]) / near_contrast(plain[2]), kMostRaised, 0.05);
+  // What an even ground has is its light.
+  EXPECT_NEAR(cv::mean(rough[3])[1], cv::mean(plain[3])[1], 1.5);
+}
+
 TEST(MipLevelsTest, ACutOutKeepsItsCoverage) {
   for (const double share : {0.2, 0.6}) {
     const cv::Mat rgba = speckled(share, 64);

@@ -20,11 +20,11 @@ TEST(EncodedTest, IsThePowerOfLight) {
 TEST(HorizonLightTest, IsPalerThanAClearSkyAndGreyUnderClouds) {
   Light light;
   light.sky = {0.2f, 0.4f, 0.6f};
-  EXPECT_LT((horizon_light(light) - Eigen::Vector3f(0.31f, 0.60f, 0.81f)).norm(), 1e-6f);
+  EXPECT_LT((horizon_light(light) - 0.5f * Eigen::Vector3f(0.31f, 0.60f, 0.81f)).norm(), 1e-6f);
   light.overcast = 1;
-  EXPECT_LT((horizon_light(light) - 1.25f * light.sky).norm(), 1e-6f);
+  EXPECT_LT((horizon_light(light) - 0.5f * 1.25f * light.sky).norm(), 1e-6f);
   light.overcast = 0.5;
-  EXPECT_NEAR(horizon_light(light).x(), (0.31 + 0.25) / 2, 1e-6);
+  EXPECT_NEAR(horizon_light(light).x(), 0.5 * (0.31 + 0.25) / 2, 1e-6);
 }
 
 class ViewBlockTest : public testing::Test {
