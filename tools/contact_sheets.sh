@@ -100,7 +100,7 @@ effect the_default
 effect gain_of_20_dB --set $c.exposure.gain_db=20 --set $c.exposure.time=0.0002
 effect lens_distortion --set \
   'sensors.calibration.cameras=[{name: front_left, distortion: [-0.2, 0.035, 0, 0]}]'
-effect motion_blur --set $c.exposure.time=0.03 --set $c.exposure.reference_time=0.03 \
+effect motion_blur --set $c.exposure.time=0.03 --set $c.exposure.reference_time=0.01 \
   --set $c.blur_subframes=24
 effect rolling_shutter --set $c.readout_time=0.06 --set $c.readout_bands=60
 effect vignetting --set $c.vignetting.natural=0.7

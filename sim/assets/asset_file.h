@@ -43,7 +43,7 @@ std::string read_mesh_file(const std::filesystem::path& file, FileKind kind = Fi
 /// image of more than 16384 pixels on a side or 2^24 in all.
 cv::Mat decode_image(std::string_view bytes, const std::string& where);
 
-/// Vertex::colour of linear RGB, 0 to 1.
+/// Vertex::colour of linear RGB, 0 to 1, and back: every byte comes back as it was.
 std::array<std::uint8_t, 3> vertex_colour(const Eigen::Vector3f& linear);
 Eigen::Vector3f linear_colour(const std::array<std::uint8_t, 3>& vertex_colour);
 
