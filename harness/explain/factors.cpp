@@ -49,7 +49,15 @@ void add_occluders(std::vector<Factor>& list) {
   }
 }
 
+/// Between the renderer's own exposure and the one that a vineyard at midday needs.
+bool is_right(const sim::ExposureConfig& exposure) {
+  if (exposure.automatic || exposure.gain_db != 0 || !exposure.time) return false;
+  const double factor = *exposure.time / exposure.reference_time;
+  return factor >= 1 && factor <= sim::kNominalTime / sim::ExposureConfig().reference_time;
+}
+
 void brighten(sim::ExposureConfig& exposure) {
+  if (is_right(exposure)) return;
   exposure.automatic = false;
   exposure.gain_db = 0;
   if (!exposure.time) return;

@@ -113,6 +113,19 @@ TEST_F(FactorsTest, ARightExposureKeepsItsBlur) {
               sim::kNominalTime / sim::ExposureConfig().reference_time, 1e-12);
 }
 
+TEST_F(FactorsTest, AnExposureIsRightFromTheRenderersOwnToThatOfAVineyard) {
+  sim::ExposureConfig& exposure = calm_.simulation.sensors.camera.exposure;
+  const double vineyard = sim::kNominalTime / sim::ExposureConfig().reference_time;
+  for (const double factor : {1.0, 2.0, vineyard}) {
+    exposure.time = factor * exposure.reference_time;
+    EXPECT_THAT(names(calm_), ElementsAre()) << factor;
+  }
+  for (const double factor : {0.9, 1.1 * vineyard}) {
+    exposure.time = factor * exposure.reference_time;
+    EXPECT_THAT(names(calm_), ElementsAre("exposure")) << factor;
+  }
+}
+
 TEST_F(FactorsTest, TagsThatStandWhereTheySayAndOnce) {
   std::vector<sim::WorldConfig::Tag>& tags = calm_.simulation.world.tags;
   tags.assign(3, {});
