@@ -47,8 +47,8 @@ struct Cultivar {
   };
   struct Berry {
     double diameter = 0.015;  ///< m, mean at harvest
-    Eigen::Vector3d green{0.45, 0.55, 0.24};
-    Eigen::Vector3d ripe{0.20, 0.17, 0.31};
+    Eigen::Vector3d green{0.41, 0.52, 0.17};
+    Eigen::Vector3d ripe{0.18, 0.13, 0.23};
     template <class Archive>
     void serialize(Archive& archive) {
       archive("diameter", diameter, Range::between(0.005, 0.035));

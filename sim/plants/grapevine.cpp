@@ -15,9 +15,9 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr float kShootStep = 0.09f;       // m between points of a shoot's path
-constexpr float kFruitZone = 0.26f;       // m above the wire
-constexpr float kBunchClearance = 0.06f;  // m between neighbouring bunches' tops
+constexpr float kShootStep = 0.09f;        // m between points of a shoot's path
+constexpr float kFruitZone = 0.26f;        // m above the wire
+constexpr float kBunchClearance = 0.045f;  // m between neighbouring bunches' tops
 constexpr int kFirstFruitNode = 1, kLastFruitNode = 4;
 constexpr std::size_t kMostBunches = 255;  // range of a vertex's part
 constexpr float kLeafBelowFruit = 0.02f;   // m that leaves may hang below the lowest bunch
@@ -260,11 +260,13 @@ class Grower {
     const float reach = std::max(0.0f, std::min(0.07f, plant_.half_depth - bunch.radius));
     bunch.top = node.at + Vector3f(normal(0.015f), side * reach * uniform(0.45f, 1.0f), -0.03f);
     bunch.top.z() = std::max(bunch.top.z(), fruit_ + bunch.length + uniform(0.0f, 0.05f));
+    bunch.compactness = static_cast<float>(look.compactness);
+    bunch.ripeness = normal(0.12f);
     bunch.berry_seed = static_cast<std::uint64_t>(random_.below(1 << 30));
-    if (bunch.shoulder > 0.6f && random_.uniform() < 0.6) {
+    if (random_.uniform() < 0.25 + 0.5 * bunch.shoulder) {
       bunch.wing = {(random_.below(2) == 0 ? 1.0f : -1.0f) * 0.85f * bunch.radius, 0.0f};
     }
-    const float clearance = std::max(kBunchClearance, 1.5f * bunch.radius);
+    const float clearance = std::max(kBunchClearance, bunch.radius);
     for (const Bunch& other : plant_.bunches) {
       if ((other.top - bunch.top).norm() < clearance) return;
     }

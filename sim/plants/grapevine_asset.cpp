@@ -8,9 +8,9 @@
 namespace vinebench::sim {
 namespace {
 
-constexpr std::array<MeshDetail, 3> kNear{{{0.5, 11000, 9, 4, 1, true, 2, true},
-                                           {1.15, 4600, 7, 3, 1, false, 1, false},
-                                           {3.3, 2500, 5, 3, 2, false, kLeafCards, false}}};
+constexpr std::array<MeshDetail, 3> kNear{{{0.65, 32000, 9, 4, 1, true, 4, Berries::kRound},
+                                           {1.15, 5600, 7, 3, 1, false, 2, Berries::kCaps},
+                                           {3.3, 2500, 5, 3, 2, false, 0, Berries::kSolid}}};
 
 std::vector<Material> plant_materials() {
   std::vector<Material> materials(kPlantMaterials);
@@ -18,6 +18,7 @@ std::vector<Material> plant_materials() {
   materials[kCaneMaterial] = make_material("cane", Label::kCane, kCaneTexture);
   materials[kBunchMaterial] = make_material("bunch", Label::kBunch, kBunchTexture);
   materials[kBunchMaterial].translucency = 0.25f;
+  materials[kBunchMaterial].vertex_colours = true;
   Material& leaf = materials[kLeafMaterial] = make_material("leaf", Label::kLeaf, kLeafTexture);
   leaf.double_sided = true;
   leaf.translucency = 0.35f;

@@ -17,10 +17,14 @@ using Eigen::Vector3f;
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr int kSlices = 24;
 
+constexpr float kLumps = 0.16f;  // of a body's width, in and out
+
 /// The bunch itself, or its wing.
 struct Body {
   Vector3f top;
   float length, radius, shoulder;
+  float bend;   ///< m, of its middle along x
+  float phase;  ///< rad, of its lumps
 
   /// Half-width at `down` (0 top, 1 bottom), m: from a cylinder to a cone, rounded at both ends.
   float width(float down) const {
@@ -30,13 +34,31 @@ struct Body {
                            std::sqrt(std::max(0.0f, 1 - (1 - tail) * (1 - tail)));
     return radius * cone * (0.22f + 0.78f * rounding);
   }
+
+  /// Side branches stand out, and leave furrows between them; mean 1, 1 at the bottom.
+  float lump(float down, float turn) const {
+    const float wave = std::sin(2 * turn + phase + 7 * down) * std::cos(9 * down + 2 * phase) +
+                       0.6f * std::sin(3 * turn - 11 * down - phase);
+    return 1 + kLumps * (1 - down) * wave;
+  }
+
+  /// A point of its axis.
+  Vector3f axis(float down) const {
+    return top + Vector3f(bend * std::sin(kPi * down), 0, -length * down);
+  }
 };
 
 std::vector<Body> bodies(const Bunch& bunch) {
-  std::vector<Body> all{{bunch.top, bunch.length, bunch.radius, bunch.shoulder}};
+  RandomSequence random(RandomStream(bunch.berry_seed, "bodies"));
+  const auto uniform = [&](double low, double high) {
+    return static_cast<float>(random.uniform(low, high));
+  };
+  std::vector<Body> all{{bunch.top, bunch.length, bunch.radius, bunch.shoulder,
+                         bunch.radius * uniform(-0.35, 0.35), uniform(0, 6.28)}};
   if (!bunch.wing.isZero()) {
     const Vector3f aside(bunch.wing.x(), bunch.wing.y(), -0.004f);
-    all.push_back({bunch.top + aside, 0.42f * bunch.length, 0.52f * bunch.radius, 0.6f});
+    all.push_back({bunch.top + aside, bunch.length * uniform(0.32, 0.55), 0.52f * bunch.radius,
+                   0.6f, 0, uniform(0, 6.28)});
   }
   return all;
 }
@@ -65,43 +87,107 @@ float down_at(const std::vector<float>& area, float t) {
   return (static_cast<float>(i - 1) + std::clamp(within, 0.0f, 1.0f)) / kSlices;
 }
 
-/// Berries around the body by the golden angle, evenly over its surface, the last at its bottom.
+struct Berry {
+  Vector3f centre, outward;
+  float radius;
+  float light;  ///< share of the ambient light that its neighbours leave it
+};
+
+/// Berries as they press on each other: thrown at the body one after the other, each of which stays
+/// where it does not cut too far into another; first on the surface, then below, into the gaps.
+class Packing {
+ public:
+  Packing(const Body& body, const Bunch& bunch, float enlarged, std::uint64_t stream)
+      : body_(body),
+        radius_(bunch.berry_radius * enlarged),
+        apart_(0.92f - 0.16f * bunch.compactness),
+        area_(areas(body)),
+        random_(RandomStream(bunch.berry_seed, "berries", stream)) {}
+
+  std::vector<Berry> pack(int count) {
+    const float r = std::min(radius_, 0.4f * body_.length);
+    berries_.push_back({body_.axis(1) + Vector3f(0, 0, r), -Vector3f::UnitZ(), r, 0.9f});
+    constexpr int kThrows = 14;  // a berry
+    const int outer = std::max(1, count * 3 / 5);
+    for (int i = 0; i < kThrows * count && size() < outer; ++i) try_one(0.15f, 0.75f, 1.0f);
+    for (int i = 0; i < kThrows * count && size() < count; ++i) try_one(0.9f, 2.0f, 0.6f);
+    return std::move(berries_);
+  }
+
+ private:
+  int size() const { return static_cast<int>(berries_.size()); }
+  float uniform(float low, float high) { return static_cast<float>(random_.uniform(low, high)); }
+
+  /// Its middle lies so many radii below the surface.
+  void try_one(float least, float most, float light) {
+    const float radius = radius_ * uniform(0.84f, 1.12f);
+    const float down = down_at(area_, uniform(0, 1)), turn = uniform(0, 2 * kPi);
+    const float sunk = uniform(least, most) * radius;
+    const float out = std::max(0.0f, body_.width(down) * body_.lump(down, turn) - sunk);
+    const float share = std::clamp(down, radius / body_.length, 1 - 1.1f * radius / body_.length);
+    const Vector3f spoke(std::cos(turn), std::sin(turn), 0);
+    const Vector3f centre = body_.axis(share) + out * spoke;
+    for (const Berry& other : berries_) {
+      const float apart = apart_ * (radius + other.radius);
+      if ((centre - other.centre).squaredNorm() < apart * apart) return;
+    }
+    berries_.push_back({centre, spoke + (0.45f - down) * Vector3f::UnitZ(), radius, light});
+  }
+
+  const Body& body_;
+  float radius_, apart_;
+  std::vector<float> area_;
+  RandomSequence random_;
+  std::vector<Berry> berries_;
+};
+
+/// Ripens a little earlier or later than its bunch, and has a shade of its own.
+class Skin {
+ public:
+  explicit Skin(const Bunch& bunch)
+      : bunch_(bunch), random_(RandomStream(bunch.berry_seed, "skins")) {}
+
+  TextureCell cell() {
+    const double at = 0.5 * kBerryVariants + kBerryVariants * bunch_.ripeness +
+                      random_.normal(0, 0.28 * kBerryVariants);
+    return berry_cell(std::clamp(static_cast<int>(std::floor(at)), 0, kBerryVariants - 1));
+  }
+
+  std::array<std::uint8_t, 3> tint() {
+    const double light = std::clamp(0.86 + random_.normal(0, 0.05), 0.7, 0.97);
+    const double warm = random_.normal(0, 0.03);
+    const auto byte = [](double share) {
+      return static_cast<std::uint8_t>(255 * std::clamp(share, 0.0, 1.0));
+    };
+    return {byte(light * (1 + warm)), byte(light), byte(light * (1 - 2 * warm))};
+  }
+
+ private:
+  const Bunch& bunch_;
+  RandomSequence random_;
+};
+
 void add_berries(MeshBuilder& builder, const Body& body, const Bunch& bunch, int count,
                  const BunchDetail& detail, std::uint64_t stream) {
-  RandomSequence random(RandomStream(bunch.berry_seed, "berries", stream));
-  const std::vector<float> area = areas(body);
-  const float larger = std::sqrt(static_cast<float>(berries_of(body, bunch.berry_radius)) / count);
-  for (int i = 0; i < count; ++i) {
-    const float radius = bunch.berry_radius * std::clamp(larger, 1.0f, 1.2f) *
-                         static_cast<float>(random.uniform(0.86, 1.12));
-    const float turn = 2.39996f * i + static_cast<float>(random.uniform(-0.35, 0.35));
-    const float down = down_at(area, (static_cast<float>(i) + 0.5f) / count);
-    const auto loose = static_cast<float>(random.uniform());
-    const bool last = i + 1 == count;
-    const Vector3f spoke(std::cos(turn), std::sin(turn), 0);
-    const Vector3f outward =
-        last ? Vector3f(-Vector3f::UnitZ()) : Vector3f(spoke + (0.45f - down) * Vector3f::UnitZ());
-    const bool inside = outward.y() * bunch.top.y() < 0 && std::abs(outward.y()) > 0.35f;
-    const bool fine = detail.fine && (last || !inside);
-    // Caps touch the core, whole berries may protrude.
-    const float sunk = (fine ? 0.62f + 0.5f * loose : 1.0f + 0.2f * loose) * radius;
-    const float out = last ? 0.0f : std::max(0.0f, body.width(down) - sunk);
-    const float depth = last ? body.length - radius
-                             : std::clamp(down * body.length, radius, body.length - 1.06f * radius);
-    const Vector3f centre = body.top + out * spoke - Vector3f(0, 0, depth);
-    builder.berry(centre, radius, outward, fine, berry_cell(random.below(kBerryVariants)));
+  const float fewer = std::sqrt(static_cast<float>(berries_of(body, bunch.berry_radius)) / count);
+  Skin skin(bunch);
+  const float enlarged = std::clamp(fewer, 1.0f, 1.5f);
+  for (const Berry& berry : Packing(body, bunch, enlarged, stream).pack(count)) {
+    builder.berry(berry.centre, berry.radius, berry.outward, detail.fine,
+                  {skin.cell(), skin.tint(), berry.light});
   }
 }
 
-/// The whole body, or the core below its berries.
+/// The whole body, or what is seen between its berries.
 void add_solid(MeshBuilder& builder, const Body& body, const BunchDetail& detail, bool core,
                float berry_radius) {
   const std::vector<float> downs =
       detail.coarse ? std::vector<float>{0, 0.35f, 1} : std::vector<float>{0, 0.1f, 0.3f, 0.72f, 1};
-  const float share = core ? 0.88f : 1.0f, inset = core ? 0.5f * berry_radius : 0.0f;
+  const float share = core ? 0.72f : 1.0f, inset = core ? 0.8f * berry_radius : 0.0f;
   std::vector<float> radii;
   for (const float down : downs) radii.push_back(share * body.width(down));
-  builder.spindle(body.top - Vector3f(0, 0, inset), body.length - 2 * inset, downs, radii,
+  const Vector3f bent(0.6f * body.bend, 0, 0);  // its mean
+  builder.spindle(body.top + bent - Vector3f(0, 0, inset), body.length - 2 * inset, downs, radii,
                   detail.sides, packed_berries_cell());
 }
 
@@ -116,7 +202,7 @@ int visible_berries(const Bunch& bunch) {
 void add_bunch(Primitive& primitive, const Bunch& bunch, int part, const BunchDetail& detail) {
   MeshBuilder builder(primitive, static_cast<std::uint8_t>(std::min(part, 255)));
   const int all = visible_berries(bunch);
-  const float each = detail.fine ? 13.8f : 6.0f;  // triangles of a berry, on average
+  const float each = detail.fine ? 18.0f : 6.0f;  // triangles of a berry
   const float share = std::min(1.0f, static_cast<float>(detail.triangles) / (each * all));
   std::uint64_t stream = 0;
   for (const Body& body : bodies(bunch)) {

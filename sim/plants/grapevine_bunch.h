@@ -9,7 +9,7 @@ namespace vinebench::sim {
 /// Level of detail of a bunch.
 struct BunchDetail {
   int triangles = 0;    ///< of all berries of a bunch, at most; 0: one solid
-  bool fine = false;    ///< complete hemispheres that face outwards
+  bool fine = false;    ///< hemispheres that face outwards
   int sides = 6;        ///< of the solid, the core of the berries
   bool coarse = false;  ///< the solid has two rings of sides, not four
 

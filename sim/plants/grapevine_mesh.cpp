@@ -50,7 +50,7 @@ class Parts {
       if (part.indices.empty()) continue;
       for (Vertex& vertex : part.vertices) {
         vertex.position.y() = std::clamp(vertex.position.y(), -plant.half_depth, plant.half_depth);
-        vertex.occlusion = light.at(vertex.position);
+        vertex.occlusion *= light.at(vertex.position);
       }
       all.push_back(std::move(part));
     }
@@ -88,23 +88,25 @@ void add_shoots(Parts& parts, const Grapevine& plant, const MeshDetail& detail) 
   }
 }
 
-void add_leaves(Parts& parts, const Grapevine& plant, int detail) {
-  MeshBuilder builder(parts.at(detail == kLeafCards ? kLeafCardMaterial : kLeafMaterial));
+void add_leaves(Parts& parts, const Grapevine& plant, int cells) {
+  MeshBuilder builder(parts.at(kLeafCardMaterial));
   for (const BladePlacement& leaf : plant.leaves) {
-    if (detail == kLeafCards) {
-      builder.card(leaf);
-      continue;
-    }
-    builder.blade(leaf, leaf.size < kSmallLeaf ? std::min(detail, 1) : detail);
+    builder.card(leaf, leaf.size < kSmallLeaf ? std::min(cells, 2) : cells);
   }
+}
+
+/// As polygons, for painting.
+void add_blades(Parts& parts, const Grapevine& plant) {
+  MeshBuilder builder(parts.at(kLeafMaterial));
+  for (const BladePlacement& leaf : plant.leaves) builder.blade(leaf, 1);
 }
 
 void add_bunches(Parts& parts, const Grapevine& plant, const MeshDetail& detail) {
   if (plant.bunches.empty()) return;
   BunchDetail look;
-  look.fine = detail.fine_berries;
-  look.sides = detail.leaf > 0 ? 7 : 6;
-  if (detail.leaf > 0) {
+  look.fine = detail.berries == Berries::kRound;
+  look.sides = detail.berries == Berries::kSolid ? 6 : 7;
+  if (detail.berries != Berries::kSolid) {
     int cores = 0;
     for (const Bunch& bunch : plant.bunches) {
       cores += look.solid_triangles() * (bunch.wing.isZero() ? 1 : 2);
@@ -133,10 +135,10 @@ LevelOfDetail mesh_near(const Grapevine& plant, const MeshDetail& detail,
 }
 
 std::vector<Primitive> mesh_to_paint(const Grapevine& plant, const CanopyLight& light) {
-  constexpr MeshDetail kPainted{0, 6000, 5, 3, 1, false, 1, false};
+  constexpr MeshDetail kPainted{0, 6000, 5, 3, 1, false, 0, Berries::kCaps};
   Parts parts;
   add_shoots(parts, plant, kPainted);
-  add_leaves(parts, plant, kPainted.leaf);
+  add_blades(parts, plant);
   add_bunches(parts, plant, kPainted);
   MeshBuilder arms(parts.at(kTrunkMaterial)), cane(parts.at(kCaneMaterial));
   for (std::size_t i = 1; i < plant.wood.size(); ++i) arms.tube(plant.wood[i], 5, 4, true);

@@ -23,8 +23,7 @@ enum PlantMaterial {
   kPlantMaterials
 };
 
-/// Leaves as folded squares with the image of a leaf: their outline has its teeth.
-inline constexpr int kLeafCards = -1;
+enum class Berries { kSolid, kCaps, kRound };
 
 /// Level of detail of a near plant.
 struct MeshDetail {
@@ -34,8 +33,8 @@ struct MeshDetail {
   int cane_sides;
   int stride;   ///< points of a path from one ring to the next
   bool stalks;  ///< petioles, tendrils, stalks of bunches
-  int leaf;     ///< detail of a blade's outline; kLeafCards for cut-out leaves
-  bool fine_berries;
+  int leaf;     ///< squares a side of a blade's cut-out image; 0: folded along the midrib
+  Berries berries;
 };
 
 /// A level of meshes, its occlusion baked.

@@ -20,6 +20,8 @@ struct Bunch {
   float radius = 0.033f;         ///< m, at its widest
   float berry_radius = 0.0075f;  ///< m, mean
   float shoulder = 0.5f;         ///< 0 a cylinder, 1 a cone
+  float compactness = 0.8f;      ///< 0 berries hang apart, 1 they press on each other
+  float ripeness = 0;            ///< against the plants' mean, as a share of the berries' variants
   Eigen::Vector2f wing{0, 0};    ///< m, of the small bunch beside its shoulder; none where 0
   std::uint64_t berry_seed = 0;  ///< for where each berry sits and what colour it has
 };

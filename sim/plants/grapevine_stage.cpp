@@ -11,12 +11,13 @@
 namespace vinebench::sim {
 namespace {
 
-constexpr std::array<GrowthStage, 7> kStages{{
+constexpr std::array<GrowthStage, 8> kStages{{
     // code, name, shoot, leaf, foliage, autumn, bunch, berry, ripe, lignified
     {0, "dormant", 0, 0, 0, 0, 0, 0, 0, 1},
     {9, "budburst", 0.03f, 0.22f, 0, 0, 0, 0, 0, 0},
     {65, "flowering", 0.80f, 0.82f, 0.50f, 0, 0.75f, 0.24f, 0, 0},
     {75, "pea-size", 1, 0.95f, 0.90f, 0, 0.90f, 0.48f, 0, 0.1f},
+    {79, "bunch closure", 1, 1, 1, 0, 0.97f, 0.72f, 0, 0.2f},
     {83, "veraison", 1, 1, 1, 0, 1, 0.85f, 0.5f, 0.35f},
     {89, "harvest", 1, 1, 1, 0.03f, 1, 1, 1, 0.6f},
     {95, "leaf fall", 1, 1, 0.5f, 0.8f, 0, 0, 0, 1},

@@ -22,7 +22,7 @@ struct GrowthStage {
   float bunch_width() const { return 0.2f + 0.8f * berry; }
 };
 
-/// Stages 0, 9, 65, 75, 83, 89 and 95. Throws Error that names them for any other.
+/// Stages 0, 9, 65, 75, 79, 83, 89 and 95. Throws Error that names them for any other.
 const GrowthStage& growth_stage(int bbch);
 
 /// Share of the ground's green that has dried or died back at that stage, 0 to 1.

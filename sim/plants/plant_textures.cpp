@@ -189,7 +189,7 @@ cv::Mat paint_leaf(std::uint64_t seed, int variant, int print, const Cultivar::L
 /// Skin below its bloom, a pale wax that hides most of a dark colour.
 cv::Vec3f waxed(const cv::Vec3f& skin) {
   const float dark = 1 - std::max({skin[0], skin[1], skin[2]}) / 255;
-  const float wax = 0.10f + 0.30f * dark;
+  const float wax = 0.04f + 0.40f * dark * dark;
   return skin + wax * (cv::Vec3f(158, 162, 170) - skin);
 }
 
@@ -197,7 +197,7 @@ cv::Vec3f waxed(const cv::Vec3f& skin) {
 cv::Vec3f berry_colour(const Cultivar::Berry& look, float ripe) {
   const cv::Vec3f green = waxed(bytes(look.green)), full = waxed(bytes(look.ripe));
   const bool red = look.ripe.y() < look.green.y() - 0.15;
-  const cv::Vec3f middle = red ? cv::Vec3f(150, 92, 104) : 0.5f * (green + full);
+  const cv::Vec3f middle = red ? cv::Vec3f(126, 84, 84) : 0.5f * (green + full);
   return ripe < 0.5f ? green + 2 * ripe * (middle - green)
                      : middle + (2 * ripe - 1) * (full - middle);
 }
@@ -262,7 +262,7 @@ cv::Mat paint_packed(std::uint64_t seed, const Cultivar& cultivar, const GrowthS
     const cv::Vec3f skin = static_cast<float>(random.uniform(0.82, 1.1)) *
                            colours.at(static_cast<std::size_t>(random.below(kBerryVariants)));
     for (const double wrap : {-1.0, 0.0, 1.0}) {
-      paint_berry(rgb, at + cv::Point2d(wrap * side, 0), step * size, skin, 0.66);
+      paint_berry(rgb, at + cv::Point2d(wrap * side, 0), step * size, skin, 0.74);
     }
   }
   return rgb;
@@ -331,10 +331,10 @@ Texture bunch_texture(std::uint64_t seed, const Cultivar& cultivar, const Growth
     const cv::Vec3f& skin = colours.at(static_cast<std::size_t>(i));
     of_berry.setTo(cv::Scalar(0.5f * skin));
     const double middle = 0.5 * (cell - 1);
-    paint_berry(of_berry, {middle, middle}, {0.5 * cell, 0.5 * cell}, skin, 0.74);
+    paint_berry(of_berry, {middle, middle}, {0.5 * cell, 0.5 * cell}, skin, 0.90);
     // The bloom (a whitish wax) is partly rubbed off.
     const cv::Mat bloom =
-        0.40 * fractal_noise({cell, cell}, {3, 3}, 5, 0.6, seed, "berry" + std::to_string(i));
+        0.25 * fractal_noise({cell, cell}, {3, 3}, 5, 0.6, seed, "berry" + std::to_string(i));
     const cv::Mat wax(of_berry.size(), CV_32FC3, cv::Scalar(0.55f * skin + cv::Vec3f(72, 74, 80)));
     mix(bloom, of_berry, wax).copyTo(of_berry);
   }

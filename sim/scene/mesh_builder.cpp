@@ -196,8 +196,40 @@ void MeshBuilder::blade(const BladePlacement& blade, int detail) {
   curved(rim, foot, {add(ray(-62, 0.46f)), add(ray(0, 0.52f)), add(ray(62, 0.46f))});
 }
 
+/// A point of a waved blade, from its texture's cell.
+std::uint32_t MeshBuilder::on_card(const BladePlacement& blade, float u, float v) {
+  constexpr float kWave = 0.045f, kWaves = 9;  // sizes; rad a size
+  const float x = (2 * u - 1) * kLeafHalf, y = kLeafBottom + (1 - v) * 2 * kLeafHalf;
+  const float phase = 40 * blade.size;  // another one for each leaf
+  const float rim = x * x + y * y;      // flat at the foot
+  const float sag = -blade.curl * rim + 0.25f * std::abs(x) +
+                    kWave * rim * std::sin(kWaves * x + phase) * std::cos(kWaves * y - 2 * phase);
+  const float tilt = kWave * kWaves * rim * std::cos(kWaves * x + phase);
+  const float fold = std::clamp(5 * x, -1.0f, 1.0f) * 0.25f;
+  const Eigen::Vector3f own = blade.axes.z + (2 * blade.curl * x - fold - tilt) * blade.axes.x +
+                              2 * blade.curl * y * blade.axes.y;
+  const std::uint32_t added =
+      vertex(blade.foot + blade.size * (x * blade.axes.x + y * blade.axes.y + sag * blade.axes.z),
+             (own.normalized() + blade.shading_normal).normalized(), blade.cell.at(u, v));
+  primitive_.vertices[added].colour = blade.tint;
+  return added;
+}
+
 /// Folded along the midrib, both halves hanging.
-void MeshBuilder::card(const BladePlacement& blade) {
+void MeshBuilder::card(const BladePlacement& blade, int cells) {
+  if (cells > 0) {
+    const auto first = static_cast<std::uint32_t>(primitive_.vertices.size());
+    const auto side = static_cast<std::uint32_t>(cells) + 1;
+    for (std::uint32_t i = 0; i < side * side; ++i) {
+      on_card(blade, static_cast<float>(i % side) / static_cast<float>(cells),
+              1 - static_cast<float>(i / side) / static_cast<float>(cells));
+    }
+    for (std::uint32_t i = 0; i + side < side * side; ++i) {
+      if (i % side + 1 == side) continue;
+      quad(first + i, first + i + 1, first + i + 1 + side, first + i + side);
+    }
+    return;
+  }
   const auto add = [&](float u, float v, float fold) {
     const float across = (2 * u - 1) * kLeafHalf;
     const float along = kLeafBottom + (1 - v) * 2 * kLeafHalf;
@@ -244,12 +276,18 @@ void MeshBuilder::dome(const Eigen::Vector3f& centre, float radius, const Eigen:
 }
 
 void MeshBuilder::berry(const Eigen::Vector3f& centre, float radius, const Eigen::Vector3f& outward,
-                        bool fine, const TextureCell& cell) {
+                        bool fine, const BerrySkin& skin) {
   constexpr std::size_t kSpokes = 6;
   constexpr float kAround = 1.05f;  // of the ball's radius, so that the outline has its area
   constexpr float kHigh = 0.4472136f, kOut = 0.8944272f;  // positions of the two rings
   const Axes axes = axes_along(outward, Eigen::Vector3f::UnitZ());
-  const std::uint32_t pole = vertex(centre + radius * axes.z, axes.z, cell.at(0.5f, 0.5f));
+  const auto add = [&](float size, const Eigen::Vector3f& out, float u, float v, float share) {
+    const std::uint32_t added =
+        vertex(centre + size * out, out, skin.cell.at(u, v), share * skin.light);
+    primitive_.vertices[added].colour = skin.tint;
+    return added;
+  };
+  const std::uint32_t pole = add(radius, axes.z, 0.5f, 0.5f, 1);
   std::array<std::uint32_t, 2 * kSpokes> ring{};
   for (std::size_t i = 0; i < (fine ? 2 : 1) * kSpokes; ++i) {
     const bool lower = i >= kSpokes;
@@ -257,8 +295,8 @@ void MeshBuilder::berry(const Eigen::Vector3f& centre, float radius, const Eigen
     const Eigen::Vector3f spoke = std::cos(turn) * axes.x + std::sin(turn) * axes.y;
     const Eigen::Vector3f out = kOut * spoke + (lower ? -kHigh : kHigh) * axes.z;
     const float reach = lower ? 0.5f : 0.36f;  // in the image of a berry
-    ring.at(i) = vertex(centre + kAround * radius * out, out,
-                        cell.at(0.5f + reach * std::cos(turn), 0.5f + reach * std::sin(turn)));
+    ring.at(i) = add(kAround * radius, out, 0.5f + reach * std::cos(turn),
+                     0.5f + reach * std::sin(turn), lower ? 0.55f : 0.88f);
   }
   for (std::size_t i = 0; i < kSpokes; ++i) {
     const std::size_t next = (i + 1) % kSpokes;

@@ -46,6 +46,13 @@ struct BladePlacement {
   std::array<std::uint8_t, 3> tint{255, 255, 255};  ///< Vertex::colour
 };
 
+/// What a berry looks like.
+struct BerrySkin {
+  TextureCell cell;
+  std::array<std::uint8_t, 3> tint{255, 255, 255};  ///< Vertex::colour
+  float light = 1;  ///< share of the ambient light at its foremost point
+};
+
 /// Outline of a vine leaf about the foot, in sizes: x across, y along the midrib, counter-clockwise
 /// from the sinus at the foot. `detail`: 0 a pentagon, 1 five lobes, 2 five rounded lobes. All have
 /// about the same area.
@@ -79,20 +86,23 @@ class MeshBuilder {
   /// Triangles around the foot, rim hanging down, folded along the midrib. Detail 2 has points
   /// between foot and rim, so that the blade is curved.
   void blade(const BladePlacement& blade, int detail);
-  /// Four triangles with the whole texture cell, for cut-out leaves.
-  void card(const BladePlacement& blade);
+  /// The whole texture cell, for cut-out leaves: four triangles folded along the midrib, or with
+  /// `cells` > 0 a curved and waved grid of so many squares a side.
+  void card(const BladePlacement& blade, int cells = 0);
   /// The hemisphere that faces along `outward`.
   void dome(const Eigen::Vector3f& centre, float radius, const Eigen::Vector3f& outward, int sides,
             int rings);
-  /// The hemisphere that faces along `outward`, of 18 triangles (`fine`), or a cap of 6.
+  /// The hemisphere that faces along `outward`, of 18 triangles (`fine`), or a cap of 6; darker
+  /// towards its back, which touches others.
   void berry(const Eigen::Vector3f& centre, float radius, const Eigen::Vector3f& outward, bool fine,
-             const TextureCell& cell);
+             const BerrySkin& skin);
   /// A solid of revolution about the vertical: radii at the shares `downs` of its length from the
   /// top.
   void spindle(const Eigen::Vector3f& top, float length, const std::vector<float>& downs,
                const std::vector<float>& radii, int sides, const TextureCell& cell = {});
 
  private:
+  std::uint32_t on_card(const BladePlacement& blade, float u, float v);
   void fan(const std::vector<std::uint32_t>& rim, std::uint32_t foot);
   void curved(const std::vector<std::uint32_t>& rim, std::uint32_t foot,
               const std::array<std::uint32_t, 3>& inner);

@@ -26,7 +26,7 @@ std::string bbch_problem(int bbch);
 struct VinesConfig {
   std::filesystem::path cultivar;  ///< YAML file; empty: the built-in red cultivar
   Training training = Training::kBilateralCordon;
-  int bbch = 89;               ///< growth stage: 0, 9, 65, 75, 83, 89 or 95
+  int bbch = 89;               ///< growth stage: 0, 9, 65, 75, 79, 83, 89 or 95
   double spacing = 1.0;        ///< m between plants
   double lowest_bunch = 0.60;  ///< m above ground
   double canopy_top = 1.5;     ///< m above ground

@@ -13,7 +13,7 @@ namespace vinebench::test {
 inline constexpr std::array<sim::Training, 4> kTrainings{
     sim::Training::kBilateralCordon, sim::Training::kUnilateralCordon, sim::Training::kSingleGuyot,
     sim::Training::kDoubleGuyot};
-inline constexpr std::array<int, 7> kCodes{0, 9, 65, 75, 83, 89, 95};
+inline constexpr std::array<int, 8> kCodes{0, 9, 65, 75, 79, 83, 89, 95};
 inline constexpr std::array<std::uint64_t, 4> kSeeds{1, 2, 77, 123456789};
 
 inline sim::PlantBrief brief(int bbch = 89,

@@ -51,7 +51,7 @@ std::vector<Option> layout_options(sim::WorldRecipe& recipe, std::string& terrai
 }
 
 std::vector<Option> content_options(sim::WorldRecipe& recipe, std::string& tags) {
-  return {number("--bbch", &recipe.bbch, "Growth stage: 0, 9, 65, 75, 83, 89 or 95"),
+  return {number("--bbch", &recipe.bbch, "Growth stage: 0, 9, 65, 75, 79, 83, 89 or 95"),
           number("--templates", &recipe.templates, "Different plants"),
           choice("--tags", recipe.tags, tags,
                  "None, the first post of all, the ends of every row, or all posts"),

@@ -23,7 +23,7 @@ TEST(GrowthStageTest, AnUnknownStageIsRefusedWithTheKnownOnes) {
 }
 
 TEST(GrowthStageTest, EveryStageHasItsCode) {
-  for (const int code : {0, 9, 65, 75, 83, 89, 95}) {
+  for (const int code : {0, 9, 65, 75, 79, 83, 89, 95}) {
     EXPECT_EQ(growth_stage(code).bbch, code);
     EXPECT_EQ(bbch_problem(code), "");
   }

@@ -121,5 +121,49 @@ TEST(LeafOutlineTest, EveryDetailHasTheSameArea) {
   EXPECT_GT(leaf_outline_area(0), leaf_outline_area(1));  // sinuses take area away
 }
 
+// Five by five points of four by four squares; x and y are those of the flat cell, z hangs by
+// curl r^2, rises by a quarter of |x|, and waves by at most 0.045 r^2.
+TEST(MeshBuilderTest, AFineCardIsACurvedGridOverItsCell) {
+  BladePlacement leaf;
+  leaf.foot = {1, 2, 3};
+  leaf.axes = {Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitY(), Eigen::Vector3f::UnitZ()};
+  leaf.size = 0.1f;
+  leaf.curl = 0.3f;
+  leaf.shading_normal.setZero();
+  leaf.cell = {{0, 0}, {1, 1}};
+  Primitive primitive;
+  MeshBuilder(primitive).card(leaf, 4);
+  ASSERT_EQ(primitive.vertices.size(), 25u);
+  ASSERT_EQ(primitive.indices.size(), 3u * 2 * 16);
+  for (const Vertex& v : primitive.vertices) {
+    const Eigen::Vector3f p = (v.position - leaf.foot) / leaf.size;
+    EXPECT_NEAR(p.x(), (2 * v.uv.x() - 1) * kLeafHalf, 1e-4);
+    EXPECT_NEAR(p.y(), kLeafBottom + (1 - v.uv.y()) * 2 * kLeafHalf, 1e-4);
+    const float rim = p.head<2>().squaredNorm();
+    EXPECT_NEAR(p.z(), -0.3f * rim + 0.25f * std::abs(p.x()), 0.045f * rim + 1e-4f);
+    EXPECT_NEAR(v.normal.norm(), 1, 1e-5);
+  }
+  for (std::size_t i = 0; i < primitive.indices.size(); i += 3) {  // seen from +z
+    const auto at = [&](std::size_t k) {
+      return primitive.vertices[primitive.indices[i + k]].position;
+    };
+    EXPECT_GT((at(1) - at(0)).cross(at(2) - at(0)).z(), 0);
+  }
+}
+
+TEST(MeshBuilderTest, ABerryIsRoundAndDarkerTowardsItsBack) {
+  Primitive primitive;
+  const Eigen::Vector3f centre(1, 2, 3), outward(0, -1, 0);
+  MeshBuilder(primitive).berry(centre, 0.01f, outward, true, {{}, {200, 210, 220}, 0.8f});
+  ASSERT_EQ(primitive.indices.size(), 3u * 18);  // six, and twice six below
+  for (const Vertex& v : primitive.vertices) {
+    const float forward = v.normal.dot(outward);
+    // A radius from the middle; 5 % more beside the pole, so that the outline keeps its area.
+    EXPECT_NEAR((v.position - centre).norm(), forward > 0.99f ? 0.01f : 0.0105f, 1e-5);
+    EXPECT_NEAR(v.occlusion, 0.8f * (forward > 0.99f ? 1 : forward > 0 ? 0.88f : 0.55f), 1e-5);
+    EXPECT_EQ(v.colour[1], 210);
+  }
+}
+
 }  // namespace
 }  // namespace vinebench::sim
