@@ -22,9 +22,10 @@ struct RandomisationConfig {
     std::optional<std::array<double, 2>> normal;         ///< mean, standard deviation
     std::optional<std::array<std::int64_t, 2>> integer;  ///< least, most, both included
     std::vector<std::string> choice;                     ///< YAML values
-    std::vector<double> weights;                         ///< of the choice; equal if absent
-    std::optional<double> min;                           ///< of normal
-    std::optional<double> max;                           ///< likewise
+    std::vector<std::filesystem::path> file;  ///< a choice of files, relative to this one
+    std::vector<double> weights;              ///< of the choice; equal if absent
+    std::optional<double> min;                ///< of normal
+    std::optional<double> max;                ///< likewise
     template <class Archive>
     void serialize(Archive& archive) {
       archive("key", key);
@@ -33,10 +34,19 @@ struct RandomisationConfig {
       archive("normal", normal);
       archive("integer", integer);
       archive("choice", choice);
+      archive("file", file);
       archive("weights", weights, Range::non_negative());
       archive("min", min);
       archive("max", max);
       check(archive);
+    }
+    /// What is chosen from; empty for numbers.
+    std::vector<std::string> choices() const {
+      std::vector<std::string> all = choice;
+      for (const std::filesystem::path& one : file) {
+        all.push_back(std::filesystem::absolute(one).lexically_normal().string());
+      }
+      return all;
     }
 
    private:
@@ -44,9 +54,11 @@ struct RandomisationConfig {
     void check(Archive& archive) const {
       archive.require(!key.empty(), "key", "expected a key of the scenario");
       const int kinds = int(uniform.has_value()) + int(log_uniform.has_value()) +
-                        int(normal.has_value()) + int(integer.has_value()) + int(!choice.empty());
-      archive.require(kinds == 1, "key",
-                      "expected exactly one of uniform, log_uniform, normal, integer, choice");
+                        int(normal.has_value()) + int(integer.has_value()) + int(!choice.empty()) +
+                        int(!file.empty());
+      archive.require(
+          kinds == 1, "key",
+          "expected exactly one of uniform, log_uniform, normal, integer, choice, file");
       const auto ascends = [&](const auto& span, const char* name) {
         if (span) archive.require((*span)[0] <= (*span)[1], name, "expected [least, most]");
       };
@@ -57,7 +69,7 @@ struct RandomisationConfig {
       archive.require(normal || (!min && !max), "min", "min and max require normal");
       double sum = 0;
       for (const double weight : weights) sum += weight;
-      archive.require(weights.empty() || (weights.size() == choice.size() && sum > 0), "weights",
+      archive.require(weights.empty() || (weights.size() == choices().size() && sum > 0), "weights",
                       "expected one for each choice, not all 0");
     }
   };
@@ -75,17 +87,18 @@ struct RandomisationConfig {
 
 using Draw = RandomisationConfig::Draw;
 
-const std::string& chosen(const Draw& draw, double share) {
+std::string chosen(const Draw& draw, double share) {
+  const std::vector<std::string> choices = draw.choices();
   double sum = 0;
-  for (std::size_t i = 0; i < draw.choice.size(); ++i) {
+  for (std::size_t i = 0; i < choices.size(); ++i) {
     sum += draw.weights.empty() ? 1 : draw.weights[i];
   }
   double left = share * sum;
-  for (std::size_t i = 0; i + 1 < draw.choice.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < choices.size(); ++i) {
     left -= draw.weights.empty() ? 1 : draw.weights[i];
-    if (left < 0) return draw.choice[i];
+    if (left < 0) return choices[i];
   }
-  return draw.choice.back();
+  return choices.back();
 }
 
 std::string value_of(const Draw& draw, const RandomStream& stream) {
@@ -120,13 +133,13 @@ std::vector<std::string> values_of(const Draw& draw, const std::vector<std::int6
   return values;
 }
 
-std::string narrowed_choice(const std::vector<std::string>& values) {
+std::string narrowed_choice(const char* kind, const std::vector<std::string>& values) {
   std::vector<std::string> choice = values;
   std::ranges::sort(choice);
   choice.erase(std::unique(choice.begin(), choice.end()), choice.end());
   std::vector<std::ptrdiff_t> weights;
   for (const std::string& value : choice) weights.push_back(std::ranges::count(values, value));
-  return fmt::format("choice: [{}], weights: [{}]", fmt::join(choice, ", "),
+  return fmt::format("{}: [{}], weights: [{}]", kind, fmt::join(choice, ", "),
                      fmt::join(weights, ", "));
 }
 
@@ -145,7 +158,8 @@ std::string narrowed_normal(const Draw& draw, const std::vector<double>& values)
 
 /// The distribution of a draw that is left of these values.
 std::string narrowed(const Draw& draw, const std::vector<std::string>& values) {
-  if (!draw.choice.empty()) return narrowed_choice(values);
+  if (!draw.choice.empty()) return narrowed_choice("choice", values);
+  if (!draw.file.empty()) return narrowed_choice("file", values);
   std::vector<double> numbers;
   for (const std::string& value : values) numbers.push_back(std::stod(value));
   if (draw.normal) return narrowed_normal(draw, numbers);

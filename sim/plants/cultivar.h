@@ -47,8 +47,8 @@ struct Cultivar {
   };
   struct Berry {
     double diameter = 0.015;  ///< m, mean at harvest
-    Eigen::Vector3d green{0.41, 0.52, 0.17};
-    Eigen::Vector3d ripe{0.18, 0.13, 0.23};
+    Eigen::Vector3d green{0.42, 0.54, 0.19};
+    Eigen::Vector3d ripe{0.17, 0.13, 0.20};
     template <class Archive>
     void serialize(Archive& archive) {
       archive("diameter", diameter, Range::between(0.005, 0.035));

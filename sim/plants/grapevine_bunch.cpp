@@ -75,7 +75,7 @@ std::vector<float> areas(const Body& body) {
 
 int berries_of(const Body& body, float berry_radius) {
   return std::max(
-      4, static_cast<int>(0.95f * areas(body).back() / (kPi * berry_radius * berry_radius)));
+      4, static_cast<int>(1.25f * areas(body).back() / (kPi * berry_radius * berry_radius)));
 }
 
 /// Position with the share `t` of the surface above it: 0 top, 1 bottom.
@@ -100,17 +100,17 @@ class Packing {
   Packing(const Body& body, const Bunch& bunch, float enlarged, std::uint64_t stream)
       : body_(body),
         radius_(bunch.berry_radius * enlarged),
-        apart_(0.92f - 0.16f * bunch.compactness),
+        apart_(0.90f - 0.16f * bunch.compactness),
         area_(areas(body)),
         random_(RandomStream(bunch.berry_seed, "berries", stream)) {}
 
   std::vector<Berry> pack(int count) {
     const float r = std::min(radius_, 0.4f * body_.length);
     berries_.push_back({body_.axis(1) + Vector3f(0, 0, r), -Vector3f::UnitZ(), r, 0.9f});
-    constexpr int kThrows = 14;  // a berry
+    constexpr int kThrows = 24;  // a berry
     const int outer = std::max(1, count * 3 / 5);
     for (int i = 0; i < kThrows * count && size() < outer; ++i) try_one(0.15f, 0.75f, 1.0f);
-    for (int i = 0; i < kThrows * count && size() < count; ++i) try_one(0.9f, 2.0f, 0.6f);
+    for (int i = 0; i < kThrows * count && size() < count; ++i) try_one(0.9f, 1.9f, 0.7f);
     return std::move(berries_);
   }
 

@@ -193,48 +193,65 @@ cv::Vec3f waxed(const cv::Vec3f& skin) {
   return skin + wax * (cv::Vec3f(158, 162, 170) - skin);
 }
 
+bool is_red(const Cultivar::Berry& look) {
+  return look.ripe.y() < look.green.y() - 0.15;
+}
+
 /// Colour of a berry at ripeness `ripe`, 0 to 1; pink in between.
 cv::Vec3f berry_colour(const Cultivar::Berry& look, float ripe) {
   const cv::Vec3f green = waxed(bytes(look.green)), full = waxed(bytes(look.ripe));
-  const bool red = look.ripe.y() < look.green.y() - 0.15;
-  const cv::Vec3f middle = red ? cv::Vec3f(126, 84, 84) : 0.5f * (green + full);
+  const cv::Vec3f middle = is_red(look) ? cv::Vec3f(126, 84, 84) : 0.5f * (green + full);
   return ripe < 0.5f ? green + 2 * ripe * (middle - green)
                      : middle + (2 * ripe - 1) * (full - middle);
 }
 
-/// The colours of the atlas' four berries: at veraison some are green, some coloured.
+/// The colours of the atlas' four berries: at veraison some of a red bunch are green, some
+/// coloured; white ones ripen together.
 std::array<cv::Vec3f, kBerryVariants> berry_colours(const Cultivar& cultivar,
                                                     const GrowthStage& stage) {
+  const bool red = is_red(cultivar.berry);
   std::array<cv::Vec3f, kBerryVariants> colours;
   for (std::size_t i = 0; i < colours.size(); ++i) {
     const float ripe = std::clamp(stage.ripe * kBerryVariants - static_cast<float>(i), 0.0f, 1.0f);
     const bool turning = stage.ripe > 0 && stage.ripe < 1;
-    colours.at(i) = berry_colour(cultivar.berry, turning && i == 1 ? 0.55f : ripe);
-    colours.at(i) *= 0.9f + 0.07f * static_cast<float>(i);
+    const float together =
+        std::clamp(stage.ripe + 0.12f * (1.5f - static_cast<float>(i)), 0.0f, 1.0f);
+    colours.at(i) = berry_colour(cultivar.berry, !red                ? together
+                                                 : turning && i == 1 ? 0.55f
+                                                                     : ripe);
+    colours.at(i) *= 0.95f + 0.03f * static_cast<float>(i);
     if (stage.bunch > 0 && stage.berry < 0.4f) colours.at(i) = {188, 198, 122};  // flowers
   }
   return colours;
 }
 
-/// One berry on an image: darker towards its rim because of its neighbours, the sky's sheen above.
-void paint_berry(cv::Mat& rgb, const cv::Point2d& at, const cv::Size2d& radius,
-                 const cv::Vec3f& skin, double rim) {
-  constexpr int kRings = 14;
-  for (int i = 0; i < kRings; ++i) {
-    const double out = 1 - static_cast<double>(i) / kRings;
-    const cv::Size axes(cvRound(radius.width * out * 16), cvRound(radius.height * out * 16));
-    const cv::Scalar shade = cv::Scalar(skin) * (rim + (1.2 - rim) * std::sqrt(1 - out * out));
-    const cv::Point2d lifted = at - cv::Point2d(0, 0.12 * radius.height * (1 - out));
-    cv::ellipse(rgb, fixed(lifted), axes, 0, 0, 360, shade, cv::FILLED, cv::LINE_AA, 4);
-  }
-  constexpr int kSheen = 5;
-  for (int i = 1; i <= kSheen; ++i) {
-    const double out = 0.34 * (1 - static_cast<double>(i - 1) / kSheen);
-    const cv::Size axes(cvRound(radius.width * out * 16), cvRound(radius.height * out * 16));
-    const cv::Vec3f sky(222, 228, 238);
-    const cv::Vec3f bright = 1.2f * skin + 0.09f * static_cast<float>(i) * (sky - skin);
-    const cv::Point2d above = at - cv::Point2d(0.2 * radius.width, 0.36 * radius.height);
-    cv::ellipse(rgb, fixed(above), axes, 0, 0, 360, cv::Scalar(bright), cv::FILLED, cv::LINE_AA, 4);
+/// Skin at a point of a berry's disc (y up, radius 1): lit from above, less where its neighbours
+/// are, with the sky's sheen.
+cv::Vec3f berry_point(float x, float y, const cv::Vec3f& skin, float rim) {
+  constexpr float kSheenX = -0.18f, kSheenY = 0.42f, kSheen = 0.36f;  // place and radius
+  const float r2 = std::min(1.0f, x * x + y * y);
+  const float light = 0.88f + 0.20f * y + 0.24f * std::sqrt(1 - r2) - rim * r2 * r2 * r2;
+  const float off =
+      ((x - kSheenX) * (x - kSheenX) + (y - kSheenY) * (y - kSheenY)) / kSheen / kSheen;
+  const float sheen = off < 1 ? 0.34f * (1 - off) * (1 - off) : 0.0f;
+  return light * skin + sheen * (cv::Vec3f(226, 230, 236) - skin);
+}
+
+/// One berry on an image, its edge over half a pixel.
+void paint_berry(cv::Mat& rgb, const cv::Point2f& at, const cv::Size2f& radius,
+                 const cv::Vec3f& skin) {
+  const auto from = [](float middle, float half) { return cvFloor(middle - half); };
+  for (int y = std::max(0, from(at.y, radius.height)); y < rgb.rows; ++y) {
+    const float up = (at.y - static_cast<float>(y)) / radius.height;
+    if (up < -1) break;
+    for (int x = std::max(0, from(at.x, radius.width)); x < rgb.cols; ++x) {
+      const float right = (static_cast<float>(x) - at.x) / radius.width;
+      if (right > 1) break;
+      const float inside = (1 - std::sqrt(right * right + up * up)) * radius.width;
+      if (inside <= 0) continue;
+      auto& pixel = rgb.at<cv::Vec3f>(y, x);
+      pixel += std::min(1.0f, inside) * (berry_point(right, up, skin, 0.30f) - pixel);
+    }
   }
 }
 
@@ -258,11 +275,11 @@ cv::Mat paint_packed(std::uint64_t seed, const Cultivar& cultivar, const GrowthS
     const double shift = 0.5 * (i / columns % 2);
     const cv::Point2d at((i % columns + shift + random.uniform(-0.22, 0.22)) * step.width,
                          (i / columns + 0.5 + random.uniform(-0.22, 0.22)) * step.height);
-    const double size = random.uniform(0.50, 0.68);
+    const double size = random.uniform(0.54, 0.72);
     const cv::Vec3f skin = static_cast<float>(random.uniform(0.82, 1.1)) *
                            colours.at(static_cast<std::size_t>(random.below(kBerryVariants)));
     for (const double wrap : {-1.0, 0.0, 1.0}) {
-      paint_berry(rgb, at + cv::Point2d(wrap * side, 0), step * size, skin, 0.74);
+      paint_berry(rgb, at + cv::Point2d(wrap * side, 0), step * size, skin);
     }
   }
   return rgb;
@@ -329,13 +346,19 @@ Texture bunch_texture(std::uint64_t seed, const Cultivar& cultivar, const Growth
   for (int i = 0; i < kBerryVariants; ++i) {
     cv::Mat of_berry = rgb(cv::Rect(side + (i % 2) * cell, (i / 2) * cell, cell, cell));
     const cv::Vec3f& skin = colours.at(static_cast<std::size_t>(i));
-    of_berry.setTo(cv::Scalar(0.5f * skin));
-    const double middle = 0.5 * (cell - 1);
-    paint_berry(of_berry, {middle, middle}, {0.5 * cell, 0.5 * cell}, skin, 0.90);
+    // Up is along u, as the meshes have it.
+    const float half = 0.5f * static_cast<float>(cell - 1);
+    for (int y = 0; y < cell; ++y) {
+      for (int x = 0; x < cell; ++x) {
+        const float up = (static_cast<float>(x) - half) / half;
+        const float right = (static_cast<float>(y) - half) / half;
+        of_berry.at<cv::Vec3f>(y, x) = berry_point(right, up, skin, 0.12f);
+      }
+    }
     // The bloom (a whitish wax) is partly rubbed off.
     const cv::Mat bloom =
         0.25 * fractal_noise({cell, cell}, {3, 3}, 5, 0.6, seed, "berry" + std::to_string(i));
-    const cv::Mat wax(of_berry.size(), CV_32FC3, cv::Scalar(0.55f * skin + cv::Vec3f(72, 74, 80)));
+    const cv::Mat wax(of_berry.size(), CV_32FC3, cv::Scalar(0.55f * skin + cv::Vec3f(66, 68, 74)));
     mix(bloom, of_berry, wax).copyTo(of_berry);
   }
   return {"bunch", to_rgba(rgb), false};

@@ -14,7 +14,7 @@ std::unique_ptr<FormatWriter> write(const WriterInputs& inputs) {
   const RecordOptions& options = inputs.options;
   return std::make_unique<CocoWriter>(
       inputs.folder, inputs.notes, inputs.scene,
-      CocoOptions{options.images.value_or(ImageKind::kPng), options.categories,
+      CocoOptions{options.images.value_or(ImageKind::kPng), options.categories, options.least_area,
                   options.sequence * kCocoImagesPerSequence + 1});
 }
 

@@ -127,6 +127,7 @@ CocoWriter::Lines CocoWriter::describe(const DatasetFrame& frame, std::size_t ca
       segments.push_back(segment(thing.segment, thing.category, thing.mask, size.height));
     }
     if (!options_.categories.empty() && !options_.categories.contains(thing.category)) continue;
+    if (area_of(thing.mask) < options_.least_area) continue;
     Json json{{"id", image * kThingsPerImage + count++}, {"image_id", image}};
     json.update(annotation(thing, size, scene_));
     lines.annotations += json_text(json) + "\n";

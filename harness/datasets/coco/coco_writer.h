@@ -14,6 +14,7 @@ namespace vinebench::harness {
 struct CocoOptions {
   ImageKind kind = ImageKind::kPng;
   std::set<Category> categories;    ///< of instances.json; all things if empty
+  std::int64_t least_area = 0;      ///< px, of instances.json; smaller things are left out
   std::int64_t first_image_id = 1;  ///< distinct for the sequences of a data set
 };
 

@@ -25,8 +25,8 @@ std::int64_t whole_number(std::string_view text) {
 std::string RecordOptions::text() const {
   std::vector<int> ids;
   for (const Category category : categories) ids.push_back(category_id(category));
-  return fmt::format("{} | {} | {} | {} {} {} | {} {} {}", fmt::join(formats, ","),
-                     fmt::join(cameras, ","), fmt::join(ids, ","), first, last, every,
+  return fmt::format("{} | {} | {} {} | {} {} {} | {} {} {}", fmt::join(formats, ","),
+                     fmt::join(cameras, ","), fmt::join(ids, ","), least_area, first, last, every,
                      images ? static_cast<int>(*images) : -1, colour, sequence);
 }
 

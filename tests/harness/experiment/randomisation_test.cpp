@@ -121,5 +121,25 @@ TEST_F(RandomisationTest, FaultsNameFileLineAndKey) {
   EXPECT_THAT(error_of([&] { draw_overrides(folder_ / "none.yaml", 1); }), HasSubstr("none.yaml"));
 }
 
+// A file's path is relative to the randomisation that names it, wherever the program is run.
+TEST_F(RandomisationTest, FilesLieBesideTheRandomisation) {
+  folder_.write("red.yaml", "name: red");
+  folder_.write("white.yaml", "name: white");
+  std::map<std::string, int> counts;
+  for (int seed = 0; seed < 200; ++seed) {
+    ++counts[draw("draws: [{key: a, file: [red.yaml, white.yaml], weights: [3, 1]}]", seed)
+                 .at(0)
+                 .second];
+  }
+  ASSERT_EQ(counts.size(), 2u);
+  const std::filesystem::path folder = std::filesystem::absolute(folder_.path());
+  // 150 of 200, with a deviation of sqrt(200 * 0.75 * 0.25) = 6.1; four of them.
+  EXPECT_NEAR(counts[(folder / "red.yaml").string()], 150, 25);
+  EXPECT_EQ(counts.count((folder / "white.yaml").string()), 1u);
+  EXPECT_THAT(error_of([&] { draw("draws: [{key: a, file: [pink.yaml]}]", 1); }),
+              HasSubstr("draws.0.file.0: expected a file"));
+  EXPECT_THAT(narrowed_randomisation(folder_ / "draws.yaml", {1, 2, 3}), HasSubstr("file: ["));
+}
+
 }  // namespace
 }  // namespace vinebench::harness

@@ -232,5 +232,24 @@ TEST_F(RecordedLabelsTest, LabelsChooseWhatInstancesAreOf) {
   }
 }
 
+TEST_F(RecordedLabelsTest, SmallThingsCanBeLeftOut) {
+  const auto areas = [&](std::int64_t least, const char* folder) {
+    request_.options.least_area = least;
+    request_.out = folder_ / folder;
+    record({"coco"});
+    std::vector<std::int64_t> found;
+    const Json root = Json::parse(read_file(request_.out / "coco/instances.json"));
+    for (const Json& annotation : root["annotations"]) found.push_back(annotation["area"]);
+    EXPECT_TRUE(check_dataset(request_.out).faults.empty());
+    return found;
+  };
+  const std::vector<std::int64_t> all = areas(0, "all");
+  ASSERT_FALSE(all.empty());
+  const std::int64_t least = *std::ranges::max_element(all);
+  const auto largest = std::ranges::count(all, least);
+  ASSERT_LT(largest, std::ssize(all));
+  EXPECT_EQ(areas(least, "large"), std::vector<std::int64_t>(largest, least));
+}
+
 }  // namespace
 }  // namespace vinebench::harness
