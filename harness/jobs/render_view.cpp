@@ -31,6 +31,7 @@ RigCamera camera_of(const ViewRequest& request) {
 
 sim::RendererConfig renderer_config(const ViewRequest& request) {
   sim::RendererConfig config;
+  sim::choose_quality(config, request.quality);
   sim::choose_backend(config, request.machine.gl_platform);
   return config;
 }

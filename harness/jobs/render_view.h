@@ -8,6 +8,7 @@
 
 #include "core/config/override.h"
 #include "harness/machine.h"
+#include "sim/render/renderer_config.h"
 
 namespace vinebench::harness {
 
@@ -34,6 +35,7 @@ struct ViewRequest {
   std::vector<Override> overrides;  ///< of the world
   std::int64_t seed = 1;
   bool turntable = false;  ///< eight views from all round on one sheet, without a pose
+  sim::RenderQuality quality = sim::RenderQuality::kFast;
   Machine machine;
 };
 
