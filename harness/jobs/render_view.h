@@ -31,6 +31,7 @@ struct ViewRequest {
   std::string rover_to;
   std::string rover_file;  ///< required with `rover`
   std::string disparity;
+  std::string export_to;            ///< folder for what another renderer needs of the view
   double baseline = 0.12;           ///< m
   std::vector<Override> overrides;  ///< of the world
   std::int64_t seed = 1;

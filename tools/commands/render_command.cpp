@@ -113,6 +113,11 @@ Command render_command(const Surroundings& surroundings) {
                   .run = [arguments, surroundings] { return render(*arguments, surroundings); }};
   append(command.options, truth_options(arguments->request));
   append(command.options, rover_options(arguments->request));
+  command.options.push_back({.name = "--export",
+                             .target = &arguments->request.export_to,
+                             .help = "Also write the view for another renderer: scene.glb, "
+                                     "sky.hdr and camera.json",
+                             .type = "FOLDER"});
   command.options.push_back({.name = "--quality",
                              .target = &arguments->quality,
                              .help = "fine: the finest plants near, and four samples a pixel",
