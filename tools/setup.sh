@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Installs missing Debian packages for building Vinebench, as root or through sudo. No effect if all
-# are installed. Usage: setup.sh [--ros] [--fuzz]; with --ros also those for recording ROS bags, and
-# for the tests that read data sets with Python: 136 packages, 323 MB; with --fuzz also clang and its
-# libFuzzer.
+# are installed. Usage: setup.sh [--ros] [--fuzz] [--cycles]; with --ros also those for recording ROS
+# bags, and for the tests that read data sets with Python: 136 packages, 323 MB; with --fuzz also clang
+# and its libFuzzer; with --cycles also Blender, for reference pictures: 414 MB.
 set -euo pipefail
 
 packages=(
@@ -36,8 +36,11 @@ for option in "$@"; do
     --fuzz)
       packages+=(clang libclang-rt-14-dev)
       ;;
+    --cycles)
+      packages+=(blender)
+      ;;
     *)
-      echo "setup.sh: $option is no option; usage: setup.sh [--ros] [--fuzz]" >&2
+      echo "setup.sh: $option is no option; usage: setup.sh [--ros] [--fuzz] [--cycles]" >&2
       exit 2
       ;;
   esac

@@ -110,6 +110,9 @@ void add_cameras(std::vector<Factor>& list) {
   add("dirt", "dirt on the lenses", [](Camera& camera) { camera.dirt.clear(); });
   add("leaf", "leaves on the lenses", [](Camera& camera) { camera.leaves.clear(); });
   add("bayer", "colour filters", [](Camera& camera) { camera.bayer = sim::BayerPattern::kNone; });
+  add("white-balance", "white balance", [](Camera& camera) { camera.white_balance = {}; });
+  add("response", "colours and contrast", [](Camera& camera) { camera.response = {}; });
+  add("jpeg", "compression", [](Camera& camera) { camera.jpeg.quality.reset(); });
 }
 
 void add_timing(std::vector<Factor>& list) {

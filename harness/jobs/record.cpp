@@ -25,9 +25,22 @@ std::string name_of_sequence(std::int64_t seed) {
   return fmt::format("seed_{:06}", seed);
 }
 
+/// The quality's keys, then what the request sets itself.
+std::vector<Override> overrides_of(const RecordRequest& request) {
+  std::vector<Override> overrides;
+  if (request.quality != sim::RenderQuality::kFast) {
+    sim::RendererConfig renderer;
+    sim::choose_quality(renderer, request.quality);
+    overrides.emplace_back("renderer.lod_scale", fmt::format("{}", renderer.lod_scale));
+    overrides.emplace_back("renderer.supersampling", fmt::format("{}", renderer.supersampling));
+  }
+  overrides.insert(overrides.end(), request.overrides.begin(), request.overrides.end());
+  return overrides;
+}
+
 ScenarioConfig scenario_of(const RecordRequest& request, std::optional<std::int64_t> seed) {
   ScenarioConfig scenario =
-      load_drawn_scenario(request.scenario, request.overrides, request.randomisation, seed);
+      load_drawn_scenario(request.scenario, overrides_of(request), request.randomisation, seed);
   if (request.untrusted) check_untrusted(scenario, request.scenario, *request.untrusted);
   sim::choose_backend(scenario.simulation.renderer, request.machine.gl_platform);
   return scenario;

@@ -12,6 +12,7 @@
 #include "harness/experiment/scenario.h"
 #include "harness/experiment/trust.h"
 #include "harness/machine.h"
+#include "sim/render/renderer_config.h"
 
 namespace vinebench::harness {
 
@@ -19,6 +20,7 @@ namespace vinebench::harness {
 struct RecordRequest {
   std::filesystem::path scenario;
   std::vector<Override> overrides;
+  sim::RenderQuality quality = sim::RenderQuality::kFast;  ///< `overrides` come after it
   std::filesystem::path randomisation;  ///< distributions that each seed draws keys from; or none
   Machine machine;
   std::filesystem::path out;

@@ -7,6 +7,7 @@
 #include "core/util/error.h"
 #include "harness/datasets/files/image_file.h"
 #include "harness/datasets/labels/truth_colours.h"
+#include "harness/jobs/export_view.h"
 #include "harness/jobs/snapshot.h"
 #include "sim/config_files.h"
 #include "sim/render/factory/make_render_engine.h"
@@ -31,6 +32,7 @@ RigCamera camera_of(const ViewRequest& request) {
 
 sim::RendererConfig renderer_config(const ViewRequest& request) {
   sim::RendererConfig config;
+  sim::choose_quality(config, request.quality);
   sim::choose_backend(config, request.machine.gl_platform);
   return config;
 }
@@ -111,6 +113,7 @@ void render_view(const ViewRequest& request) {
   const sim::WorldConfig world = sim::load_world(request.world, request.overrides);
   const RigCamera camera = camera_of(request);
   if (request.turntable) {
+    if (!request.export_to.empty()) fail("render: expected --pose with --export, not --turntable");
     const auto seed = static_cast<std::uint64_t>(request.seed);
     write_image(request.out, turntable(world, seed, camera.model, renderer_config(request),
                                        request.machine.plant_cache));
@@ -128,6 +131,10 @@ void render_view(const ViewRequest& request) {
       sim::render_with_glare(*renderer, scene.light, camera.model, T_world_cam, drawn)};
   write_images(request, view.image);
   write_warps(request, *renderer, view, camera);
+  if (request.export_to.empty()) return;
+  export_view(request.export_to, scene,
+              {camera.model, T_world_cam, renderer_config(request).lod_scale}, drawn.exposure,
+              drawn.T_world_rover);
 }
 
 }  // namespace vinebench::harness

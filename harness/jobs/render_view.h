@@ -8,6 +8,7 @@
 
 #include "core/config/override.h"
 #include "harness/machine.h"
+#include "sim/render/renderer_config.h"
 
 namespace vinebench::harness {
 
@@ -30,10 +31,12 @@ struct ViewRequest {
   std::string rover_to;
   std::string rover_file;  ///< required with `rover`
   std::string disparity;
+  std::string export_to;            ///< folder for what another renderer needs of the view
   double baseline = 0.12;           ///< m
   std::vector<Override> overrides;  ///< of the world
   std::int64_t seed = 1;
   bool turntable = false;  ///< eight views from all round on one sheet, without a pose
+  sim::RenderQuality quality = sim::RenderQuality::kFast;
   Machine machine;
 };
 

@@ -26,6 +26,18 @@ Asset asset_of_glb(const std::string& bytes, const std::filesystem::path& file);
 /// load_asset restores all levels and materials exactly, but for colours of vertices.
 std::string to_glb(const Asset& asset);
 
+/// A level of detail of a model of a scene, somewhere in the world.
+struct PlacedMesh {
+  int model = 0;  ///< index into Scene::models
+  int level = 0;
+  Pose T_world_model;
+  float scale = 1;
+};
+
+/// The placed meshes with all textures and materials of the scene as the bytes of a .glb file: a
+/// node each, those of one level share their mesh. Meshes without triangles are left out.
+std::string to_glb(const Scene& scene, const std::vector<PlacedMesh>& placed);
+
 // Parts of load_mesh.
 
 /// Of a .glb's or .gltf's bytes; `file` is its name.

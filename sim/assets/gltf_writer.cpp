@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
+#include <utility>
 
 #include "core/util/error.h"
 #include "sim/assets/asset_file.h"
@@ -37,13 +39,23 @@ static_assert(sizeof(PackedVertex) == 40, "vertices are written as stored in mem
 
 class GltfWriter {
  public:
-  explicit GltfWriter(const Asset& asset) {
-    model_.asset.version = "2.0";
-    model_.asset.generator = "Vinebench";
-    model_.buffers.emplace_back();
-    for (const Texture& texture : asset.textures) add(texture);
-    for (const Material& material : asset.materials) add(material);
+  explicit GltfWriter(const Asset& asset) : GltfWriter(asset.textures, asset.materials) {
     add(asset.model);
+  }
+
+  GltfWriter(const Scene& scene, const std::vector<PlacedMesh>& placed)
+      : GltfWriter(scene.textures, scene.materials) {
+    model_.scenes.emplace_back();
+    model_.defaultScene = 0;
+    std::map<std::pair<int, int>, int> meshes;
+    for (const PlacedMesh& one : placed) {
+      const Model& model = scene.models.at(static_cast<std::size_t>(one.model));
+      const LevelOfDetail& level = model.levels.at(static_cast<std::size_t>(one.level));
+      if (triangle_count(level) == 0) continue;
+      const auto [known, first] = meshes.try_emplace({one.model, one.level}, 0);
+      if (first) known->second = add_mesh(model.name, level);
+      place(known->second, one);
+    }
   }
 
   std::string bytes() {
@@ -58,6 +70,14 @@ class GltfWriter {
   }
 
  private:
+  GltfWriter(const std::vector<Texture>& textures, const std::vector<Material>& materials) {
+    model_.asset.version = "2.0";
+    model_.asset.generator = "Vinebench";
+    model_.buffers.emplace_back();
+    for (const Texture& texture : textures) add(texture);
+    for (const Material& material : materials) add(material);
+  }
+
   /// Appends to the one buffer; returns the new view's index.
   int add_view(const void* data, std::size_t size, int target, std::size_t stride = 0) {
     std::vector<unsigned char>& buffer = model_.buffers[0].data;
@@ -162,19 +182,36 @@ class GltfWriter {
         add_accessor(view, 0, colours.size(), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
   }
 
+  /// Returns its index.
+  int add_mesh(const std::string& name, const LevelOfDetail& level) {
+    tinygltf::Mesh mesh;
+    mesh.name = name;
+    for (const Primitive& primitive : level.primitives) mesh.primitives.push_back(part(primitive));
+    model_.meshes.push_back(std::move(mesh));
+    return static_cast<int>(model_.meshes.size()) - 1;
+  }
+
+  void place(int mesh, const PlacedMesh& placed) {
+    const Eigen::Vector3d at = placed.T_world_model.translation;
+    const Eigen::Quaterniond& turn = placed.T_world_model.rotation;
+    const auto scale = static_cast<double>(placed.scale);
+    tinygltf::Node node;
+    node.mesh = mesh;
+    node.translation = {at.x(), at.z(), -at.y()};
+    node.rotation = {turn.x(), turn.z(), -turn.y(), turn.w()};
+    node.scale = {scale, scale, scale};
+    model_.scenes[0].nodes.push_back(static_cast<int>(model_.nodes.size()));
+    model_.nodes.push_back(std::move(node));
+  }
+
   void add(const Model& model) {
     Value::Array ids, until;
     for (const LevelOfDetail& level : model.levels) {
-      tinygltf::Mesh mesh;
-      mesh.name = model.name;
-      for (const Primitive& primitive : level.primitives)
-        mesh.primitives.push_back(part(primitive));
       tinygltf::Node node;
       node.name = model.name;
-      node.mesh = static_cast<int>(model_.meshes.size());
+      node.mesh = add_mesh(model.name, level);
       if (node.mesh > 0) ids.emplace_back(node.mesh);
       until.emplace_back(level.until);
-      model_.meshes.push_back(std::move(mesh));
       model_.nodes.push_back(std::move(node));
     }
     model_.scenes.emplace_back();
@@ -195,6 +232,10 @@ class GltfWriter {
 
 std::string to_glb(const Asset& asset) {
   return GltfWriter(asset).bytes();
+}
+
+std::string to_glb(const Scene& scene, const std::vector<PlacedMesh>& placed) {
+  return GltfWriter(scene, placed).bytes();
 }
 
 }  // namespace vinebench::sim

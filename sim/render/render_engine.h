@@ -20,6 +20,7 @@ struct RenderRequest {
   double exposure = 1;    ///< all light is multiplied by this before it is encoded
   double time = 0;        ///< s, for Scene::motions and what the wind moves
   double other_time = 0;  ///< s, for motion
+  double detail = 1;      ///< factor on the distances of the levels of detail, of `gl`
   /// Where Scene::rover_model stands; it is not there, and casts no shadow, where absent.
   std::optional<Pose> T_world_rover = std::nullopt;
   /// The same at other_time, for motion; it stays where absent.

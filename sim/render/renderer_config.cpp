@@ -8,6 +8,12 @@
 
 namespace vinebench::sim {
 
+void choose_quality(RendererConfig& config, RenderQuality quality) {
+  if (quality == RenderQuality::kFast) return;
+  config.lod_scale = 3;
+  config.supersampling = 2;
+}
+
 void choose_backend(RendererConfig& config, const std::string& name) {
   if (name.empty()) return;
   const std::vector<std::string> names = yaml_names(GlBackend{});

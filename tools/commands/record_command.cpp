@@ -23,6 +23,7 @@ struct RecordArguments {
   std::string seeds;
   std::string frames;
   std::string images;
+  std::string quality = "fast";
   std::filesystem::path cache;
   bool untrusted = false;
   std::vector<std::filesystem::path> data_folders;
@@ -45,6 +46,7 @@ harness::RecordRequest request_of(const RecordArguments& arguments) {
     choose(kind, arguments.images);
     request.options.images = kind;
   }
+  choose(request.quality, arguments.quality);
   return request;
 }
 
@@ -110,6 +112,12 @@ std::vector<Option> content_options(RecordArguments& arguments) {
            .target = &arguments.images,
            .help = "Images of rgb, coco and ros (default: png; ros's are raw)",
            .choices = yaml_names(harness::ImageKind{})},
+          {.name = "--quality",
+           .target = &arguments.quality,
+           .help = "fine: the finest plants near, and four samples a pixel (renderer.lod_scale 3, "
+                   "renderer.supersampling 2)",
+           .show_default = true,
+           .choices = yaml_names(sim::RenderQuality{})},
           {.name = "--colour",
            .target = &options.colour,
            .help = "Images of euroc, dcvslam and ros in colour; kitti's also in colour"}};

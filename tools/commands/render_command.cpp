@@ -86,12 +86,14 @@ std::vector<Option> rover_options(ViewRequest& request) {
 struct RenderArguments {
   ViewRequest request;
   std::vector<std::string> overrides;
+  std::string quality = "fast";
   std::filesystem::path cache;
 };
 
 int render(const RenderArguments& arguments, const Surroundings& surroundings) {
   ViewRequest request = arguments.request;
   request.overrides = parse_overrides(arguments.overrides);
+  choose(request.quality, arguments.quality);
   request.machine = with_cache(surroundings.machine, arguments.cache);
   if (!request.rover.empty() && request.rover_file.empty()) {
     request.rover_file =
@@ -111,6 +113,16 @@ Command render_command(const Surroundings& surroundings) {
                   .run = [arguments, surroundings] { return render(*arguments, surroundings); }};
   append(command.options, truth_options(arguments->request));
   append(command.options, rover_options(arguments->request));
+  command.options.push_back({.name = "--export",
+                             .target = &arguments->request.export_to,
+                             .help = "Also write the view for another renderer: scene.glb, "
+                                     "sky.hdr and camera.json",
+                             .type = "FOLDER"});
+  command.options.push_back({.name = "--quality",
+                             .target = &arguments->quality,
+                             .help = "fine: the finest plants near, and four samples a pixel",
+                             .show_default = true,
+                             .choices = yaml_names(sim::RenderQuality{})});
   command.options.push_back(cache_option(arguments->cache));
   return command;
 }

@@ -69,7 +69,7 @@ class GlRenderer::Impl {
                            request.normals, request.motion};
     CurrentContext current(*context_);
     painter_->draw(target(current.gl(), camera.width, camera.height, truth.any()), camera,
-                   T_world_cam, request.T_world_rover, config_.lod_scale,
+                   T_world_cam, request.T_world_rover, config_.lod_scale * request.detail,
                    {request.exposure, request.time, request.other_time}, truth);
     current.wait();
     RenderedImage image = read(current.gl(), camera, request);

@@ -19,6 +19,10 @@ EffectChain make_effects(const EffectsConfig& config, const EffectInputs& inputs
   effects.add(make_colour_filters(config.bayer));
   effects.add(make_photon_transfer(config.noise, config.gamma, inputs));
   effects.add(make_colour_interpolation(config.bayer));
+  // What the camera makes of them.
+  effects.add(make_white_balance(config.white_balance, config.gamma));
+  effects.add(make_response(config.response, config.gamma));
+  effects.add(make_jpeg(config.jpeg));
   return effects;
 }
 

@@ -11,6 +11,9 @@
 #include "sim/sensors/effects/glass/lens_dirt.h"
 #include "sim/sensors/effects/glass/lens_leaf.h"
 #include "sim/sensors/effects/photon_transfer.h"
+#include "sim/sensors/effects/processing/jpeg.h"
+#include "sim/sensors/effects/processing/response.h"
+#include "sim/sensors/effects/processing/white_balance.h"
 #include "sim/sensors/effects/vignette.h"
 
 namespace vinebench::sim {
@@ -24,6 +27,9 @@ struct EffectsConfig {
   BayerPattern bayer = BayerPattern::kNone;
   PhotonTransferConfig noise;
   double gamma = 2.2;  ///< code / 255 = signal^(1 / gamma); 1 is linear
+  WhiteBalanceConfig white_balance;
+  ResponseConfig response;
+  JpegConfig jpeg;
   template <class Archive>
   void serialize(Archive& archive) {
     archive("dirt", dirt);
@@ -33,6 +39,9 @@ struct EffectsConfig {
     archive("bayer", bayer);
     archive("noise", noise);
     archive("gamma", gamma, Range::between(0.2, 5));
+    archive("white_balance", white_balance);
+    archive("response", response);
+    archive("jpeg", jpeg);
   }
 };
 

@@ -58,17 +58,21 @@ TEST_F(FactorsTest, EachEffectIsAFactorThatGoesWithIt) {
   camera.dirt.resize(1);
   camera.leaves.resize(1);
   camera.bayer = sim::BayerPattern::kRggb;
+  camera.white_balance.red = 1.2;
+  camera.response.contrast = 0.5;
+  camera.jpeg.quality = 40;
   hard.simulation.sensors.timing.triggers = {{"right", 0.01}};
   hard.simulation.sensors.timing.stamp_jitter = 0.001;
   hard.simulation.sensors.timing.stamp_offset = 0.03;
   hard.simulation.sensors.calibration.rotation_deg = 0.1;
-  EXPECT_THAT(names(hard), ElementsAre("haze", "wind", "noise", "blur", "exposure",
-                                       "rolling-shutter", "vignetting", "dirt", "leaf", "bayer",
-                                       "triggers", "stamp-jitter", "stamp-offset", "calibration"));
+  EXPECT_THAT(names(hard),
+              ElementsAre("haze", "wind", "noise", "blur", "exposure", "rolling-shutter",
+                          "vignetting", "dirt", "leaf", "bayer", "white-balance", "response",
+                          "jpeg", "triggers", "stamp-jitter", "stamp-offset", "calibration"));
   for (const std::string& name : names(hard)) {
     const ScenarioConfig rest = without(hard, name).scenario;
     EXPECT_THAT(names(rest), Not(Contains(name)));
-    EXPECT_EQ(names(rest).size(), 13u) << name;  // the others stay
+    EXPECT_EQ(names(rest).size(), 16u) << name;  // the others stay
   }
 }
 

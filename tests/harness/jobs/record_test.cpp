@@ -70,6 +70,17 @@ TEST_F(RecordTest, AnInterruptedRecordingIsReadableAndGoesOn) {
   EXPECT_EQ(manifest(), resumed);
 }
 
+TEST_F(RecordTest, AQualityIsAmongTheResolvedKeys) {
+  draw_without_plants();
+  request_.overrides.emplace_back("renderer.lod_scale", "2");
+  request_.quality = sim::RenderQuality::kFine;
+  record({"rgb", "semantic"});
+  const std::string resolved = read_file(request_.out / "scenario.resolved.yaml");
+  EXPECT_THAT(resolved, HasSubstr("supersampling: 2"));
+  EXPECT_THAT(resolved, HasSubstr("lod_scale: 2"));  // --set is stronger
+  EXPECT_THAT(faults(), testing::IsEmpty());
+}
+
 // The files are made in this order; the recording ends before each of them.
 TEST_F(RecordTest, ARecordingThatEndedBeforeItsFirstFrameGoesOn) {
   draw_without_plants();

@@ -90,5 +90,11 @@ TEST_F(RenderViewTest, ACameraThatTheRigLacksIsNamed) {
   EXPECT_THAT(error(), HasSubstr("rig.yaml: no camera is named 'back'"));
 }
 
+TEST_F(RenderViewTest, ATurntableIsNotExported) {
+  request_.turntable = true;
+  request_.export_to = file("view");
+  EXPECT_THAT(error(), HasSubstr("--pose with --export"));
+}
+
 }  // namespace
 }  // namespace vinebench::harness

@@ -29,6 +29,17 @@ TEST(RendererConfigTest, TheConfigurationsOwnChoiceStays) {
   EXPECT_EQ(chosen(GlBackend::kOsmesa, ""), GlBackend::kOsmesa);
 }
 
+TEST(RendererConfigTest, AQualityIsALevelOfDetailAndSamples) {
+  RendererConfig config;
+  config.lod_scale = 0.7;
+  choose_quality(config, RenderQuality::kFast);
+  EXPECT_EQ(config.lod_scale, 0.7);
+  EXPECT_EQ(config.supersampling, 1);
+  choose_quality(config, RenderQuality::kFine);
+  EXPECT_EQ(config.lod_scale, 3);
+  EXPECT_EQ(config.supersampling, 2);
+}
+
 TEST(RendererConfigTest, AnUnknownNameIsAnErrorEvenWhereItWouldNotCount) {
   for (const GlBackend configured : {GlBackend::kAuto, GlBackend::kEgl}) {
     EXPECT_THAT(test::error_of([&] { chosen(configured, "glx"); }),

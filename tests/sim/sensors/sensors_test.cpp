@@ -24,6 +24,9 @@ constexpr const char* kEverything = R"(camera:
   blur_subframes: 6
   readout_time: 0.016
   bayer: grbg
+  white_balance: {red: 1.2, blue: 0.9}
+  response: {matrix: [1.4, -0.4, 0, 0, 1, 0, 0, 0, 1], saturation: 1.1, contrast: 0.3}
+  jpeg: {quality: 85}
   dirt:
     - {cameras: front_left, from: 2, until: 3, count: 7}
     - {opacity: 0.3}
@@ -52,6 +55,9 @@ TEST_F(SensorsTest, ReadsEveryKindOfKey) {
   const SensorsConfig config = read(kEverything);
   EXPECT_TRUE(config.camera.exposure.automatic);
   EXPECT_EQ(config.camera.bayer, BayerPattern::kGrbg);
+  EXPECT_EQ(config.camera.white_balance.blue, 0.9);
+  EXPECT_EQ(config.camera.response.matrix[1], -0.4);
+  EXPECT_EQ(config.camera.jpeg.quality, 85);
   ASSERT_EQ(config.camera.dirt.size(), 2u);
   EXPECT_TRUE(config.camera.dirt[0].scope.applies_to("front_left"));
   EXPECT_FALSE(config.camera.dirt[0].scope.applies_to("side"));
@@ -80,6 +86,11 @@ TEST_F(SensorsTest, ErrorsNameLineKeyAndExpectation) {
   EXPECT_THAT(error("camera: {bayer: rgbg}\n"), HasSubstr("rggb, grbg, gbrg, bggr"));
   EXPECT_THAT(error("camera: {exposure: {min_time: 0.01, max_time: 0.001}}\n"),
               HasSubstr("expected at least min_time"));
+  EXPECT_THAT(error("camera: {jpeg: {quality: 0}}\n"), HasSubstr("camera.jpeg.quality"));
+  EXPECT_THAT(error("camera: {jpeg: {quality: 101}}\n"), HasSubstr("camera.jpeg.quality"));
+  EXPECT_THAT(error("camera: {white_balance: {red: 0}}\n"), HasSubstr("white_balance.red"));
+  EXPECT_THAT(error("camera: {response: {contrast: 2}}\n"), HasSubstr("response.contrast"));
+  EXPECT_THAT(error("camera: {response: {matrix: [1, 0, 0]}}\n"), HasSubstr("response.matrix"));
   EXPECT_THAT(error("camera: {sharpness: 1}\n"), HasSubstr("unknown key"));
   EXPECT_THAT(error("wheels: {counts_per_turn: -1}\n"), HasSubstr("wheels.counts_per_turn"));
   EXPECT_THAT(error("timing: {triggers: [{camera: side, delay: 3}]}\n"),

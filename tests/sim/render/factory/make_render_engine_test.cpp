@@ -7,6 +7,7 @@
 #include "sim/render/fake/fake_renderer.h"
 #include "sim/render/gl/gl_renderer.h"
 #include "sim/render/mujoco/mujoco_renderer.h"
+#include "sim/render/supersampled_engine.h"
 #include "tests/support/test_folder.h"
 #include "tests/support/test_scene.h"
 
@@ -14,7 +15,7 @@ namespace vinebench::sim {
 namespace {
 
 /// An engine for a panel in even light.
-std::unique_ptr<RenderEngine> engine_of(RenderEngineKind kind) {
+std::unique_ptr<RenderEngine> engine_of(RenderEngineKind kind, int supersampling = 1) {
   Scene scene;
   const int material = test::add_material(scene, Label::kBox, Eigen::Vector3f::Ones());
   test::add_instance(scene, test::add_model(scene, test::panel(material, 1, 1)), {0, 0, 0});
@@ -22,6 +23,7 @@ std::unique_ptr<RenderEngine> engine_of(RenderEngineKind kind) {
   RendererConfig config;
   config.engine = kind;
   config.shadow_map_size = 0;
+  config.supersampling = supersampling;
   return make_render_engine(scene, config);
 }
 
@@ -32,6 +34,8 @@ TEST(MakeRenderEngineTest, MakesTheEngineThatIsNamed) {
   EXPECT_NE(dynamic_cast<MujocoRenderer*>(mujoco.get()), nullptr);
   const auto fake = engine_of(RenderEngineKind::kFake);
   EXPECT_NE(dynamic_cast<FakeRenderer*>(fake.get()), nullptr);
+  const auto fine = engine_of(RenderEngineKind::kFake, 2);
+  EXPECT_NE(dynamic_cast<SupersampledEngine*>(fine.get()), nullptr);
 }
 
 TEST(MakeRenderEngineTest, AnEngineWithoutAnEntryIsAnError) {

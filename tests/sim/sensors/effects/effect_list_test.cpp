@@ -76,6 +76,24 @@ TEST_F(EffectListTest, TheNoiseIsOfTheMosaic) {
   EXPECT_LT(deviation(red_of_wall(BayerPattern::kRggb)), 0.9 * plain);
 }
 
+/// Red is doubled, then red and green change places: 136 is light of 0.251, its double 186.
+TEST_F(EffectListTest, WhiteIsBalancedBeforeTheMatrix) {
+  config_.white_balance.red = 2;
+  config_.response.matrix = {0, 1, 0, 1, 0, 0, 0, 0, 1};
+  EXPECT_EQ(developed(0.25).at<cv::Vec3b>(44, 59), cv::Vec3b(136, 186, 136));
+}
+
+/// At a quality of 50 even grey keeps every second code, whatever curve comes before.
+TEST_F(EffectListTest, CompressionIsLast) {
+  config_.response.contrast = 0.7;
+  const cv::Mat curved = developed(0.25);
+  // x = 136 / 255: 255 * (x + 0.7 x (1 - x) (2 x - 1)) = 138.96
+  EXPECT_EQ(curved.at<cv::Vec3b>(44, 59), cv::Vec3b::all(139));
+  config_.jpeg.quality = 50;
+  const int delivered = developed(0.25).at<cv::Vec3b>(44, 59)[1];
+  EXPECT_TRUE(delivered == 138 || delivered == 140) << delivered;
+}
+
 TEST_F(EffectListTest, TheSunsGlareIsAmongThem) {
   const Pose ahead{};
   const DrawnView view{camera_.camera.model, ahead, 1};
