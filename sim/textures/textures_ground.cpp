@@ -194,25 +194,6 @@ void scatter_flowers(cv::Mat& rgb, RandomSequence& random, int count) {
   }
 }
 
-/// What is green becomes as pale a straw or as dark a brown, in patches that cover that share.
-void wither(cv::Mat& rgb, double share, std::uint64_t seed, std::string_view name) {
-  if (share <= 0) return;
-  const auto by = static_cast<float>(share);
-  const cv::Size cells(24, std::max(1, 24 * rgb.rows / rgb.cols));
-  const cv::Mat patches = fractal_noise(rgb.size(), cells, 5, 0.85, seed, name);
-  for (int y = 0; y < rgb.rows; ++y) {
-    for (int x = 0; x < rgb.cols; ++x) {
-      cv::Vec3f& c = rgb.at<cv::Vec3f>(y, x);
-      const float dry = std::clamp(8 * (by - patches.at<float>(y, x)) + by, 0.0f, 1.0f);
-      const float excess = 2 * c[1] - c[0] - c[2];
-      const float green = std::clamp(8 * excess / std::max(c[0] + c[1] + c[2], 1.0f), 0.0f, 1.0f);
-      const float light = 0.3f * c[0] + 0.6f * c[1] + 0.1f * c[2];
-      const cv::Vec3f straw(1.13f * light, 1.0f * light, 0.76f * light);
-      c += dry * green * (straw - c);
-    }
-  }
-}
-
 /// From 1 below `edge` to 0 above, softly.
 float below_edge(double value, double edge, double softness) {
   return static_cast<float>(std::clamp(0.5 + (edge - value) / softness, 0.0, 1.0));
@@ -251,6 +232,24 @@ cv::Mat track_share(cv::Size size, const AisleProfile& aisle, std::uint64_t seed
 }
 
 }  // namespace
+
+void wither(cv::Mat& rgb, double share, std::uint64_t seed, std::string_view name) {
+  if (share <= 0) return;
+  const auto by = static_cast<float>(share);
+  const cv::Size cells(24, std::max(1, 24 * rgb.rows / rgb.cols));
+  const cv::Mat patches = fractal_noise(rgb.size(), cells, 5, 0.85, seed, name);
+  for (int y = 0; y < rgb.rows; ++y) {
+    for (int x = 0; x < rgb.cols; ++x) {
+      cv::Vec3f& c = rgb.at<cv::Vec3f>(y, x);
+      const float dry = std::clamp(8 * (by - patches.at<float>(y, x)) + by, 0.0f, 1.0f);
+      const float excess = 2 * c[1] - c[0] - c[2];
+      const float green = std::clamp(8 * excess / std::max(c[0] + c[1] + c[2], 1.0f), 0.0f, 1.0f);
+      const float light = 0.3f * c[0] + 0.6f * c[1] + 0.1f * c[2];
+      const cv::Vec3f straw(1.13f * light, 1.0f * light, 0.76f * light);
+      c += dry * green * (straw - c);
+    }
+  }
+}
 
 Texture soil_texture(std::uint64_t seed, double withered) {
   const cv::Size size(2048, 2048);
@@ -322,40 +321,35 @@ Texture grass_texture(std::uint64_t seed, double withered) {
   return {"grass", to_rgba(rgb), true};
 }
 
+Texture sward_texture(std::uint64_t seed, double withered) {
+  const cv::Size size(1024, 64);
+  cv::Mat rgb(size, CV_32FC3, cv::Scalar(88, 92, 48)), alpha(size, CV_8UC1, cv::Scalar(0));
+  const cv::Mat clumps = fractal_noise({size.width, 8}, {24, 1}, 3, 0.7, seed, "sward").row(4);
+  RandomSequence random(RandomStream(seed, "sward blades"));
+  for (int i = 0; i < 1500; ++i) {
+    const double x = random.uniform(0, size.width);
+    const double thick = static_cast<double>(clumps.at<float>(0, static_cast<int>(x)));
+    const double tall = size.height * (0.25 + 0.75 * thick) * std::pow(random.uniform(), 0.7);
+    const double bend = tall * random.uniform(-0.45, 0.45);
+    const cv::Vec3d fresh(random.uniform(62, 112), random.uniform(86, 130), random.uniform(34, 62));
+    const cv::Vec3d dry(random.uniform(150, 206), random.uniform(136, 182), 104);
+    const cv::Scalar skin = jitter(random, random.below(4) == 0 ? dry : fresh, 0.5);
+    const int width = 1 + random.below(3);
+    if (random.uniform() > 0.35 + thick) continue;
+    draw_wrapped(rgb, {x, size.height - 0.5}, size.height, [&](const cv::Point2d& p) {
+      if (p.y < size.height - 1 || p.y > size.height) return;  // blades stand on one ground
+      const cv::Point2d tip = p + cv::Point2d(bend, -tall);
+      cv::line(rgb, p, tip, skin, width);
+      cv::line(alpha, p, tip, cv::Scalar(255), width);
+    });
+  }
+  wither(rgb, withered, seed, "sward dry");
+  return {"sward", to_rgba(rgb, alpha), true};
+}
+
 Texture stone_texture(std::uint64_t seed) {
   const cv::Mat grain = fractal_noise({128, 128}, {4, 4}, 5, 0.75, seed, "stone");
   return {"stone", to_rgba(blend(grain, {84, 78, 68}, {186, 176, 158})), true};
-}
-
-Texture woods_texture(std::uint64_t seed, double withered) {
-  const cv::Size size(1024, 128);
-  const cv::Mat crowns = fractal_noise(size, {128, 16}, 4, 0.8, seed, "woods crowns");
-  const cv::Mat fields = fractal_noise(size, {12, 5}, 3, 0.6, seed, "woods fields");
-  const cv::Mat woods = cv::min(cv::max(6 * (fields - 0.5) + 0.5, 0.0), 1.0);
-  cv::Mat rgb = mix(woods, blend(crowns, {92, 112, 80}, {142, 152, 112}),
-                    blend(crowns, {34, 52, 42}, {116, 132, 106}));
-  wither(rgb, withered, seed, "woods dry");
-  const cv::Mat air(size, CV_32FC3, cv::Scalar(126, 142, 152));
-  return {"woods", to_rgba(0.68 * rgb + 0.32 * air), true};
-}
-
-Texture hedge_texture(std::uint64_t seed, double withered) {
-  const cv::Size size(2048, 256);
-  const cv::Mat leaves = fractal_noise(size, {64, 12}, 5, 0.8, seed, "hedge leaves");
-  const cv::Mat crowns = fractal_noise(size, {24, 3}, 3, 0.6, seed, "hedge crowns");
-  const cv::Mat shade = 0.55 * leaves + 0.45 * crowns;
-  cv::Mat rgb = blend(shade, {22, 34, 18}, {118, 136, 74});
-  wither(rgb, withered, seed, "hedge dry");
-  const cv::Mat skyline = fractal_noise({size.width, 16}, {20, 1}, 5, 0.6, seed, "skyline").row(8);
-  cv::Mat alpha(size, CV_8UC1);
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      const float top = 0.15f + 0.6f * skyline.at<float>(0, x) + 0.12f * leaves.at<float>(y, x);
-      alpha.at<uchar>(y, x) =
-          static_cast<float>(size.height - y) / size.height < 1.0f - top ? 255 : 0;
-    }
-  }
-  return {"hedge", to_rgba(rgb, alpha), true};
 }
 
 }  // namespace vinebench::sim
