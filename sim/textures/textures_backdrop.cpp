@@ -148,8 +148,10 @@ class HedgePainter {
 
   /// A tree in leaf: clumps of leaves, lit from above on the left.
   void crown(double x, double top) {
-    const cv::Vec3d green(random_.uniform(58, 108), random_.uniform(84, 122),
-                          random_.uniform(34, 58));
+    const double dull = 0.75 * std::min(1.0, withered_);  // what is green in winter is a conifer
+    const cv::Vec3d leaf(random_.uniform(58, 108), random_.uniform(84, 122),
+                         random_.uniform(34, 58));
+    const cv::Vec3d green = leaf + dull * (cv::Vec3d(46, 60, 44) - leaf);
     const bool slender = random_.below(4) == 0;
     const double half = top * (slender ? 0.13 : random_.uniform(0.28, 0.42));
     const double middle = top * (slender ? 0.5 : 0.62), tall = top - middle;

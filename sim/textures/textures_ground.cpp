@@ -136,6 +136,27 @@ void scatter_fibres(cv::Mat& rgb, RandomSequence& random, int count, const cv::V
   }
 }
 
+/// Green of grass, or the cooler one of clover and other herbs among it.
+cv::Vec3d herb(RandomSequence& random) {
+  const bool clover = random.below(3) == 0;
+  const double red = random.uniform(0, 1), green = random.uniform(0, 1);
+  const double blue = random.uniform(0, 1);
+  if (clover) return {54 + 32 * red, 92 + 34 * green, 46 + 26 * blue};
+  return {78 + 48 * red, 96 + 36 * green, 36 + 32 * blue};
+}
+
+/// Darker and lighter patches as wide as tufts and clods.
+void mottle(cv::Mat& rgb, cv::Size cells, double depth, std::uint64_t seed, std::string_view name) {
+  const cv::Mat patches = coarse_noise(rgb.size(), cells, 3, 0.7, seed, name);
+  for (int y = 0; y < rgb.rows; ++y) {
+    for (int x = 0; x < rgb.cols; ++x) {
+      const double off =
+          std::clamp(3.0 * (static_cast<double>(patches.at<float>(y, x)) - 0.5), -1.0, 1.0);
+      rgb.at<cv::Vec3f>(y, x) *= static_cast<float>(1 + depth * off);
+    }
+  }
+}
+
 /// Blades of grass, 2 to 7 cm long, where `share` says so.
 void scatter_blades(cv::Mat& rgb, RandomSequence& random, const cv::Mat& share, int count,
                     double scale) {
@@ -143,7 +164,7 @@ void scatter_blades(cv::Mat& rgb, RandomSequence& random, const cv::Mat& share, 
     const cv::Point2d at = somewhere(random, rgb);
     const double angle = random.uniform(0, 2 * std::numbers::pi);
     const double length = scale * random.uniform(0.02, 0.07);
-    const cv::Vec3d fresh(random.uniform(74, 122), random.uniform(94, 132), random.uniform(40, 72));
+    const cv::Vec3d fresh = herb(random);
     const cv::Vec3d dry(random.uniform(140, 186), random.uniform(130, 168), 98);
     const cv::Scalar skin = jitter(random, random.below(4) == 0 ? dry : fresh, 0.45);
     const bool grows = random.uniform() < value_at(share, at);
@@ -163,7 +184,7 @@ void scatter_tufts(cv::Mat& rgb, RandomSequence& random, const cv::Mat& share, i
   for (int i = 0; i < count; ++i) {
     const cv::Point2d at = somewhere(random, rgb);
     const double reach = reach_px * random.uniform(0.35, 1.0);
-    const cv::Vec3d tip(random.uniform(78, 126), random.uniform(96, 134), random.uniform(40, 66));
+    const cv::Vec3d tip = herb(random);
     const cv::Vec3d heart(34, 46, 18);
     const double first = random.uniform(0, 2 * std::numbers::pi);
     const int blades = 12 + random.below(10);
@@ -245,8 +266,10 @@ void wither(cv::Mat& rgb, double share, std::uint64_t seed, std::string_view nam
       const float excess = 2 * c[1] - c[0] - c[2];
       const float green = std::clamp(8 * excess / std::max(c[0] + c[1] + c[2], 1.0f), 0.0f, 1.0f);
       const float light = 0.3f * c[0] + 0.6f * c[1] + 0.1f * c[2];
-      const cv::Vec3f straw(1.13f * light, 1.0f * light, 0.76f * light);
-      c += dry * green * (straw - c);
+      const cv::Vec3f straw(1.14f * light, 1.0f * light, 0.70f * light);
+      // What keeps green is winter's: cooler than summer's.
+      const cv::Vec3f cool(0.86f * c[0], c[1], c[2] + 0.22f * (c[1] - c[2]));
+      c += green * (dry * (straw - c) + (1 - dry) * by * (cool - c));
     }
   }
 }
@@ -266,6 +289,7 @@ Texture soil_texture(std::uint64_t seed, double withered) {
   scatter_leaves(rgb, random, 60 + cvRound(250 * withered), 50);
   scatter_fibres(rgb, random, cvRound(1500 * withered), {96, 70, 50}, 200);
   scatter_fibres(rgb, random, 1600, {96, 112, 56}, 40);
+  mottle(rgb, {11, 11}, 0.2, seed, "soil heaps");
   wither(rgb, withered, seed, "soil dry");
   return {"soil", to_rgba(rgb), true};
 }
@@ -281,6 +305,8 @@ Texture meadow_texture(std::uint64_t seed, double withered) {
   scatter_fibres(rgb, random, 2200, {188, 176, 128}, 40);
   scatter_blades(rgb, random, everywhere, 6000, 0.7 * size.width / kSoilTile);
   scatter_flowers(rgb, random, 40);
+  scatter_fibres(rgb, random, cvRound(7000 * withered), {206, 184, 128}, 40);
+  mottle(rgb, {11, 11}, 0.28, seed, "meadow tufts");
   wither(rgb, withered, seed, "meadow dry");
   return {"meadow", to_rgba(rgb), true};
 }
@@ -310,6 +336,8 @@ Texture aisle_texture(std::uint64_t seed, const AisleProfile& profile, double wi
   scatter_tufts(rgb, random, grass, 1500, 0.075 * scale);
   scatter_fibres(rgb, random, 7000, {190, 178, 132}, 0.08 * scale, &grass);
   scatter_blades(rgb, random, grass, 14000, 0.7 * scale);
+  scatter_fibres(rgb, random, cvRound(16000 * withered), {206, 184, 128}, 0.09 * scale);
+  mottle(rgb, {12, 24}, 0.28, seed, "aisle tufts");
   wither(rgb, withered, seed, "aisle dry");
   return {"aisle", to_rgba(rgb), true};
 }
@@ -326,16 +354,16 @@ Texture sward_texture(std::uint64_t seed, double withered) {
   cv::Mat rgb(size, CV_32FC3, cv::Scalar(88, 92, 48)), alpha(size, CV_8UC1, cv::Scalar(0));
   const cv::Mat clumps = fractal_noise({size.width, 8}, {24, 1}, 3, 0.7, seed, "sward").row(4);
   RandomSequence random(RandomStream(seed, "sward blades"));
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < 4200; ++i) {
     const double x = random.uniform(0, size.width);
     const double thick = static_cast<double>(clumps.at<float>(0, static_cast<int>(x)));
-    const double tall = size.height * (0.25 + 0.75 * thick) * std::pow(random.uniform(), 0.7);
+    const double tall = size.height * (0.3 + 0.7 * thick) * random.uniform(0.15, 1.0);
     const double bend = tall * random.uniform(-0.45, 0.45);
-    const cv::Vec3d fresh(random.uniform(62, 112), random.uniform(86, 130), random.uniform(34, 62));
-    const cv::Vec3d dry(random.uniform(150, 206), random.uniform(136, 182), 104);
+    const cv::Vec3d fresh = herb(random);
+    const cv::Vec3d dry(random.uniform(124, 176), random.uniform(114, 158), 92);
     const cv::Scalar skin = jitter(random, random.below(4) == 0 ? dry : fresh, 0.5);
-    const int width = 1 + random.below(3);
-    if (random.uniform() > 0.35 + thick) continue;
+    const int width = 1 + random.below(2);
+    if (random.uniform() > 0.3 + thick) continue;
     draw_wrapped(rgb, {x, size.height - 0.5}, size.height, [&](const cv::Point2d& p) {
       if (p.y < size.height - 1 || p.y > size.height) return;  // blades stand on one ground
       const cv::Point2d tip = p + cv::Point2d(bend, -tall);

@@ -39,7 +39,7 @@ constexpr std::array<PatchSpec, 5> kPatches{{
     {"litter", 0.50f, 0.50f, 7, 7, 0.015f, 0.05f, 16, 9, 1, 1},
     {"grass", 0.50f, 0.50f, 20, 12, 0.05f, 0.16f, 5, 2, 2, 2},
     {"mown", 0.50f, 0.38f, 26, 10, 0.025f, 0.07f, 0, 3, 1, 3},
-    {"fringe", 0.50f, 0.10f, 10, 11, 0.04f, 0.13f, 4, 3, 1, 2},
+    {"fringe", 0.50f, 0.10f, 10, 11, 0.03f, 0.10f, 4, 3, 1, 2},
 }};
 constexpr int kVariants = 4;
 constexpr double kFullUntil = 2.5, kThinUntil = 13, kCardsUntil = 70;  // m
@@ -183,6 +183,7 @@ int add_patch(Scene& scene, const PatchSpec& spec, std::uint64_t seed, int varia
   asset.add(make_material("sward", Label::kGrass, 3));
   asset.materials.back().double_sided = true;
   asset.materials.back().cutout = true;
+  asset.materials.back().colour.setConstant(0.72f);  // blades shade each other
   asset.model.name = spec.name;
   asset.model.levels.push_back({kFullUntil, Patch(spec, seed, variant, true).strew()});
   asset.model.levels.push_back({kThinUntil, Patch(spec, seed, variant, false).strew()});

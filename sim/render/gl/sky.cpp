@@ -12,8 +12,10 @@
 namespace vinebench::sim {
 namespace {
 
-constexpr int kSize = 1024;             // pixels a side
-constexpr double kReach = 1.4;          // of the parabolic map; the horizon is at 1
+constexpr int kSize = 1024;     // pixels a side
+constexpr double kReach = 1.4;  // of the parabolic map; the horizon is at 1
+constexpr double kOvercastSeen = 0.8;
+constexpr double kCloudSeen = 0.62;     // of what lights it
 constexpr double kLowestCloud = 0.015;  // sine of the elevation
 
 double smooth_step(double low, double high, double x) {
@@ -63,22 +65,22 @@ Eigen::Vector3d clear_sky(const Light& light, const RandomStream& stream,
        (0.25 * std::pow(towards_sun, 12) + 0.6 * std::pow(towards_sun, 200));
   const Eigen::Vector3d white = 0.55 * light.sun.cast<double>() + 0.6 * sky;
   const double layer = cloud_layer(stream, ray);
-  const double thick = smooth_step(0.44, 0.66, layer) * smooth_step(kLowestCloud, 0.12, ray.z());
-  const double shaded = 1 - 0.45 * smooth_step(0.56, 0.80, layer);  // the undersides of thick ones
-  return c + (shaded * white - c) * (0.85 * thick);
+  const double thick = smooth_step(0.40, 0.80, layer) * smooth_step(kLowestCloud, 0.12, ray.z());
+  const double shaded = 1 - 0.2 * smooth_step(0.60, 0.85, layer);  // the undersides of thick ones
+  return kSkySeen * c + (kCloudSeen * shaded * white - kSkySeen * c) * (0.75 * thick);
 }
 
 /// Linear light from that direction.
 Eigen::Vector3d sky_light(const Light& light, const RandomStream& stream,
                           const Eigen::Vector3d& ray) {
-  Eigen::Vector3d c = kSkySeen * clear_sky(light, stream, ray);
+  Eigen::Vector3d c = clear_sky(light, stream, ray);
   if (light.overcast > 0) {
     // Moon and Spencer's overcast sky, brighter towards the zenith, with the rolls of its clouds.
     const double height = std::clamp(ray.z(), 0.0, 1.0);
     const double rolls = 2 * cloud_layer(stream, ray) - 1;
     const double grey =
-        (1 + 2 * height) / 2.2 * (1 + 0.35 * rolls * smooth_step(kLowestCloud, 0.12, ray.z()));
-    c += light.overcast * (kSkySeen * grey * 1.1 * light.sky.cast<double>() - c);
+        (1 + 2 * height) / 2.2 * (1 + 0.25 * rolls * smooth_step(kLowestCloud, 0.12, ray.z()));
+    c += light.overcast * (kOvercastSeen * grey * 1.1 * light.sky.cast<double>() - c);
   }
   Eigen::Vector3d land = light.bounce.cast<double>().cwiseProduct(Eigen::Vector3d(0.8, 0.95, 0.8));
   if (light.haze > 0) {
