@@ -46,7 +46,7 @@ const GrowthStage& growth_stage(int bbch) {
 
 double withered_share(int bbch) {
   const GrowthStage& stage = growth_stage(bbch);
-  if (stage.shoot == 0) return 0.62;
+  if (stage.shoot == 0) return 0.7;
   if (stage.shoot < 0.1f) return 0.35;
   return stage.autumn > 0.5f ? 0.45 : 0.15;
 }

@@ -162,7 +162,7 @@ class Woodwork {
 
   /// A shoot of the last summer without its leaves: held by the wires, its tip hangs over.
   void grow_bare_shoot(const Bud& bud) {
-    const float length = std::max(0.3f, top_ - bud.at.z()) * uniform(0.45f, 1.1f);
+    const float length = std::max(0.3f, top_ - bud.at.z()) * uniform(0.45f, 1.05f);
     const float room = 0.7f * plant_.half_depth, reach = 1.04f * plant_.half_share;
     const float lean = normal(0.10f), out = normal(0.16f), thick = girth_ * uniform(0.8f, 1.25f);
     Tube cane;
@@ -171,7 +171,7 @@ class Woodwork {
       const float share = std::min(1.0f, grown / length);
       cane.path.push_back(at);
       cane.radii.push_back(thick * (0.0048f - 0.0031f * share));
-      if (share > 0.25f && random_.uniform() < 0.16) grow_side_shoot(at, towards);
+      if (share > 0.25f && random_.uniform() < 0.12) grow_side_shoot(at, towards);
       const bool free = at.z() > top_ - 0.05f;
       const Vector3f up(lean + normal(0.09f), out + normal(0.09f) - 1.2f * at.y(),
                         free ? -0.8f : 1.0f);

@@ -56,7 +56,7 @@ Texture cloth_texture(std::uint64_t seed);  ///< almost white, for clothes and p
 Texture grass_texture(std::uint64_t seed, double withered = 0);
 /// Standing blades seen from the side, clear between them: kSwardLength m long.
 Texture sward_texture(std::uint64_t seed, double withered = 0);
-inline constexpr double kSwardLength = 1.6;  ///< m
+inline constexpr double kSwardLength = 3.2;  ///< m
 Texture stone_texture(std::uint64_t seed);
 /// Fields and woods on far hills, through the air before them.
 Texture woods_texture(std::uint64_t seed, double withered = 0);

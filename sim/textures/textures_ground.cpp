@@ -262,13 +262,13 @@ void wither(cv::Mat& rgb, double share, std::uint64_t seed, std::string_view nam
   for (int y = 0; y < rgb.rows; ++y) {
     for (int x = 0; x < rgb.cols; ++x) {
       cv::Vec3f& c = rgb.at<cv::Vec3f>(y, x);
-      const float dry = std::clamp(8 * (by - patches.at<float>(y, x)) + by, 0.0f, 1.0f);
+      const float dry = std::clamp(14 * (by - patches.at<float>(y, x)) + by, 0.0f, 1.0f);
       const float excess = 2 * c[1] - c[0] - c[2];
       const float green = std::clamp(8 * excess / std::max(c[0] + c[1] + c[2], 1.0f), 0.0f, 1.0f);
       const float light = 0.3f * c[0] + 0.6f * c[1] + 0.1f * c[2];
-      const cv::Vec3f straw(1.14f * light, 1.0f * light, 0.70f * light);
+      const cv::Vec3f straw(1.16f * light, 1.0f * light, 0.71f * light);
       // What keeps green is winter's: cooler than summer's.
-      const cv::Vec3f cool(0.86f * c[0], c[1], c[2] + 0.22f * (c[1] - c[2]));
+      const cv::Vec3f cool(0.78f * c[0], 0.97f * c[1], c[2] + 0.05f * (c[1] - c[2]));
       c += green * (dry * (straw - c) + (1 - dry) * by * (cool - c));
     }
   }
@@ -330,7 +330,7 @@ Texture aisle_texture(std::uint64_t seed, const AisleProfile& profile, double wi
   scatter_stones(rgb, random, 5200, 0.003 * scale, 0.028 * scale, &bare);
   scatter_fibres(rgb, random, 9000, {176, 158, 116}, 0.06 * scale, &bare);
   scatter_fibres(rgb, random, 2500, {80, 62, 44}, 0.10 * scale, &bare);
-  scatter_leaves(rgb, random, 160 + cvRound(900 * withered), 0.05 * scale);
+  scatter_leaves(rgb, random, 160 + cvRound(1700 * withered), 0.05 * scale);
   scatter_fibres(rgb, random, cvRound(2500 * withered), {96, 70, 50}, 0.25 * scale);
   scatter_blades(rgb, random, grass, 42000, scale);
   scatter_tufts(rgb, random, grass, 1500, 0.075 * scale);
@@ -350,11 +350,11 @@ Texture grass_texture(std::uint64_t seed, double withered) {
 }
 
 Texture sward_texture(std::uint64_t seed, double withered) {
-  const cv::Size size(1024, 64);
+  const cv::Size size(2048, 64);
   cv::Mat rgb(size, CV_32FC3, cv::Scalar(88, 92, 48)), alpha(size, CV_8UC1, cv::Scalar(0));
-  const cv::Mat clumps = fractal_noise({size.width, 8}, {24, 1}, 3, 0.7, seed, "sward").row(4);
+  const cv::Mat clumps = fractal_noise({size.width, 8}, {48, 1}, 3, 0.7, seed, "sward").row(4);
   RandomSequence random(RandomStream(seed, "sward blades"));
-  for (int i = 0; i < 4200; ++i) {
+  for (int i = 0; i < 8400; ++i) {
     const double x = random.uniform(0, size.width);
     const double thick = static_cast<double>(clumps.at<float>(0, static_cast<int>(x)));
     const double tall = size.height * (0.3 + 0.7 * thick) * random.uniform(0.15, 1.0);

@@ -41,7 +41,7 @@ constexpr std::array<PatchSpec, 5> kPatches{{
     {"mown", 0.50f, 0.38f, 26, 10, 0.025f, 0.07f, 0, 3, 1, 3},
     {"fringe", 0.50f, 0.10f, 10, 11, 0.03f, 0.10f, 4, 3, 1, 2},
 }};
-constexpr int kVariants = 4;
+constexpr int kVariants = 6;
 constexpr double kFullUntil = 2.5, kThinUntil = 13, kCardsUntil = 70;  // m
 
 void add_blade(MeshBuilder& builder, const Vector3f& root, float height, float turn, float bend,

@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kSize = 1024;     // pixels a side
 constexpr double kReach = 1.4;  // of the parabolic map; the horizon is at 1
-constexpr double kOvercastSeen = 0.8;
-constexpr double kCloudSeen = 0.62;     // of what lights it
+constexpr double kOvercastSeen = 0.9;
+constexpr double kCloudSeen = 0.56;     // of what lights it
 constexpr double kLowestCloud = 0.015;  // sine of the elevation
 
 double smooth_step(double low, double high, double x) {
@@ -79,7 +79,7 @@ Eigen::Vector3d sky_light(const Light& light, const RandomStream& stream,
     const double height = std::clamp(ray.z(), 0.0, 1.0);
     const double rolls = 2 * cloud_layer(stream, ray) - 1;
     const double grey =
-        (1 + 2 * height) / 2.2 * (1 + 0.25 * rolls * smooth_step(kLowestCloud, 0.12, ray.z()));
+        (1 + 2 * height) / 2.2 * (1 + 0.32 * rolls * smooth_step(kLowestCloud, 0.12, ray.z()));
     c += light.overcast * (kOvercastSeen * grey * 1.1 * light.sky.cast<double>() - c);
   }
   Eigen::Vector3d land = light.bounce.cast<double>().cwiseProduct(Eigen::Vector3d(0.8, 0.95, 0.8));
