@@ -303,8 +303,8 @@ Texture bark_texture(std::uint64_t seed) {
   const cv::Mat patches = fractal_noise(size, {4, 6}, 4, 0.6, seed, "bark patches");
   cv::Mat ridges = cv::abs(fibres - 0.5) * 2.4;  // cracks where the noise crosses its mean
   ridges = cv::min(ridges, 1.0f);
-  const cv::Mat bark = blend(ridges, {30, 24, 19}, {144, 124, 104});
-  const cv::Mat grey = blend(ridges, {44, 39, 34}, {178, 166, 150});
+  const cv::Mat bark = blend(ridges, {32, 25, 20}, {136, 116, 96});
+  const cv::Mat grey = blend(ridges, {48, 42, 36}, {168, 156, 140});
   return {"bark", to_rgba(mix(patches, bark, grey)), true};
 }
 

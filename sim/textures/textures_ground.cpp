@@ -141,7 +141,7 @@ cv::Vec3d herb(RandomSequence& random) {
   const bool clover = random.below(3) == 0;
   const double red = random.uniform(0, 1), green = random.uniform(0, 1);
   const double blue = random.uniform(0, 1);
-  if (clover) return {54 + 32 * red, 92 + 34 * green, 46 + 26 * blue};
+  if (clover) return {58 + 32 * red, 92 + 34 * green, 40 + 26 * blue};
   return {78 + 48 * red, 96 + 36 * green, 36 + 32 * blue};
 }
 
@@ -352,24 +352,29 @@ Texture grass_texture(std::uint64_t seed, double withered) {
 Texture sward_texture(std::uint64_t seed, double withered) {
   const cv::Size size(2048, 64);
   cv::Mat rgb(size, CV_32FC3, cv::Scalar(88, 92, 48)), alpha(size, CV_8UC1, cv::Scalar(0));
-  const cv::Mat clumps = fractal_noise({size.width, 8}, {48, 1}, 3, 0.7, seed, "sward").row(4);
   RandomSequence random(RandomStream(seed, "sward blades"));
-  for (int i = 0; i < 8400; ++i) {
-    const double x = random.uniform(0, size.width);
-    const double thick = static_cast<double>(clumps.at<float>(0, static_cast<int>(x)));
-    const double tall = size.height * (0.3 + 0.7 * thick) * random.uniform(0.15, 1.0);
-    const double bend = tall * random.uniform(-0.45, 0.45);
+  const auto stroke = [&](double x, const cv::Point2d& tip, int width, const cv::Scalar& skin) {
+    const cv::Point2d foot(x, size.height - 1);
+    for (const int wrap : {-size.width, 0, size.width}) {
+      const cv::Point2d shift(wrap, 0);
+      cv::line(rgb, foot + shift, foot + tip + shift, skin, width);
+      cv::line(alpha, foot + shift, foot + tip + shift, cv::Scalar(255), width);
+    }
+  };
+  for (int tuft = 0; tuft < 230; ++tuft) {
+    const double middle = random.uniform(0, size.width);
+    const double tall = size.height * (0.18 + 0.82 * std::pow(random.uniform(), 2.2));
     const cv::Vec3d fresh = herb(random);
-    const cv::Vec3d dry(random.uniform(124, 176), random.uniform(114, 158), 92);
-    const cv::Scalar skin = jitter(random, random.below(4) == 0 ? dry : fresh, 0.5);
-    const int width = 1 + random.below(2);
-    if (random.uniform() > 0.3 + thick) continue;
-    draw_wrapped(rgb, {x, size.height - 0.5}, size.height, [&](const cv::Point2d& p) {
-      if (p.y < size.height - 1 || p.y > size.height) return;  // blades stand on one ground
-      const cv::Point2d tip = p + cv::Point2d(bend, -tall);
-      cv::line(rgb, p, tip, skin, width);
-      cv::line(alpha, p, tip, cv::Scalar(255), width);
-    });
+    const cv::Vec3d dry(random.uniform(118, 168), random.uniform(108, 150), 88);
+    const cv::Vec3d colour = random.below(4) == 0 ? dry : fresh;
+    const int blades = 10 + random.below(16);
+    for (int i = 0; i < blades; ++i) {
+      const double length = tall * random.uniform(0.35, 1.0), turn = random.normal(0, 0.42);
+      const double off = random.normal(0, 0.16 * tall);
+      const cv::Scalar skin = jitter(random, colour, 0.4);
+      stroke(middle + off, {length * std::sin(turn), -length * std::cos(turn)}, 1 + random.below(2),
+             skin);
+    }
   }
   wither(rgb, withered, seed, "sward dry");
   return {"sward", to_rgba(rgb, alpha), true};

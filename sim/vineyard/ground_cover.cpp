@@ -112,11 +112,11 @@ class Patch {
   void stand_cards() {
     for (int i = 0; i < spec_.along; ++i) {
       const float y = spec_.half_y * (2 * (static_cast<float>(i) + 0.5f) / spec_.along - 1);
-      stand_card({0, y, 0}, {spec_.half_x, 0.3f * spec_.half_y * uniform(-1, 1), 0});
+      stand_card({0, y, 0}, {spec_.half_x, 0.9f * spec_.half_y * uniform(-1, 1), 0});
     }
     for (int i = 0; i < spec_.across; ++i) {
       const float x = spec_.half_x * (2 * (static_cast<float>(i) + 0.5f) / spec_.across - 1);
-      stand_card({x + uniform(-0.1f, 0.1f), 0, 0}, {uniform(-0.08f, 0.08f), spec_.half_y, 0});
+      stand_card({x + uniform(-0.1f, 0.1f), 0, 0}, {uniform(-0.25f, 0.25f), spec_.half_y, 0});
     }
   }
 
