@@ -266,7 +266,7 @@ void wither(cv::Mat& rgb, double share, std::uint64_t seed, std::string_view nam
       const float excess = 2 * c[1] - c[0] - c[2];
       const float green = std::clamp(8 * excess / std::max(c[0] + c[1] + c[2], 1.0f), 0.0f, 1.0f);
       const float light = 0.3f * c[0] + 0.6f * c[1] + 0.1f * c[2];
-      const cv::Vec3f straw(1.16f * light, 1.0f * light, 0.71f * light);
+      const cv::Vec3f straw(1.22f * light, 1.0f * light, 0.70f * light);
       // What keeps green is winter's: cooler than summer's.
       const cv::Vec3f cool(0.78f * c[0], 0.97f * c[1], c[2] + 0.05f * (c[1] - c[2]));
       c += green * (dry * (straw - c) + (1 - dry) * by * (cool - c));

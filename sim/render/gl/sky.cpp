@@ -65,7 +65,7 @@ Eigen::Vector3d clear_sky(const Light& light, const RandomStream& stream,
        (0.25 * std::pow(towards_sun, 12) + 0.6 * std::pow(towards_sun, 200));
   const Eigen::Vector3d white = 0.55 * light.sun.cast<double>() + 0.6 * sky;
   const double layer = cloud_layer(stream, ray);
-  const double thick = smooth_step(0.40, 0.80, layer) * smooth_step(kLowestCloud, 0.12, ray.z());
+  const double thick = smooth_step(0.40, 0.80, layer) * smooth_step(0.04, 0.30, ray.z());
   const double shaded = 1 - 0.2 * smooth_step(0.60, 0.85, layer);  // the undersides of thick ones
   return kSkySeen * c + (kCloudSeen * shaded * white - kSkySeen * c) * (0.75 * thick);
 }
