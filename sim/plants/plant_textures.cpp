@@ -303,8 +303,8 @@ Texture bark_texture(std::uint64_t seed) {
   const cv::Mat patches = fractal_noise(size, {4, 6}, 4, 0.6, seed, "bark patches");
   cv::Mat ridges = cv::abs(fibres - 0.5) * 2.4;  // cracks where the noise crosses its mean
   ridges = cv::min(ridges, 1.0f);
-  const cv::Mat bark = blend(ridges, {32, 25, 20}, {136, 116, 96});
-  const cv::Mat grey = blend(ridges, {48, 42, 36}, {168, 156, 140});
+  const cv::Mat bark = blend(ridges, {36, 28, 22}, {132, 112, 92});
+  const cv::Mat grey = blend(ridges, {52, 46, 40}, {164, 152, 136});
   return {"bark", to_rgba(mix(patches, bark, grey)), true};
 }
 
@@ -312,7 +312,9 @@ Texture cane_texture(std::uint64_t seed, const GrowthStage& stage) {
   const cv::Size half(32, 128);
   const cv::Mat streaks = fractal_noise(half, {8, 4}, 3, 0.6, seed, "cane");
   const cv::Mat green = blend(streaks, {82, 104, 40}, {142, 158, 76});
-  const cv::Mat brown = blend(streaks, {62, 44, 33}, {140, 106, 78});
+  const cv::Mat brown = stage.shoot == 0
+                            ? blend(streaks, {62, 44, 33}, {140, 106, 78})  // weathered
+                            : blend(streaks, {94, 62, 38}, {164, 120, 78});
   const cv::Mat patches = fractal_noise(half, {2, 6}, 3, 0.6, seed, "lignified");
   cv::Mat wood =
       cv::min(cv::max(4 * (patches - 0.5) + 4 * (stage.lignified - 0.5) + 0.5, 0.0), 1.0);

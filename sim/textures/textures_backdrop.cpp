@@ -80,7 +80,7 @@ class HedgePainter {
         fractal_noise({kHedgeWidth, 16}, {64, 1}, 6, 0.7, seed_, "skyline").row(8);
     cv::Mat shade = 0.5 * leaves + 0.5 * crowns;
     shade = cv::min(cv::max(2.2 * (shade - 0.5) + 0.5, 0.0), 1.0);
-    cv::Mat band = blend(shade, light * cv::Vec3f(14, 22, 10), cv::Vec3f(132, 150, 82));
+    cv::Mat band = blend(shade, light * cv::Vec3f(20, 30, 15), cv::Vec3f(140, 158, 88));
     wither(band, withered_, seed_, name);
     for (int y = 0; y < kHedgeHeight; ++y) {
       const double z = (kHedgeHeight * (1 - kWallInset) - y) / kUp;
@@ -162,7 +162,7 @@ class HedgePainter {
       const double out = std::sqrt(random_.uniform()) * 0.92;
       const double dx = out * std::cos(turn), dz = out * std::sin(turn);
       const double size = random_.uniform(0.12, 0.42);
-      const double lit = 0.72 + 0.36 * dz - 0.18 * dx + random_.uniform(-0.38, 0.38);
+      const double lit = 0.95 + 0.36 * dz - 0.18 * dx + random_.uniform(-0.38, 0.38);
       const cv::Vec3d skin = std::max(0.16, lit) * green;
       const cv::Point2d p = at(x + half * dx, middle + tall * dz);
       put({skin[0], skin[1], skin[2]}, [&](cv::Mat& image, const cv::Point2d& shift,

@@ -72,7 +72,6 @@ class Patch {
     for (int i = 0; i < spec_.tufts; ++i) grow_tuft();
     for (int i = 0; i < spec_.pebbles; ++i) drop_pebble();
     for (int i = 0; i < spec_.fallen_leaves; ++i) drop_leaf();
-    if (!fine_) stand_cards();
     return finish();
   }
 
@@ -183,7 +182,7 @@ int add_patch(Scene& scene, const PatchSpec& spec, std::uint64_t seed, int varia
   asset.add(make_material("sward", Label::kGrass, 3));
   asset.materials.back().double_sided = true;
   asset.materials.back().cutout = true;
-  asset.materials.back().colour.setConstant(0.72f);  // blades shade each other
+  asset.materials.back().colour.setConstant(0.85f);  // blades shade each other
   asset.model.name = spec.name;
   asset.model.levels.push_back({kFullUntil, Patch(spec, seed, variant, true).strew()});
   asset.model.levels.push_back({kThinUntil, Patch(spec, seed, variant, false).strew()});

@@ -15,7 +15,7 @@ namespace {
 constexpr int kSize = 1024;     // pixels a side
 constexpr double kReach = 1.4;  // of the parabolic map; the horizon is at 1
 constexpr double kOvercastSeen = 0.9;
-constexpr double kCloudSeen = 0.56;     // of what lights it
+constexpr double kCloudSeen = 0.48;     // of what lights it
 constexpr double kLowestCloud = 0.015;  // sine of the elevation
 
 double smooth_step(double low, double high, double x) {
