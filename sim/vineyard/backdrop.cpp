@@ -83,7 +83,7 @@ void add_backdrop(Scene& scene, const WorldConfig& world, const Terrain& terrain
     const double wave = std::sin(3 * a + random.uniform(0, 0, 6)) +
                         0.6 * std::sin(7 * a + random.uniform(1, 0, 6)) +
                         0.3 * std::sin(17 * a + random.uniform(2, 0, 6));
-    return far * (0.16 + 0.025 * wave);
+    return far * (0.19 + 0.03 * wave);
   };
   hills.model.levels.push_back({1e9,
                                 {ring_wall(

@@ -35,11 +35,11 @@ struct PatchSpec {
 enum PatchKind { kWeeds, kLitter, kGrass, kMown, kFringe };
 
 constexpr std::array<PatchSpec, 5> kPatches{{
-    {"weeds", 0.50f, 0.13f, 11, 12, 0.04f, 0.17f, 8, 4, 2, 3},
+    {"weeds", 0.50f, 0.13f, 11, 12, 0.04f, 0.17f, 8, 4, 2, 2},
     {"litter", 0.50f, 0.50f, 7, 7, 0.015f, 0.05f, 16, 9, 1, 1},
     {"grass", 0.50f, 0.50f, 20, 12, 0.05f, 0.16f, 5, 2, 2, 2},
-    {"mown", 0.50f, 0.38f, 26, 10, 0.025f, 0.07f, 0, 3, 1, 3},
-    {"fringe", 0.50f, 0.10f, 10, 11, 0.03f, 0.10f, 4, 3, 1, 2},
+    {"mown", 0.50f, 0.38f, 26, 10, 0.025f, 0.07f, 0, 3, 1, 2},
+    {"fringe", 0.50f, 0.10f, 10, 11, 0.03f, 0.10f, 4, 3, 1, 1},
 }};
 constexpr int kVariants = 6;
 constexpr double kFullUntil = 2.5, kThinUntil = 13, kCardsUntil = 70;  // m
