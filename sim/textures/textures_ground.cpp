@@ -141,8 +141,8 @@ cv::Vec3d herb(RandomSequence& random) {
   const bool clover = random.below(3) == 0;
   const double red = random.uniform(0, 1), green = random.uniform(0, 1);
   const double blue = random.uniform(0, 1);
-  if (clover) return {64 + 34 * red, 98 + 36 * green, 44 + 28 * blue};
-  return {78 + 48 * red, 96 + 36 * green, 36 + 32 * blue};
+  if (clover) return {66 + 34 * red, 98 + 36 * green, 50 + 28 * blue};
+  return {78 + 48 * red, 96 + 36 * green, 42 + 32 * blue};
 }
 
 /// Darker and lighter patches as wide as tufts and clods.
@@ -268,7 +268,7 @@ void wither(cv::Mat& rgb, double share, std::uint64_t seed, std::string_view nam
       const float light = 0.3f * c[0] + 0.6f * c[1] + 0.1f * c[2];
       const cv::Vec3f straw(1.25f * light, 1.0f * light, 0.73f * light);
       // What keeps green is winter's: cooler than summer's.
-      const cv::Vec3f cool(0.78f * c[0], 0.97f * c[1], c[2] + 0.05f * (c[1] - c[2]));
+      const cv::Vec3f cool(0.84f * c[0], 0.97f * c[1], c[2]);
       c += green * (dry * (straw - c) + (1 - dry) * by * (cool - c));
     }
   }
@@ -306,7 +306,7 @@ Texture meadow_texture(std::uint64_t seed, double withered) {
   scatter_blades(rgb, random, everywhere, 6000, 0.7 * size.width / kSoilTile);
   scatter_flowers(rgb, random, 40);
   scatter_fibres(rgb, random, cvRound(7000 * withered), {206, 176, 122}, 40);
-  mottle(rgb, {11, 11}, 0.28, seed, "meadow tufts");
+  mottle(rgb, {11, 11}, 0.18, seed, "meadow tufts");
   wither(rgb, withered, seed, "meadow dry");
   return {"meadow", to_rgba(rgb), true};
 }
@@ -337,7 +337,7 @@ Texture aisle_texture(std::uint64_t seed, const AisleProfile& profile, double wi
   scatter_fibres(rgb, random, 7000, {190, 178, 132}, 0.08 * scale, &grass);
   scatter_blades(rgb, random, grass, 14000, 0.7 * scale);
   scatter_fibres(rgb, random, cvRound(16000 * withered), {206, 176, 122}, 0.09 * scale);
-  mottle(rgb, {12, 24}, 0.28, seed, "aisle tufts");
+  mottle(rgb, {12, 24}, 0.2, seed, "aisle tufts");
   wither(rgb, withered, seed, "aisle dry");
   return {"aisle", to_rgba(rgb), true};
 }
