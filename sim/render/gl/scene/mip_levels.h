@@ -19,7 +19,7 @@ std::vector<cv::Mat> rough_mip_levels(const cv::Mat& rgba);
 inline constexpr double kKeptContrast = 0.85;
 inline constexpr double kMostRaised = 3.5;
 
-/// Standard deviation of the green light (0 to 1) about the mean of 5 x 5 texels.
+/// Standard deviation of the green light (0 to 1) about the mean of 3 x 3 texels.
 double near_contrast(const cv::Mat& rgba);
 
 /// Share of the pixels whose alpha is at least one half.
