@@ -111,11 +111,11 @@ class Patch {
   void stand_cards() {
     for (int i = 0; i < spec_.along; ++i) {
       const float y = spec_.half_y * (2 * (static_cast<float>(i) + 0.5f) / spec_.along - 1);
-      stand_card({0, y, 0}, {spec_.half_x, 0.9f * spec_.half_y * uniform(-1, 1), 0});
+      stand_card({0, y, 0}, {spec_.half_x, 0.9f / spec_.along * spec_.half_y * uniform(-1, 1), 0});
     }
     for (int i = 0; i < spec_.across; ++i) {
       const float x = spec_.half_x * (2 * (static_cast<float>(i) + 0.5f) / spec_.across - 1);
-      stand_card({x + uniform(-0.1f, 0.1f), 0, 0}, {uniform(-0.25f, 0.25f), spec_.half_y, 0});
+      stand_card({x + uniform(-0.05f, 0.05f), 0, 0}, {uniform(-0.2f, 0.2f), spec_.half_y, 0});
     }
   }
 
@@ -124,7 +124,7 @@ class Patch {
     MeshBuilder builder(parts_[kSward]);
     const float from = uniform(0, 1),
                 to = from + 2 * half.norm() / static_cast<float>(kSwardLength);
-    const Vector3f up = 0.9f * spec_.high * Vector3f::UnitZ();
+    const Vector3f up = 0.85f * spec_.high * Vector3f::UnitZ();
     const Vector3f normal = Vector3f::UnitZ();
     const std::uint32_t a = builder.vertex(middle - half, normal, {from, 0.98f}, 0.55f);
     const std::uint32_t b = builder.vertex(middle + half, normal, {to, 0.98f}, 0.55f);
