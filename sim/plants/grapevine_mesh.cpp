@@ -16,7 +16,8 @@ using Eigen::Vector3f;
 constexpr float kSmallLeaf = 0.082f;                   // m; shorter ones are coarser in near levels
 constexpr float kShootFrom = 0.02f, kShootTo = 0.48f;  // u of the image of canes
 constexpr float kCaneFrom = 0.52f, kCaneTo = 0.98f;
-constexpr float kShelterGrain = 0.1f;  // v a metre
+constexpr float kShelterGrain = 0.1f;      // v a metre
+constexpr float kPaintedRadius = 0.0045f;  // m, of canes on cards
 
 Tube thinned(const Tube& tube, int stride) {
   Tube thin;
@@ -28,6 +29,12 @@ Tube thinned(const Tube& tube, int stride) {
   thin.path.push_back(tube.path.back());
   thin.radii.push_back(tube.radii.back());
   return thin;
+}
+
+/// Nowhere thinner than that: a card's texels break finer lines up.
+Tube broadened(Tube tube, float radius) {
+  for (float& r : tube.radii) r = std::max(r, radius);
+  return tube;
 }
 
 /// The parts of one level, a primitive a material.
@@ -142,7 +149,9 @@ std::vector<Primitive> mesh_to_paint(const Grapevine& plant, const CanopyLight& 
   add_bunches(parts, plant, kPainted);
   MeshBuilder arms(parts.at(kTrunkMaterial)), cane(parts.at(kCaneMaterial));
   for (std::size_t i = 1; i < plant.wood.size(); ++i) arms.tube(plant.wood[i], 5, 4, true);
-  for (const Tube& tube : plant.canes) cane.tube(tube, 3, 6, false, kCaneFrom, kCaneTo);
+  for (const Tube& tube : plant.canes) {
+    cane.tube(broadened(tube, kPaintedRadius), 3, 6, false, kCaneFrom, kCaneTo);
+  }
   return parts.finish(plant, light);
 }
 

@@ -47,9 +47,13 @@ const GrowthStage& growth_stage(int bbch) {
 
 double withered_share(int bbch) {
   const GrowthStage& stage = growth_stage(bbch);
-  if (stage.shoot == 0) return 0.65;
+  if (stage.shoot == 0) return 0.7;
   if (stage.shoot < 0.1f) return 0.35;
   return stage.autumn > 0.5f ? 0.45 : 0.15;
+}
+
+double usual_overcast(int bbch) {
+  return growth_stage(bbch).shoot == 0 ? 0.75 : 0;
 }
 
 }  // namespace vinebench::sim

@@ -28,4 +28,7 @@ const GrowthStage& growth_stage(int bbch);
 /// Share of the ground's green that has dried or died back at that stage, 0 to 1.
 double withered_share(int bbch);
 
+/// Cloud cover of most days at that stage, 0 to 1: winter is dull.
+double usual_overcast(int bbch);
+
 }  // namespace vinebench::sim

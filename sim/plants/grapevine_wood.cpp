@@ -14,6 +14,7 @@ using Eigen::Vector3f;
 constexpr float kShare = 0.485f;      // of the spacing, covered by an arm on either side
 constexpr float kHeadDrop = 0.11f;    // m from the wire down to the head of a cane-pruned vine
 constexpr float kSpurLength = 0.06f;  // m, of two nodes
+constexpr float kCaneStep = 0.11f;    // m between points of a bare shoot's path
 
 class Woodwork {
  public:
@@ -24,7 +25,10 @@ class Woodwork {
         spacing_(static_cast<float>(brief.vines.spacing)),
         wire_(static_cast<float>(brief.vines.lowest_bunch) - 0.005f),
         girth_(static_cast<float>(brief.cultivar.vigour)),
-        shoots_(std::max(2, static_cast<int>(brief.vines.shoots * brief.vines.spacing + 0.5))) {}
+        shoots_(std::max(2, static_cast<int>(brief.vines.shoots * brief.vines.spacing + 0.5))),
+        top_(static_cast<float>(brief.vines.canopy_top)),
+        dormant_(brief.stage.shoot == 0),
+        pruned_(brief.vines.pruned) {}
 
   std::vector<Bud> build() {
     const bool cordon =
@@ -43,6 +47,9 @@ class Woodwork {
       const int left = shoots_ - static_cast<int>(buds_.size());
       if (both) grow_cane(head, -end, left / 2);
       grow_cane(head, end, both ? left - left / 2 : left);
+    }
+    if (dormant_ && random_.uniform() >= pruned_) {
+      for (const Bud& bud : buds_) grow_bare_shoot(bud);
     }
     return std::move(buds_);
   }
@@ -153,11 +160,48 @@ class Woodwork {
     }
   }
 
+  /// A shoot of the last summer without its leaves: held by the wires, its tip hangs over.
+  void grow_bare_shoot(const Bud& bud) {
+    const float length = std::max(0.3f, top_ - bud.at.z()) * uniform(0.45f, 1.05f);
+    const float room = 0.7f * plant_.half_depth, reach = 1.04f * plant_.half_share;
+    const float lean = normal(0.10f), out = normal(0.16f), thick = girth_ * uniform(0.8f, 1.25f);
+    Tube cane;
+    Vector3f at = bud.at, towards = bud.towards.normalized();
+    for (float grown = 0; grown < length + 0.5f * kCaneStep; grown += kCaneStep) {
+      const float share = std::min(1.0f, grown / length);
+      cane.path.push_back(at);
+      cane.radii.push_back(thick * (0.0048f - 0.0031f * share));
+      if (share > 0.25f && random_.uniform() < 0.12) grow_side_shoot(at, towards);
+      const bool free = at.z() > top_ - 0.05f;
+      const Vector3f up(lean + normal(0.09f), out + normal(0.09f) - 1.2f * at.y(),
+                        free ? -0.8f : 1.0f);
+      towards = (0.5f * towards + 0.5f * up).normalized();
+      at += kCaneStep * towards;
+      at.y() = std::clamp(at.y(), -room, room);
+      at.x() = std::clamp(at.x(), -reach, reach);
+    }
+    plant_.canes.push_back(std::move(cane));
+  }
+
+  /// Thin and bent, with a tendril's curl at its end.
+  void grow_side_shoot(const Vector3f& foot, const Vector3f& along) {
+    const float length = uniform(0.06f, 0.26f), side = random_.below(2) == 0 ? 1.0f : -1.0f;
+    const Vector3f out(normal(0.5f), side * uniform(0.2f, 0.8f), uniform(-0.4f, 0.6f));
+    const Vector3f middle = foot + 0.5f * length * (0.5f * along + out).normalized();
+    const Vector3f tip =
+        middle + 0.5f * length *
+                     (along + Vector3f(normal(0.6f), 0.3f * side, normal(0.6f)) + out).normalized();
+    plant_.canes.push_back({{foot, middle, tip}, {0.0016f, 0.0013f, 0.0009f}});
+  }
+
   Grapevine& plant_;
   RandomSequence& random_;
   Training training_;
   float spacing_, wire_, girth_;
   int shoots_;
+  float top_;
+  bool dormant_;
+  double pruned_;
   std::vector<Bud> buds_;
 };
 

@@ -329,7 +329,9 @@ Texture cane_texture(std::uint64_t seed, const GrowthStage& stage) {
   const cv::Size half(32, 128);
   const cv::Mat streaks = fractal_noise(half, {8, 4}, 3, 0.6, seed, "cane");
   const cv::Mat green = blend(streaks, {82, 104, 40}, {142, 158, 76});
-  const cv::Mat brown = blend(streaks, {94, 62, 38}, {164, 120, 78});
+  const cv::Mat brown = stage.shoot == 0
+                            ? blend(streaks, {62, 44, 33}, {140, 106, 78})  // weathered
+                            : blend(streaks, {94, 62, 38}, {164, 120, 78});
   const cv::Mat patches = fractal_noise(half, {2, 6}, 3, 0.6, seed, "lignified");
   cv::Mat wood =
       cv::min(cv::max(4 * (patches - 0.5) + 4 * (stage.lignified - 0.5) + 0.5, 0.0), 1.0);

@@ -54,10 +54,17 @@ Texture carton_texture(std::uint64_t seed);
 Texture print_texture(std::uint64_t seed);
 Texture cloth_texture(std::uint64_t seed);  ///< almost white, for clothes and plastics
 Texture grass_texture(std::uint64_t seed, double withered = 0);
+/// Standing blades seen from the side, clear between them: kSwardLength m long.
+Texture sward_texture(std::uint64_t seed, double withered = 0);
+inline constexpr double kSwardLength = 3.2;  ///< m
 Texture stone_texture(std::uint64_t seed);
 /// Fields and woods on far hills, through the air before them.
 Texture woods_texture(std::uint64_t seed, double withered = 0);
-/// Trees and bushes, alpha above their tops.
+/// Trees, bushes, buildings and poles, alpha between and above them: kHedgeLength m long, and
+/// kHedgeTop m high between insets of kWallInset of the image.
 Texture hedge_texture(std::uint64_t seed, double withered = 0);
+inline constexpr double kHedgeLength = 100, kHedgeTop = 9.5;  ///< m
+/// Insets avoid interpolation between a repeating image's lower and upper side.
+inline constexpr double kWallInset = 0.06;
 
 }  // namespace vinebench::sim

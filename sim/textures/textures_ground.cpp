@@ -136,6 +136,27 @@ void scatter_fibres(cv::Mat& rgb, RandomSequence& random, int count, const cv::V
   }
 }
 
+/// Green of grass, or the cooler one of clover and other herbs among it.
+cv::Vec3d herb(RandomSequence& random) {
+  const bool clover = random.below(3) == 0;
+  const double red = random.uniform(0, 1), green = random.uniform(0, 1);
+  const double blue = random.uniform(0, 1);
+  if (clover) return {66 + 34 * red, 98 + 36 * green, 50 + 28 * blue};
+  return {78 + 48 * red, 96 + 36 * green, 42 + 32 * blue};
+}
+
+/// Darker and lighter patches as wide as tufts and clods.
+void mottle(cv::Mat& rgb, cv::Size cells, double depth, std::uint64_t seed, std::string_view name) {
+  const cv::Mat patches = coarse_noise(rgb.size(), cells, 3, 0.7, seed, name);
+  for (int y = 0; y < rgb.rows; ++y) {
+    for (int x = 0; x < rgb.cols; ++x) {
+      const double off =
+          std::clamp(3.0 * (static_cast<double>(patches.at<float>(y, x)) - 0.5), -1.0, 1.0);
+      rgb.at<cv::Vec3f>(y, x) *= static_cast<float>(1 + depth * off);
+    }
+  }
+}
+
 /// Blades of grass, 2 to 7 cm long, where `share` says so.
 void scatter_blades(cv::Mat& rgb, RandomSequence& random, const cv::Mat& share, int count,
                     double scale) {
@@ -143,7 +164,7 @@ void scatter_blades(cv::Mat& rgb, RandomSequence& random, const cv::Mat& share, 
     const cv::Point2d at = somewhere(random, rgb);
     const double angle = random.uniform(0, 2 * std::numbers::pi);
     const double length = scale * random.uniform(0.02, 0.07);
-    const cv::Vec3d fresh(random.uniform(74, 122), random.uniform(94, 132), random.uniform(40, 72));
+    const cv::Vec3d fresh = herb(random);
     const cv::Vec3d dry(random.uniform(140, 186), random.uniform(130, 168), 98);
     const cv::Scalar skin = jitter(random, random.below(4) == 0 ? dry : fresh, 0.45);
     const bool grows = random.uniform() < value_at(share, at);
@@ -163,7 +184,7 @@ void scatter_tufts(cv::Mat& rgb, RandomSequence& random, const cv::Mat& share, i
   for (int i = 0; i < count; ++i) {
     const cv::Point2d at = somewhere(random, rgb);
     const double reach = reach_px * random.uniform(0.35, 1.0);
-    const cv::Vec3d tip(random.uniform(78, 126), random.uniform(96, 134), random.uniform(40, 66));
+    const cv::Vec3d tip = herb(random);
     const cv::Vec3d heart(34, 46, 18);
     const double first = random.uniform(0, 2 * std::numbers::pi);
     const int blades = 12 + random.below(10);
@@ -191,25 +212,6 @@ void scatter_flowers(cv::Mat& rgb, RandomSequence& random, int count) {
     draw_wrapped(rgb, at, 6, [&](const cv::Point2d& p) {
       cv::circle(rgb, p, 2 + i % 2, petals, cv::FILLED, cv::LINE_AA);
     });
-  }
-}
-
-/// What is green becomes as pale a straw or as dark a brown, in patches that cover that share.
-void wither(cv::Mat& rgb, double share, std::uint64_t seed, std::string_view name) {
-  if (share <= 0) return;
-  const auto by = static_cast<float>(share);
-  const cv::Size cells(24, std::max(1, 24 * rgb.rows / rgb.cols));
-  const cv::Mat patches = fractal_noise(rgb.size(), cells, 5, 0.85, seed, name);
-  for (int y = 0; y < rgb.rows; ++y) {
-    for (int x = 0; x < rgb.cols; ++x) {
-      cv::Vec3f& c = rgb.at<cv::Vec3f>(y, x);
-      const float dry = std::clamp(8 * (by - patches.at<float>(y, x)) + by, 0.0f, 1.0f);
-      const float excess = 2 * c[1] - c[0] - c[2];
-      const float green = std::clamp(8 * excess / std::max(c[0] + c[1] + c[2], 1.0f), 0.0f, 1.0f);
-      const float light = 0.3f * c[0] + 0.6f * c[1] + 0.1f * c[2];
-      const cv::Vec3f straw(1.13f * light, 1.0f * light, 0.76f * light);
-      c += dry * green * (straw - c);
-    }
   }
 }
 
@@ -252,6 +254,26 @@ cv::Mat track_share(cv::Size size, const AisleProfile& aisle, std::uint64_t seed
 
 }  // namespace
 
+void wither(cv::Mat& rgb, double share, std::uint64_t seed, std::string_view name) {
+  if (share <= 0) return;
+  const auto by = static_cast<float>(share);
+  const cv::Size cells(24, std::max(1, 24 * rgb.rows / rgb.cols));
+  const cv::Mat patches = fractal_noise(rgb.size(), cells, 5, 0.85, seed, name);
+  for (int y = 0; y < rgb.rows; ++y) {
+    for (int x = 0; x < rgb.cols; ++x) {
+      cv::Vec3f& c = rgb.at<cv::Vec3f>(y, x);
+      const float dry = std::clamp(14 * (by - patches.at<float>(y, x)) + by, 0.0f, 1.0f);
+      const float excess = 2 * c[1] - c[0] - c[2];
+      const float green = std::clamp(16 * excess / std::max(c[0] + c[1] + c[2], 1.0f), 0.0f, 1.0f);
+      const float light = 0.3f * c[0] + 0.6f * c[1] + 0.1f * c[2];
+      const cv::Vec3f straw(1.25f * light, 1.0f * light, 0.73f * light);
+      // What keeps green is winter's: cooler than summer's.
+      const cv::Vec3f cool(0.84f * c[0], 0.97f * c[1], c[2]);
+      c += green * (dry * (straw - c) + (1 - dry) * by * (cool - c));
+    }
+  }
+}
+
 Texture soil_texture(std::uint64_t seed, double withered) {
   const cv::Size size(2048, 2048);
   const cv::Mat clods = fractal_noise(size, {24, 24}, 7, 0.72, seed, "clods");
@@ -267,6 +289,7 @@ Texture soil_texture(std::uint64_t seed, double withered) {
   scatter_leaves(rgb, random, 60 + cvRound(250 * withered), 50);
   scatter_fibres(rgb, random, cvRound(1500 * withered), {96, 70, 50}, 200);
   scatter_fibres(rgb, random, 1600, {96, 112, 56}, 40);
+  mottle(rgb, {11, 11}, 0.2, seed, "soil heaps");
   wither(rgb, withered, seed, "soil dry");
   return {"soil", to_rgba(rgb), true};
 }
@@ -282,6 +305,8 @@ Texture meadow_texture(std::uint64_t seed, double withered) {
   scatter_fibres(rgb, random, 2200, {188, 176, 128}, 40);
   scatter_blades(rgb, random, everywhere, 6000, 0.7 * size.width / kSoilTile);
   scatter_flowers(rgb, random, 40);
+  scatter_fibres(rgb, random, cvRound(7000 * withered), {206, 176, 122}, 40);
+  mottle(rgb, {11, 11}, 0.18, seed, "meadow tufts");
   wither(rgb, withered, seed, "meadow dry");
   return {"meadow", to_rgba(rgb), true};
 }
@@ -305,12 +330,14 @@ Texture aisle_texture(std::uint64_t seed, const AisleProfile& profile, double wi
   scatter_stones(rgb, random, 5200, 0.003 * scale, 0.028 * scale, &bare);
   scatter_fibres(rgb, random, 9000, {176, 158, 116}, 0.06 * scale, &bare);
   scatter_fibres(rgb, random, 2500, {80, 62, 44}, 0.10 * scale, &bare);
-  scatter_leaves(rgb, random, 160 + cvRound(900 * withered), 0.05 * scale);
+  scatter_leaves(rgb, random, 160 + cvRound(1700 * withered), 0.05 * scale);
   scatter_fibres(rgb, random, cvRound(2500 * withered), {96, 70, 50}, 0.25 * scale);
   scatter_blades(rgb, random, grass, 42000, scale);
   scatter_tufts(rgb, random, grass, 1500, 0.075 * scale);
   scatter_fibres(rgb, random, 7000, {190, 178, 132}, 0.08 * scale, &grass);
   scatter_blades(rgb, random, grass, 14000, 0.7 * scale);
+  scatter_fibres(rgb, random, cvRound(16000 * withered), {206, 176, 122}, 0.09 * scale);
+  mottle(rgb, {12, 24}, 0.2, seed, "aisle tufts");
   wither(rgb, withered, seed, "aisle dry");
   return {"aisle", to_rgba(rgb), true};
 }
@@ -322,40 +349,40 @@ Texture grass_texture(std::uint64_t seed, double withered) {
   return {"grass", to_rgba(rgb), true};
 }
 
+Texture sward_texture(std::uint64_t seed, double withered) {
+  const cv::Size size(2048, 64);
+  cv::Mat rgb(size, CV_32FC3, cv::Scalar(88, 92, 48)), alpha(size, CV_8UC1, cv::Scalar(0));
+  RandomSequence random(RandomStream(seed, "sward blades"));
+  const auto stroke = [&](double x, const cv::Point2d& tip, int width, const cv::Scalar& skin) {
+    const cv::Point2d foot(x, size.height - 1);
+    for (const int wrap : {-size.width, 0, size.width}) {
+      const cv::Point2d shift(wrap, 0);
+      cv::line(rgb, foot + shift, foot + tip + shift, skin, width);
+      cv::line(alpha, foot + shift, foot + tip + shift, cv::Scalar(255), width);
+    }
+  };
+  for (int tuft = 0; tuft < 230; ++tuft) {
+    const double middle = random.uniform(0, size.width);
+    const double tall = size.height * (0.18 + 0.82 * std::pow(random.uniform(), 2.2));
+    const cv::Vec3d fresh = herb(random);
+    const cv::Vec3d dry(random.uniform(118, 168), random.uniform(108, 150), 88);
+    const cv::Vec3d colour = random.below(4) == 0 ? dry : fresh;
+    const int blades = 10 + random.below(16);
+    for (int i = 0; i < blades; ++i) {
+      const double length = tall * random.uniform(0.35, 1.0), turn = random.normal(0, 0.42);
+      const double off = random.normal(0, 0.16 * tall);
+      const cv::Scalar skin = jitter(random, colour, 0.4);
+      stroke(middle + off, {length * std::sin(turn), -length * std::cos(turn)}, 1 + random.below(2),
+             skin);
+    }
+  }
+  wither(rgb, withered, seed, "sward dry");
+  return {"sward", to_rgba(rgb, alpha), true};
+}
+
 Texture stone_texture(std::uint64_t seed) {
   const cv::Mat grain = fractal_noise({128, 128}, {4, 4}, 5, 0.75, seed, "stone");
   return {"stone", to_rgba(blend(grain, {84, 78, 68}, {186, 176, 158})), true};
-}
-
-Texture woods_texture(std::uint64_t seed, double withered) {
-  const cv::Size size(1024, 128);
-  const cv::Mat crowns = fractal_noise(size, {128, 16}, 4, 0.8, seed, "woods crowns");
-  const cv::Mat fields = fractal_noise(size, {12, 5}, 3, 0.6, seed, "woods fields");
-  const cv::Mat woods = cv::min(cv::max(6 * (fields - 0.5) + 0.5, 0.0), 1.0);
-  cv::Mat rgb = mix(woods, blend(crowns, {92, 112, 80}, {142, 152, 112}),
-                    blend(crowns, {34, 52, 42}, {116, 132, 106}));
-  wither(rgb, withered, seed, "woods dry");
-  const cv::Mat air(size, CV_32FC3, cv::Scalar(126, 142, 152));
-  return {"woods", to_rgba(0.68 * rgb + 0.32 * air), true};
-}
-
-Texture hedge_texture(std::uint64_t seed, double withered) {
-  const cv::Size size(2048, 256);
-  const cv::Mat leaves = fractal_noise(size, {64, 12}, 5, 0.8, seed, "hedge leaves");
-  const cv::Mat crowns = fractal_noise(size, {24, 3}, 3, 0.6, seed, "hedge crowns");
-  const cv::Mat shade = 0.55 * leaves + 0.45 * crowns;
-  cv::Mat rgb = blend(shade, {22, 34, 18}, {118, 136, 74});
-  wither(rgb, withered, seed, "hedge dry");
-  const cv::Mat skyline = fractal_noise({size.width, 16}, {20, 1}, 5, 0.6, seed, "skyline").row(8);
-  cv::Mat alpha(size, CV_8UC1);
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      const float top = 0.15f + 0.6f * skyline.at<float>(0, x) + 0.12f * leaves.at<float>(y, x);
-      alpha.at<uchar>(y, x) =
-          static_cast<float>(size.height - y) / size.height < 1.0f - top ? 255 : 0;
-    }
-  }
-  return {"hedge", to_rgba(rgb, alpha), true};
 }
 
 }  // namespace vinebench::sim

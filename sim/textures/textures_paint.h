@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core.hpp>
+#include <string_view>
 
 #include "core/util/random.h"
 
@@ -33,5 +35,8 @@ inline cv::Point2d somewhere(RandomSequence& random, const cv::Mat& image) {
   const double x = random.uniform(0, image.cols);
   return {x, random.uniform(0, image.rows)};
 }
+
+/// What is green becomes as pale a straw or as dark a brown, in patches that cover that share.
+void wither(cv::Mat& rgb, double share, std::uint64_t seed, std::string_view name);
 
 }  // namespace vinebench::sim

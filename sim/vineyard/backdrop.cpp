@@ -24,8 +24,7 @@ Vector3f on_circle(double radius, int i, int n, double z) {
   return Eigen::Vector3d(radius * std::cos(turn), radius * std::sin(turn), z).cast<float>();
 }
 
-/// The texture of a wall repeats; insets avoid interpolation with its other side.
-constexpr float kInset = 0.06f;
+constexpr auto kInset = static_cast<float>(kWallInset);
 
 /// A wall that faces the centre, with `foot(i)` and the `height(i)` of its top above it.
 template <class Foot, class Height>
@@ -67,9 +66,9 @@ void add_backdrop(Scene& scene, const WorldConfig& world, const Terrain& terrain
     return terrain.height(middle + on) - 0.05;
   };
   const float repeats =
-      static_cast<float>(std::max(1.0, std::round(2 * std::numbers::pi * edge / 50)));
+      static_cast<float>(std::max(1.0, std::round(2 * std::numbers::pi * edge / kHedgeLength)));
   hedge.model.levels.push_back(
-      {1e9, {ring_wall(0.97 * edge, 64, repeats, foot, [](int) { return 6.0; })}});
+      {1e9, {ring_wall(0.97 * edge, 64, repeats, foot, [](int) { return kHedgeTop; })}});
   add_round(scene, middle, std::move(hedge));
 
   const RandomStream random(seed, "hills");

@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-enum CoverMaterial { kBlade, kPebble, kFallenLeaf, kCoverMaterials };
+enum CoverMaterial { kBlade, kPebble, kFallenLeaf, kSward, kCoverMaterials };
 
 /// A patch of ground as it is strewn: half-extents in m, and how much of everything.
 struct PatchSpec {
@@ -29,19 +29,20 @@ struct PatchSpec {
   float low, high;  ///< height of grass, m
   int pebbles;
   int fallen_leaves;
+  int along, across;  ///< cards of standing blades, for all but the nearest patches
 };
 
 enum PatchKind { kWeeds, kLitter, kGrass, kMown, kFringe };
 
 constexpr std::array<PatchSpec, 5> kPatches{{
-    {"weeds", 0.50f, 0.13f, 11, 12, 0.04f, 0.17f, 8, 4},
-    {"litter", 0.50f, 0.50f, 7, 7, 0.015f, 0.05f, 16, 9},
-    {"grass", 0.50f, 0.50f, 20, 12, 0.05f, 0.16f, 5, 2},
-    {"mown", 0.50f, 0.38f, 26, 10, 0.025f, 0.07f, 0, 3},
-    {"fringe", 0.50f, 0.10f, 10, 11, 0.04f, 0.13f, 4, 3},
+    {"weeds", 0.50f, 0.13f, 11, 12, 0.04f, 0.17f, 8, 4, 2, 2},
+    {"litter", 0.50f, 0.50f, 7, 7, 0.015f, 0.05f, 16, 9, 1, 1},
+    {"grass", 0.50f, 0.50f, 20, 12, 0.05f, 0.16f, 5, 2, 2, 2},
+    {"mown", 0.50f, 0.38f, 26, 10, 0.025f, 0.07f, 0, 3, 1, 2},
+    {"fringe", 0.50f, 0.10f, 10, 11, 0.03f, 0.10f, 4, 3, 1, 1},
 }};
-constexpr int kVariants = 4;
-constexpr double kFullUntil = 2.5, kThinUntil = 13;  // m
+constexpr int kVariants = 6;
+constexpr double kFullUntil = 2.5, kThinUntil = 13, kCardsUntil = 70;  // m
 
 void add_blade(MeshBuilder& builder, const Vector3f& root, float height, float turn, float bend,
                bool fine) {
@@ -71,6 +72,17 @@ class Patch {
     for (int i = 0; i < spec_.tufts; ++i) grow_tuft();
     for (int i = 0; i < spec_.pebbles; ++i) drop_pebble();
     for (int i = 0; i < spec_.fallen_leaves; ++i) drop_leaf();
+    return finish();
+  }
+
+  /// The standing blades alone: the ground's texture has the rest.
+  std::vector<Primitive> strew_far() {
+    stand_cards();
+    return finish();
+  }
+
+ private:
+  std::vector<Primitive> finish() {
     std::vector<Primitive> kept;
     for (Primitive& part : parts_) {
       if (!part.indices.empty()) kept.push_back(std::move(part));
@@ -78,7 +90,6 @@ class Patch {
     return kept;
   }
 
- private:
   float uniform(float low, float high) { return static_cast<float>(random_.uniform(low, high)); }
   Vector3f somewhere() {
     const float x = uniform(-spec_.half_x, spec_.half_x);
@@ -95,6 +106,31 @@ class Patch {
       const Vector3f root = middle + out * Vector3f(std::cos(turn), std::sin(turn), 0);
       if (fine_ || i % 3 == 0) add_blade(builder, root, tall, turn, bend, fine_);
     }
+  }
+
+  void stand_cards() {
+    for (int i = 0; i < spec_.along; ++i) {
+      const float y = spec_.half_y * (2 * (static_cast<float>(i) + 0.5f) / spec_.along - 1);
+      stand_card({0, y, 0}, {spec_.half_x, 0.9f / spec_.along * spec_.half_y * uniform(-1, 1), 0});
+    }
+    for (int i = 0; i < spec_.across; ++i) {
+      const float x = spec_.half_x * (2 * (static_cast<float>(i) + 0.5f) / spec_.across - 1);
+      stand_card({x + uniform(-0.05f, 0.05f), 0, 0}, {uniform(-0.2f, 0.2f), spec_.half_y, 0});
+    }
+  }
+
+  /// As bright as the ground that it stands on, darker at its foot.
+  void stand_card(const Vector3f& middle, const Vector3f& half) {
+    MeshBuilder builder(parts_[kSward]);
+    const float from = uniform(0, 1),
+                to = from + 2 * half.norm() / static_cast<float>(kSwardLength);
+    const Vector3f up = 0.85f * spec_.high * Vector3f::UnitZ();
+    const Vector3f normal = Vector3f::UnitZ();
+    const std::uint32_t a = builder.vertex(middle - half, normal, {from, 0.98f}, 0.55f);
+    const std::uint32_t b = builder.vertex(middle + half, normal, {to, 0.98f}, 0.55f);
+    const std::uint32_t c = builder.vertex(middle + half + up, normal, {to, 0.02f});
+    const std::uint32_t d = builder.vertex(middle - half + up, normal, {from, 0.02f});
+    builder.quad(a, b, c, d);
   }
 
   void drop_pebble() {
@@ -143,9 +179,14 @@ int add_patch(Scene& scene, const PatchSpec& spec, std::uint64_t seed, int varia
   asset.add(make_material("fallen leaf", Label::kGround, 2));
   asset.materials.back().double_sided = true;
   asset.materials.back().colour = {0.95f, 0.42f, 0.28f};  // turns the green of the atlas brown
+  asset.add(make_material("sward", Label::kGrass, 3));
+  asset.materials.back().double_sided = true;
+  asset.materials.back().cutout = true;
+  asset.materials.back().colour.setConstant(0.85f);  // blades shade each other
   asset.model.name = spec.name;
   asset.model.levels.push_back({kFullUntil, Patch(spec, seed, variant, true).strew()});
   asset.model.levels.push_back({kThinUntil, Patch(spec, seed, variant, false).strew()});
+  asset.model.levels.push_back({kCardsUntil, Patch(spec, seed, variant, false).strew_far()});
   asset.model.levels.push_back({1e9, {}});
   asset.update_bounds();
   return add_asset(scene, std::move(asset));
@@ -160,8 +201,9 @@ class Strewer {
         terrain_(layout.terrain),
         rows_(layout.rows),
         random_(RandomStream(seed, "ground cover")) {
-    const std::vector<Texture> textures{grass_texture(seed, withered_share(world.vines.bbch)),
-                                        stone_texture(seed), leaf_texture(seed)};
+    const double withered = withered_share(world.vines.bbch);
+    const std::vector<Texture> textures{grass_texture(seed, withered), stone_texture(seed),
+                                        leaf_texture(seed), sward_texture(seed, withered)};
     for (std::size_t kind = 0; kind < kPatches.size(); ++kind) {
       for (int v = 0; v < kVariants; ++v) {
         models_[kind][v] = add_patch(scene, kPatches[kind], seed, v, textures);

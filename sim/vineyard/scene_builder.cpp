@@ -6,6 +6,7 @@
 #include "core/util/random.h"
 #include "sim/assets/foreign/foreign_mesh.h"
 #include "sim/plants/grapevine.h"
+#include "sim/plants/grapevine_stage.h"
 #include "sim/plants/plant_cache.h"
 #include "sim/vineyard/ground.h"
 #include "sim/vineyard/occluders/occluders.h"
@@ -68,7 +69,7 @@ void add_vines(Scene& scene, const WorldConfig& world, const WorldLayout& layout
 Scene build_scene(const WorldConfig& world, std::uint64_t seed, const CacheFolder& cache) {
   Scene scene;
   scene.seed = seed;
-  scene.light = daylight(world.sun, world.sky);
+  scene.light = daylight(world.sun, world.sky, usual_overcast(world.vines.bbch));
   scene.wind = make_wind(world.wind, seed);
   const WorldLayout layout = lay_out(world);
   add_vines(scene, world, layout, seed, cache);

@@ -101,7 +101,8 @@ SunPosition sun_position(const SunConfig::At& at) {
   return {std::atan2(east, north), std::asin(std::clamp(up, -1.0, 1.0))};
 }
 
-Light daylight(const SunConfig& sun, const SkyConfig& sky) {
+Light daylight(const SunConfig& sun, const SkyConfig& sky, double season_overcast) {
+  const double overcast = sky.overcast.value_or(season_overcast);
   const SunPosition p = sun.at ? sun_position(*sun.at)
                                : SunPosition{sun.azimuth_deg * kRadiansPerDegree,
                                              sun.elevation_deg * kRadiansPerDegree};
@@ -114,18 +115,17 @@ Light daylight(const SunConfig& sun, const SkyConfig& sky) {
   const double risen = std::clamp(p.elevation / (0.5 * kRadiansPerDegree) + 0.5, 0.0, 1.0);
   const Eigen::Array3d through =
       transmission(p.elevation).array() / transmission(kNominalElevation).array();
-  const double clear = 1 - sky.overcast;
+  const double clear = 1 - overcast;
   light.sun = (risen * clear * clear * through).matrix().cast<float>();
   const double brightness = sky_brightness(p.elevation);
   const Eigen::Vector3d blue = brightness * light.sky.cast<double>();
   // Clouds scatter part of the sunlight and reduce the blue of the sky.
   const double cloud = brightness * (0.45 + 0.45 * std::sin(std::max(0.0, p.elevation)));
-  light.sky =
-      (blue + sky.overcast * (Eigen::Vector3d(0.95, 1.0, 1.05) * cloud - blue)).cast<float>();
+  light.sky = (blue + overcast * (Eigen::Vector3d(0.95, 1.0, 1.05) * cloud - blue)).cast<float>();
   const Eigen::Vector3f lit = light.sun * std::max(0.0f, light.towards_sun.z()) + light.sky;
   const Eigen::Vector3f nominal(1.216f, 1.266f, 1.366f);  // of the nominal light
   light.bounce = light.bounce.cwiseProduct(lit.cwiseQuotient(nominal));
-  light.overcast = static_cast<float>(sky.overcast);
+  light.overcast = static_cast<float>(overcast);
   // Koschmieder: contrast is 2 % at extinction times distance = 3.912.
   light.haze = sky.visibility ? static_cast<float>(3.912 / *sky.visibility) : 0.0f;
   light.glare = static_cast<float>(sky.glare);

@@ -43,7 +43,7 @@ struct SunConfig {
 };
 
 struct SkyConfig {
-  double overcast = 0;               ///< cloud cover, 0 to 1
+  std::optional<double> overcast;    ///< cloud cover, 0 to 1; if absent the season's
   std::optional<double> visibility;  ///< m at which contrast is 2 %; clear air if absent
   double glare = 1;  ///< strength of light scattered in the lens by a sun in the image, 0: none
   template <class Archive>
@@ -77,7 +77,7 @@ SunPosition sun_position(const SunConfig::At& at);
 
 /// The light of a sun and a sky. A camera at exposure 1 is set for a clear sky with the sun at 50
 /// degrees; a lower sun is dimmer and redder, according to its air mass.
-Light daylight(const SunConfig& sun, const SkyConfig& sky);
+Light daylight(const SunConfig& sun, const SkyConfig& sky, double season_overcast = 0);
 
 Wind make_wind(const WindConfig& config, std::uint64_t seed);
 

@@ -35,6 +35,7 @@ struct VinesConfig {
   double bunches = 1.0;        ///< a shoot, on average
   double leaf_area = 2.0;      ///< m^2, one side of every blade of a metre of row in full leaf
   double leaf_removal = 0.5;   ///< share of the leaves removed in the fruit zone
+  double pruned = 0;           ///< share of dormant vines whose canes are cut already
   double missing = 0;          ///< share of missing vines
   double young = 0;            ///< share of second-year vines
   int templates = 6;           ///< number of different plants
@@ -54,6 +55,7 @@ struct VinesConfig {
     archive("bunches", bunches, Range::between(0, 4));
     archive("leaf_area", leaf_area, Range::between(0.1, 8));
     archive("leaf_removal", leaf_removal, Range::between(0, 1));
+    archive("pruned", pruned, Range::between(0, 1));
     archive("missing", missing, Range::between(0, 1));
     archive("young", young, Range::between(0, 1));
     archive("templates", templates, Range::between(1, 64));

@@ -3,6 +3,7 @@
 #include "sim/render/gl/sky.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/util/random.h"
@@ -11,8 +12,11 @@
 namespace vinebench::sim {
 namespace {
 
-constexpr int kSize = 512;      // pixels a side
+constexpr int kSize = 1024;     // pixels a side
 constexpr double kReach = 1.4;  // of the parabolic map; the horizon is at 1
+constexpr double kOvercastSeen = 0.9;
+constexpr double kCloudSeen = 0.48;     // of what lights it
+constexpr double kLowestCloud = 0.015;  // sine of the elevation
 
 double smooth_step(double low, double high, double x) {
   const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
@@ -35,16 +39,18 @@ double value_noise(const RandomStream& stream, double x, double y) {
   return top * (1 - ty) + bottom * ty;
 }
 
-/// How much cloud is in that direction, 0 to 1; none near the horizon.
-double cloud(const RandomStream& stream, const Eigen::Vector3d& ray) {
-  if (ray.z() < 0.05) return 0;
-  const Eigen::Vector2d p = ray.head<2>() / (ray.z() + 0.25);
-  const double shape = 0.54 * value_noise(stream, 1.4 * p.x(), 1.4 * p.y()) +
-                       0.25 * value_noise(stream, 3.1 * p.x() + 50, 3.1 * p.y() - 50) +
-                       0.12 * value_noise(stream, 6.7 * p.x() - 90, 6.7 * p.y() + 90) +
-                       0.06 * value_noise(stream, 15.1 * p.x() + 20, 15.1 * p.y() - 20) +
-                       0.03 * value_noise(stream, 33.7 * p.x() - 70, 33.7 * p.y() + 70);
-  return smooth_step(0.48, 0.85, shape) * smooth_step(0.05, 0.3, ray.z());
+/// A cloud layer seen from below, 0 to 1: what lies low is far, and its clouds crowd together.
+double cloud_layer(const RandomStream& stream, const Eigen::Vector3d& ray) {
+  constexpr std::array<double, 7> kHeights{0.44, 0.25, 0.14, 0.08, 0.05, 0.025, 0.015};
+  if (ray.z() < kLowestCloud) return 0.5;
+  Eigen::Vector2d p = 1.1 * ray.head<2>() / (ray.z() + 0.16);
+  double shape = 0;
+  for (std::size_t i = 0; i < kHeights.size(); ++i) {
+    const double shift = 37.0 * static_cast<double>(i);
+    shape += kHeights.at(i) * value_noise(stream, p.x() + shift, p.y() - 2 * shift);
+    p *= 2.17;
+  }
+  return shape;
 }
 
 /// Linear light from that direction of a clear sky with a few clouds.
@@ -58,18 +64,23 @@ Eigen::Vector3d clear_sky(const Light& light, const RandomStream& stream,
   c += light.sun.cast<double>() *
        (0.25 * std::pow(towards_sun, 12) + 0.6 * std::pow(towards_sun, 200));
   const Eigen::Vector3d white = 0.55 * light.sun.cast<double>() + 0.6 * sky;
-  return c + (white - c) * (0.75 * cloud(stream, ray));
+  const double layer = cloud_layer(stream, ray);
+  const double thick = smooth_step(0.40, 0.80, layer) * smooth_step(0.04, 0.30, ray.z());
+  const double shaded = 1 - 0.2 * smooth_step(0.60, 0.85, layer);  // the undersides of thick ones
+  return kSkySeen * c + (kCloudSeen * shaded * white - kSkySeen * c) * (0.75 * thick);
 }
 
 /// Linear light from that direction.
 Eigen::Vector3d sky_light(const Light& light, const RandomStream& stream,
                           const Eigen::Vector3d& ray) {
-  Eigen::Vector3d c = kSkySeen * clear_sky(light, stream, ray);
+  Eigen::Vector3d c = clear_sky(light, stream, ray);
   if (light.overcast > 0) {
-    // Moon and Spencer's overcast sky, brighter towards the zenith, with a little structure.
+    // Moon and Spencer's overcast sky, brighter towards the zenith, with the rolls of its clouds.
     const double height = std::clamp(ray.z(), 0.0, 1.0);
-    const double grey = (1 + 2 * height) / 2.2 * (0.92 + 0.16 * cloud(stream, ray));
-    c += light.overcast * (kSkySeen * grey * 1.1 * light.sky.cast<double>() - c);
+    const double rolls = 2 * cloud_layer(stream, ray) - 1;
+    const double grey =
+        (1 + 2 * height) / 2.2 * (1 + 0.32 * rolls * smooth_step(kLowestCloud, 0.12, ray.z()));
+    c += light.overcast * (kOvercastSeen * grey * 1.1 * light.sky.cast<double>() - c);
   }
   Eigen::Vector3d land = light.bounce.cast<double>().cwiseProduct(Eigen::Vector3d(0.8, 0.95, 0.8));
   if (light.haze > 0) {

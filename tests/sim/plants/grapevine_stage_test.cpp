@@ -36,6 +36,11 @@ TEST(GrowthStageTest, TheGroundIsGreenestInSummer) {
   EXPECT_GT(withered_share(95), withered_share(89));
 }
 
+TEST(GrowthStageTest, WinterIsDull) {
+  EXPECT_GT(usual_overcast(0), 0.5);
+  for (const int code : {9, 65, 75, 83, 89, 95}) EXPECT_EQ(usual_overcast(code), 0);
+}
+
 // Before the berries swell, a bunch has a fifth of its width.
 TEST(GrowthStageTest, BunchesWidenWithTheirBerries) {
   GrowthStage stage;

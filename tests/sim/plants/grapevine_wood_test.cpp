@@ -61,6 +61,33 @@ TEST(GrapevineWoodTest, BudsStandNearTheFruitingWire) {
   }
 }
 
+/// Canes of a dormant vine, by the share of pruned ones.
+std::vector<Tube> dormant_canes(double pruned) {
+  PlantBrief brief = test::brief(0, Training::kBilateralCordon);
+  brief.vines.pruned = pruned;
+  Grapevine plant;
+  RandomSequence random(RandomStream(3, "wood"));
+  grow_old_wood(plant, brief, random);
+  return plant.canes;
+}
+
+// Seven spurs bear the 13 buds of a metre; each bud had a shoot, with side shoots on it.
+TEST(GrapevineWoodTest, ADormantVineBearsItsCanesUntilItIsPruned) {
+  EXPECT_EQ(dormant_canes(1).size(), 7u);
+  const std::vector<Tube> canes = dormant_canes(0);
+  EXPECT_GE(canes.size(), 7u + 13);
+  float highest = 0;
+  for (const Tube& cane : canes) {
+    for (const Eigen::Vector3f& p : cane.path) {
+      highest = std::max(highest, p.z());
+      EXPECT_LE(std::abs(p.x()), 0.53f + 0.26f);  // its share, and a side shoot's length
+    }
+  }
+  const auto top = static_cast<float>(VinesConfig().canopy_top);
+  EXPECT_GT(highest, 0.85f * top);
+  EXPECT_LT(highest, top + 0.35f);  // tips bend down above the wires
+}
+
 TEST(GrapevineWoodTest, AYoungVineIsAStemWithTwoBuds) {
   const Wood young = grown(Training::kBilateralCordon, true);
   EXPECT_EQ(young.plant.wood.size(), 1u);

@@ -24,13 +24,17 @@ TEST(GroundTexturesTest, ASeedIsOneImageThatRepeats) {
   }
 }
 
-// Bushes have no gap at their feet and nothing but sky above their tops.
-TEST(GroundTexturesTest, AHedgeIsOpaqueBelowAndClearAbove) {
-  const Texture hedge = hedge_texture(1);
-  std::vector<cv::Mat> channels;
-  cv::split(hedge.rgba, channels);
-  EXPECT_EQ(cv::mean(channels[3].row(hedge.rgba.rows - 1))[0], 255);
-  EXPECT_LT(cv::mean(channels[3].row(0))[0], 10);
+// Blades stand on the lowest row, apart from each other, and few reach the top.
+TEST(GroundTexturesTest, StandingGrassThinsOutUpwards) {
+  const Texture sward = sward_texture(1);
+  EXPECT_TRUE(same_texels(sward, sward_texture(1)));
+  cv::Mat alpha;
+  cv::extractChannel(sward.rgba, alpha, 3);
+  const auto covered = [&](int row) { return cv::mean(alpha.row(row))[0] / 255; };
+  EXPECT_GT(covered(alpha.rows - 1), 0.4);
+  EXPECT_LT(covered(alpha.rows - 1), 0.95);
+  EXPECT_LT(covered(alpha.rows / 2), 0.6 * covered(alpha.rows - 1));
+  EXPECT_LT(covered(0), 0.02);
 }
 
 // The tracks and the bare strips are soil, between them stands grass: greener than red.

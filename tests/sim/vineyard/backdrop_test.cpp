@@ -38,9 +38,9 @@ TEST_F(BackdropTest, TheHedgeStandsAroundTheRowsMiddleAtTheGroundsEdge) {
   EXPECT_LT((hedge->second.translation - Eigen::Vector3d(15, 5, 0)).norm(), 1e-9);
   for (const Vertex& v : hedge->first.vertices) {
     EXPECT_NEAR(v.position.head<2>().norm(), 0.97 * 20, 1e-4);  // of 40 m of ground
-    // From a little below the even ground to 6 m above its foot.
+    // From a little below the even ground to 9.5 m above its foot.
     EXPECT_TRUE(std::abs(v.position.z() + 0.05f) < 1e-4f ||
-                std::abs(v.position.z() - 5.95f) < 1e-4f)
+                std::abs(v.position.z() - 9.45f) < 1e-4f)
         << v.position.z();
   }
 }
@@ -52,7 +52,7 @@ TEST_F(BackdropTest, TheHedgeFollowsTheSlope) {
   for (const Vertex& v : hedge->first.vertices) {
     const float ground = 0.1f * v.position.x() - 0.05f;
     const float above = v.position.z() - ground;
-    EXPECT_TRUE(std::abs(above) < 1e-3f || std::abs(above - 6) < 1e-3f) << above;
+    EXPECT_TRUE(std::abs(above) < 1e-3f || std::abs(above - 9.5f) < 1e-3f) << above;
   }
 }
 

@@ -85,5 +85,14 @@ TEST(DaylightTest, AnOvercastSkyHasNoSunAndHazeHidesBeyondItsVisibility) {
   EXPECT_NEAR(std::exp(-static_cast<double>(light.haze) * 100), 0.02, 1e-4);  // by definition
 }
 
+// The sun's light falls with the square of the clear share: of 0.5 a quarter is left.
+TEST(DaylightTest, TheSeasonsCloudsCountWhereTheWorldGivesNone) {
+  SkyConfig sky;
+  const float clear = daylight({}, sky).sun.x();
+  EXPECT_NEAR(daylight({}, sky, 0.5).sun.x(), 0.25f * clear, 1e-6f);
+  sky.overcast = 0;
+  EXPECT_EQ(daylight({}, sky, 0.5).sun.x(), clear);
+}
+
 }  // namespace
 }  // namespace vinebench::sim

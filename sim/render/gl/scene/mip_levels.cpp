@@ -67,10 +67,10 @@ cv::Mat to_bytes(const cv::Mat& light, bool cutout, float alpha_scale) {
   return rgba;
 }
 
-/// Deviation from the mean of 5 x 5 texels.
+/// Deviation from the mean of 3 x 3 texels.
 cv::Mat fine_part(const cv::Mat& light) {
   cv::Mat mean;
-  cv::blur(light, mean, {5, 5});
+  cv::blur(light, mean, {3, 3});
   return light - mean;
 }
 

@@ -16,10 +16,10 @@ std::vector<cv::Mat> mip_levels(const cv::Mat& rgba, bool cutout);
 /// image's light does not have. The contrast of each level between near texels is raised to
 /// kKeptContrast of the finest one's, by a factor of kMostRaised at most.
 std::vector<cv::Mat> rough_mip_levels(const cv::Mat& rgba);
-inline constexpr double kKeptContrast = 0.9;
-inline constexpr double kMostRaised = 2.5;
+inline constexpr double kKeptContrast = 0.85;
+inline constexpr double kMostRaised = 3.5;
 
-/// Standard deviation of the green light (0 to 1) about the mean of 5 x 5 texels.
+/// Standard deviation of the green light (0 to 1) about the mean of 3 x 3 texels.
 double near_contrast(const cv::Mat& rgba);
 
 /// Share of the pixels whose alpha is at least one half.

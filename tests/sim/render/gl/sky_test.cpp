@@ -67,7 +67,7 @@ TEST_F(SkyTest, AnOvercastSkyIsGreyAndBrightestUp) {
   light_.overcast = 1;
   const auto linear = [](int byte) { return std::pow(byte * kSkyBrightest / 255, 2.2); };
   const cv::Vec4b zenith = at({0, 0, 1}), low = at({0, 1, 0.05});
-  // 3 to 1.1, with a structure of 8 % to either side.
+  // 3 to 1.1, with rolls of cloud of up to 16 % to either side.
   EXPECT_NEAR(linear(zenith[1]) / linear(low[1]), 3 / 1.1, 0.3 * 3 / 1.1);
   // As blue as the light that it is given.
   EXPECT_NEAR(linear(zenith[2]) / linear(zenith[0]), 0.4 / 0.3, 0.05);

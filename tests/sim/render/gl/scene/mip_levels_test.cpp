@@ -62,8 +62,12 @@ TEST(MipLevelsTest, GroundKeepsItsContrastAtEveryDistance) {
   EXPECT_EQ(cv::norm(rough[0], rgba, cv::NORM_INF), 0);
   EXPECT_NEAR(near_contrast(plain[1]) / finest, 0.5, 0.03);
   EXPECT_NEAR(near_contrast(rough[1]) / finest, kKeptContrast, 0.04);
-  // A quarter is raised by as much as is allowed.
-  EXPECT_NEAR(near_contrast(rough[2]) / near_contrast(plain[2]), kMostRaised, 0.05);
+  // An eighth is raised by as much as is allowed. What differs from its neighbourhood differs from
+  // that of the raised image too, h = 1 - b twice: with the 3 x 3 mean b, white noise has 8/9 of
+  // its power in h, 0.933 in h^3 and 1.008 in h^4. Bytes round a deviation of 1.5 of them.
+  const double f = kMostRaised - 1;
+  const double gain = std::sqrt(1 + (2 * f * 0.933 + f * f * 1.008) / (8.0 / 9));
+  EXPECT_NEAR(near_contrast(rough[3]) / near_contrast(plain[3]), gain, 0.05 * gain);
   // What an even ground has is its light.
   EXPECT_NEAR(cv::mean(rough[3])[1], cv::mean(plain[3])[1], 1.5);
 }
