@@ -16,6 +16,7 @@ struct Visible {
   int order = 0;
   bool shaded = false;
   bool open = false;
+  double distance = 0;  ///< m
   InstanceRow row;
 
   auto batch_key() const { return std::tie(shell, model, level, order, shaded, open); }
@@ -72,18 +73,19 @@ class View {
     if (level < 0) return;
     Visible& v = visible_.emplace_back();
     const double inside = model.hollow - (camera - bounds.center()).head<2>().norm();
-    v.shell = shell_of(std::max(distance, inside * instance.scale), model.ordered);
+    v.shell = shell_of(std::max(distance, inside * instance.scale), model.ordered && level < 4);
     v.model = instance.model;
     v.level = level;
     v.order = model.ordered ? draw_order(camera - bounds.center()) : 0;
     v.shaded = shadow_ != nullptr && shadow_->may_shade(instance.centre, instance.radius);
     v.open = instance.open;
+    v.distance = distance;
     v.row = {cam_from_model.topRows<3>().cast<float>(), static_cast<std::uint32_t>(index + 1)};
   }
 
   DrawList list() {
     std::stable_sort(visible_.begin(), visible_.end(), [](const Visible& a, const Visible& b) {
-      return a.batch_key() < b.batch_key();
+      return std::pair(a.batch_key(), a.distance) < std::pair(b.batch_key(), b.distance);
     });
     DrawList list;
     for (std::size_t i = 0; i < visible_.size(); ++i) {
