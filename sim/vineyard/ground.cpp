@@ -61,7 +61,9 @@ class GroundMesher {
         {{1, 1}, {2, 2}, {10, quarter}, {20, 2 * quarter}}};
     std::vector<LevelOfDetail> levels;
     const std::array<double, kLevels>& until = terrain_.flat() ? kEvenUntil : kUntil;
-    for (int i = 0; i < kLevels; ++i) levels.push_back(level(until[i], steps[i]));
+    for (int i = 0; i < kLevels; ++i) {
+      if (i == 0 || until[i] > until[i - 1]) levels.push_back(level(until[i], steps[i]));
+    }
     return levels;
   }
 
