@@ -124,6 +124,12 @@ void check_rectified(const TruthView& left, const TruthView& right) {
   }
 }
 
+/// PinholeCamera::project() of a camera without distortion, inlined: it is called for each pixel.
+Eigen::Vector2d ideal(const PinholeCamera& camera, const Eigen::Vector3d& point) {
+  return {camera.fx * (point.x() / point.z()) + camera.cx,
+          camera.fy * (point.y() / point.z()) + camera.cy};
+}
+
 }  // namespace
 
 FlowTruth optical_flow(const TruthView& a, const TruthView& b) {
@@ -137,7 +143,7 @@ FlowTruth optical_flow(const TruthView& a, const TruthView& b) {
     for (int x = 0; x < size.width; ++x) {
       const Eigen::Vector3d point = warp.point(x, y);
       const bool ahead = point.z() > kNearest;
-      const Eigen::Vector2d place = ahead ? b.camera.project(point) : Eigen::Vector2d::Zero();
+      const Eigen::Vector2d place = ahead ? ideal(b.camera, point) : Eigen::Vector2d::Zero();
       flow[x] =
           ahead ? cv::Vec2f(static_cast<float>(place.x() - x), static_cast<float>(place.y() - y))
                 : cv::Vec2f(kNone, kNone);

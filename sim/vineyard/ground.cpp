@@ -24,6 +24,9 @@ constexpr double kRowShade = 0.25;  // m on either side of a row, darkened by it
 constexpr double kSkirt = 0.06;     // m, height of a tile's skirt, against cracks between levels
 constexpr int kLevels = 4;
 constexpr std::array<double, kLevels> kUntil{6, 14, 40, 1e9};  // m
+// Even ground is baked into the light map in full detail, and drawn in large triangles: small ones
+// cost more, as every group of pixels that a triangle touches is shaded as a whole.
+constexpr std::array<double, kLevels> kEvenUntil{0, 0, 6, 1e9};  // m
 
 enum GroundMaterial { kPlain, kAisle };
 
@@ -57,7 +60,10 @@ class GroundMesher {
     const std::array<Eigen::Array2i, kLevels> steps{
         {{1, 1}, {2, 2}, {10, quarter}, {20, 2 * quarter}}};
     std::vector<LevelOfDetail> levels;
-    for (int i = 0; i < kLevels; ++i) levels.push_back(level(kUntil[i], steps[i]));
+    const std::array<double, kLevels>& until = terrain_.flat() ? kEvenUntil : kUntil;
+    for (int i = 0; i < kLevels; ++i) {
+      if (i == 0 || until[i] > until[i - 1]) levels.push_back(level(until[i], steps[i]));
+    }
     return levels;
   }
 

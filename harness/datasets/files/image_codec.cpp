@@ -53,7 +53,7 @@ std::string encode_image(const cv::Mat& image, ImageKind kind) {
     case ImageKind::kPng:
       break;
   }
-  return encode_png(image);
+  return encode_png(image, PngRows::kCodes);
 }
 
 cv::Mat to_grey(const cv::Mat& image) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/util/error.h"
+#include "harness/datasets/files/noise_deflate.h"
 
 namespace vinebench::harness {
 namespace {
@@ -47,14 +48,18 @@ std::string header(const cv::Mat& image) {
   return content;
 }
 
-void copy_row(const std::uint8_t* from, std::size_t size, bool wide, std::uint8_t* to) {
-  if (!wide) {
-    std::memcpy(to, from, size);
-    return;
-  }
+void swap_bytes(const std::uint8_t* from, std::size_t size, std::uint8_t* to) {
   for (std::size_t i = 0; i < size; i += 2) {
     to[i] = from[i + 1];
     to[i + 1] = from[i];
+  }
+}
+
+/// The first pixel, and the difference of each other to the one on its left.
+void filter_row(const std::uint8_t* from, std::size_t size, std::size_t pixel, std::uint8_t* to) {
+  std::memcpy(to, from, std::min(pixel, size));
+  for (std::size_t i = pixel; i < size; ++i) {
+    to[i] = static_cast<std::uint8_t>(from[i] - from[i - pixel]);
   }
 }
 
@@ -67,22 +72,23 @@ const std::vector<std::uint8_t>& filtered(const cv::Mat& image) {
   thread_local std::vector<std::uint8_t> bytes;
   thread_local std::vector<std::uint8_t> plain;
   bytes.resize((row + 1) * static_cast<std::size_t>(image.rows));
-  plain.resize(row);
+  if (wide) plain.resize(row);
   std::uint8_t* to = bytes.data();
   for (int y = 0; y < image.rows; ++y) {
-    copy_row(image.ptr(y), row, wide, plain.data());
+    if (wide) swap_bytes(image.ptr(y), row, plain.data());
     *to++ = kSubFilter;
-    std::memcpy(to, plain.data(), std::min(pixel, row));
-    for (std::size_t i = pixel; i < row; ++i) {
-      to[i] = static_cast<std::uint8_t>(plain[i] - plain[i - pixel]);
-    }
+    filter_row(wide ? plain.data() : image.ptr(y), row, pixel, to);
     to += row;
   }
   return bytes;
 }
 
 /// Also valid until the thread's next call.
-std::string_view compressed(const std::vector<std::uint8_t>& bytes) {
+std::string_view compressed(const std::vector<std::uint8_t>& bytes, PngRows rows) {
+  if (rows == PngRows::kCodes) {
+    thread_local std::vector<char> buffer;
+    return deflate_noise(bytes, buffer);
+  }
   const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
       libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
   if (!compressor) fail("an image cannot be compressed: not enough memory");
@@ -95,14 +101,16 @@ std::string_view compressed(const std::vector<std::uint8_t>& bytes) {
 
 }  // namespace
 
-std::string encode_png(const cv::Mat& image) {
+std::string encode_png(const cv::Mat& image, PngRows rows) {
   static_assert(std::endian::native == std::endian::little, "rows of 16 bits are byte-swapped");
   const bool known = (image.depth() == CV_8U || image.depth() == CV_16U) &&
                      (image.channels() == 1 || image.channels() == 3);
   if (!known || image.empty()) fail("PNG: expected an image of 8 or 16 bits, grey or RGB");
   std::string bytes(kSignature);
+  const std::string_view data = compressed(filtered(image), rows);
+  bytes.reserve(data.size() + 256);  // with the other chunks
   append_chunk(bytes, "IHDR", header(image));
-  append_chunk(bytes, "IDAT", compressed(filtered(image)));
+  append_chunk(bytes, "IDAT", data);
   append_chunk(bytes, "IEND", "");
   return bytes;
 }

@@ -7,9 +7,15 @@
 
 namespace vinebench::harness {
 
-/// The bytes of a PNG: 8 or 16 bits a channel, one channel (grey) or three (RGB, not BGR). Rows use
-/// the filter "Sub" and libdeflate's fastest level: a fifth to a third less time than OpenCV's
-/// default; noisy images are 4 to 9 % larger. Throws Error for other images.
-std::string encode_png(const cv::Mat& image);
+/// How rows are compressed after the filter "Sub".
+enum class PngRows {
+  kRepetitions,  ///< libdeflate's fastest level: small where rows resemble each other
+  kCodes         ///< Huffman codes alone: a third of the time and smaller for noisy images; half of
+                 ///< the time, but larger, for labels
+};
+
+/// The bytes of a PNG: 8 or 16 bits a channel, one channel (grey) or three (RGB, not BGR). Throws
+/// Error for other images.
+std::string encode_png(const cv::Mat& image, PngRows rows = PngRows::kRepetitions);
 
 }  // namespace vinebench::harness

@@ -58,7 +58,7 @@ std::vector<FileTask> InstanceWriter::files(const std::shared_ptr<const DatasetF
                            ids.at<std::int32_t>(y, x) = id;
                          }
                        }
-                       return encode_png(id_colours(ids));
+                       return encode_png(id_colours(ids), PngRows::kCodes);
                      }});
   }
   return tasks;

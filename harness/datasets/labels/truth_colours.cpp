@@ -63,15 +63,24 @@ cv::Mat colour_instances(const cv::Mat& instances) {
   return colours;
 }
 
+/// In two passes, of which the first has no branch.
 cv::Mat colour_normals(const cv::Mat& normals) {
-  cv::Mat colours(normals.size(), CV_8UC3, cv::Scalar::all(0));
-  const auto code = [](float v) { return cv::saturate_cast<std::uint8_t>(127.5f * (1 + v)); };
+  constexpr float kWhole = 12582912.0f;  // 1.5 * 2^23: adding it rounds to whole numbers
+  cv::Mat colours(normals.size(), CV_8UC3);
+  std::vector<float> signs(3 * static_cast<std::size_t>(normals.cols), -1.0f);
+  for (std::size_t i = 0; i < signs.size(); i += 3) signs[i] = 1;
+  const float* sign = signs.data();
   for (int y = 0; y < normals.rows; ++y) {
-    const auto* n = normals.ptr<cv::Vec3f>(y);
-    auto* colour = colours.ptr<cv::Vec3b>(y);
-    for (int x = 0; x < normals.cols; ++x) {
-      if (n[x][0] == 0 && n[x][1] == 0 && n[x][2] == 0) continue;
-      colour[x] = {code(n[x][0]), code(-n[x][1]), code(-n[x][2])};
+    const auto* n = normals.ptr<float>(y);
+    auto* code = colours.ptr<std::uint8_t>(y);
+    for (int i = 0; i < 3 * normals.cols; ++i) {
+      const float rounded = (127.5f * (1 + sign[i] * n[i]) + kWhole) - kWhole;
+      code[i] = static_cast<std::uint8_t>(static_cast<int>(rounded < 0     ? 0
+                                                           : rounded > 255 ? 255.0f
+                                                                           : rounded));
+    }
+    for (int i = 0; i < 3 * normals.cols; i += 3) {
+      if (n[i] == 0 && n[i + 1] == 0 && n[i + 2] == 0) std::fill_n(code + i, 3, std::uint8_t{0});
     }
   }
   return colours;

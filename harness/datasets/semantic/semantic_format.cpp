@@ -16,7 +16,8 @@ std::unique_ptr<FormatWriter> write(const WriterInputs& inputs) {
   write_file_atomically(inputs.folder / "labels.yaml", label_table_text());
   return std::make_unique<ImageWriter>(inputs.folder, inputs.notes, "semantic", "png",
                                        [](const DatasetFrame& frame, std::size_t camera) {
-                                         return encode_png(truth_of(frame, camera).labels);
+                                         return encode_png(truth_of(frame, camera).labels,
+                                                           PngRows::kCodes);
                                        });
 }
 

@@ -15,9 +15,11 @@ struct Visible {
   int level = 0;
   int order = 0;
   bool shaded = false;
+  bool open = false;
+  double distance = 0;  ///< m
   InstanceRow row;
 
-  auto batch_key() const { return std::tie(shell, model, level, order, shaded); }
+  auto batch_key() const { return std::tie(shell, model, level, order, shaded, open); }
 };
 
 /// Shells grow with the distance: few batches far away, a good order nearby. Small objects occlude
@@ -70,23 +72,26 @@ class View {
     const int level = level_of(model, distance * nearer_);
     if (level < 0) return;
     Visible& v = visible_.emplace_back();
-    v.shell = shell_of(distance, model.ordered);
+    const double inside = model.hollow - (camera - bounds.center()).head<2>().norm();
+    v.shell = shell_of(std::max(distance, inside * instance.scale), model.ordered && level < 4);
     v.model = instance.model;
     v.level = level;
     v.order = model.ordered ? draw_order(camera - bounds.center()) : 0;
     v.shaded = shadow_ != nullptr && shadow_->may_shade(instance.centre, instance.radius);
+    v.open = instance.open;
+    v.distance = distance;
     v.row = {cam_from_model.topRows<3>().cast<float>(), static_cast<std::uint32_t>(index + 1)};
   }
 
   DrawList list() {
     std::stable_sort(visible_.begin(), visible_.end(), [](const Visible& a, const Visible& b) {
-      return a.batch_key() < b.batch_key();
+      return std::pair(a.batch_key(), a.distance) < std::pair(b.batch_key(), b.distance);
     });
     DrawList list;
     for (std::size_t i = 0; i < visible_.size(); ++i) {
       const Visible& v = visible_[i];
       if (i == 0 || v.batch_key() != visible_[i - 1].batch_key()) {
-        list.batches.push_back({v.shell, v.model, v.level, v.order, v.shaded, i, 0});
+        list.batches.push_back({v.shell, v.model, v.level, v.order, v.shaded, v.open, i, 0});
       }
       ++list.batches.back().count;
       list.rows.push_back(v.row);

@@ -18,6 +18,7 @@ struct DrawBatch {
   int level = 0;
   int order = 0;        ///< draw order of the triangles
   bool shaded = false;  ///< the shadow of what moves may fall on them
+  bool open = false;    ///< no other shadow can
   std::size_t first = 0;
   std::size_t count = 0;  ///< instances
 };

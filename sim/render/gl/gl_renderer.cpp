@@ -14,39 +14,9 @@
 #include "sim/render/gl/painter.h"
 #include "sim/render/gl/platform/gl_context.h"
 #include "sim/render/gl/platform/gl_objects.h"
-#include "sim/render/gl/scene/frustum.h"
+#include "sim/render/gl/read_back.h"
 
 namespace vinebench::sim {
-namespace {
-
-/// OpenGL's depth to z along the optical axis, m; 0 where there is nothing but sky.
-void linearise(cv::Mat& depth) {
-  constexpr double kSpan = kFarPlane - kNearPlane;
-  constexpr double kProduct = kFarPlane * kNearPlane;
-  for (int y = 0; y < depth.rows; ++y) {
-    auto* row = depth.ptr<float>(y);
-    for (int x = 0; x < depth.cols; ++x) {
-      row[x] = row[x] >= 1.0f ? 0.0f : static_cast<float>(kProduct / (kFarPlane - row[x] * kSpan));
-    }
-  }
-}
-
-/// Bytes of instance number (low, middle, high) and part to RenderedImage::instances.
-cv::Mat instance_numbers(const cv::Mat& bytes) {
-  cv::Mat numbers(bytes.size(), CV_32SC1);
-  for (int y = 0; y < bytes.rows; ++y) {
-    const auto* from = bytes.ptr<cv::Vec4b>(y);
-    auto* to = numbers.ptr<std::int32_t>(y);
-    for (int x = 0; x < bytes.cols; ++x) {
-      const int number = from[x][0] | from[x][1] << 8 | from[x][2] << 16;
-      to[x] = number << 8 | from[x][3];
-    }
-  }
-  return numbers;
-}
-
-}  // namespace
-
 class GlRenderer::Impl {
  public:
   Impl(const Scene& scene, const RendererConfig& config)
@@ -109,41 +79,24 @@ class GlRenderer::Impl {
     }
   }
 
-  /// The clip space is mirrored so that OpenGL's first row is the image's top one.
   RenderedImage read(const GlFunctions& gl, const PinholeCamera& camera,
                      const RenderRequest& request) {
     RenderedImage image;
     const cv::Size size(camera.width, camera.height);
-    read_pixels(gl, 0, size, GL_RGBA, GL_UNSIGNED_BYTE, CV_8UC4, pixels_);
-    image.rgb.create(size, CV_8UC3);
-    image.labels.create(size, CV_8UC1);
-    cv::Mat parts[] = {image.rgb, image.labels};
-    constexpr int kFromTo[] = {0, 0, 1, 1, 2, 2, 3, 3};
-    cv::mixChannels(&pixels_, 1, parts, 2, kFromTo, 4);
-    if (request.depth) image.depth = read_depth(gl, camera);
+    read_back_.colours(gl, size, image.rgb, image.labels);
+    if (request.depth) read_back_.depth(gl, size, image.depth);
     if (request.instances || tells_movers_apart(request)) {
-      read_pixels(gl, 1, size, GL_RGBA, GL_UNSIGNED_BYTE, CV_8UC4, pixels_);
-      image.instances = instance_numbers(pixels_);
+      read_back_.instances(gl, size, image.instances);
     }
-    if (request.normals) read_pixels(gl, 2, size, GL_RGB, GL_FLOAT, CV_32FC3, image.normals);
-    if (request.motion) read_pixels(gl, 3, size, GL_RGB, GL_FLOAT, CV_32FC3, image.motion);
+    if (request.normals) read_back_.vectors(gl, 2, size, image.normals);
+    if (request.motion) read_back_.vectors(gl, 3, size, image.motion);
     return image;
   }
 
-  static cv::Mat read_depth(const GlFunctions& gl, const PinholeCamera& camera) {
+  cv::Mat read_depth(const GlFunctions& gl, const PinholeCamera& camera) {
     cv::Mat depth;
-    read_pixels(gl, 0, {camera.width, camera.height}, GL_DEPTH_COMPONENT, GL_FLOAT, CV_32FC1,
-                depth);
-    linearise(depth);
+    read_back_.depth(gl, {camera.width, camera.height}, depth);
     return depth;
-  }
-
-  static void read_pixels(const GlFunctions& gl, int attachment, const cv::Size& size,
-                          GLenum format, GLenum type, int mat_type, cv::Mat& pixels) {
-    pixels.create(size, mat_type);
-    gl.ReadBuffer(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(attachment));
-    gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
-    gl.ReadPixels(0, 0, size.width, size.height, format, type, pixels.data);
   }
 
   RendererConfig config_;
@@ -151,7 +104,7 @@ class GlRenderer::Impl {
   std::unique_ptr<GlContext> context_;
   std::unique_ptr<Painter> painter_;
   std::map<std::tuple<int, int, bool>, GlTarget> targets_;  // by width, height, truth
-  cv::Mat pixels_;                                          // RGB and label
+  ReadBack read_back_;
 };
 
 GlRenderer::GlRenderer(const Scene& scene, const RendererConfig& config)

@@ -7,6 +7,7 @@
 
 #include "sim/render/gl/scene/shaders.h"
 #include "sim/render/gl/sky.h"
+#include "sim/render/gl/sky_rows.h"
 
 namespace vinebench::sim {
 namespace {
@@ -34,10 +35,13 @@ Painter::Painter(const GlFunctions& gl, const Scene& scene, int shadow_map_size)
       moving_shadow_(scene_, shadow_map_size),
       coarse_shadows_(make_coarse_depth_sampler(gl)),
       sky_program_(gl, "sky", sky_vertex_shader(), sky_fragment_shader()),
-      sky_(make_texture(gl, {sky_image(scene.light, scene.seed)}, false)),
       no_vertices_(make_vertex_array(gl)),
       wire_program_(gl, "wire", wire_vertex_shader(), wire_fragment_shader(false)),
       wire_truth_program_(gl, "truth of a wire", wire_vertex_shader(), wire_fragment_shader(true)) {
+  const cv::Mat sky = sky_image(scene.light, scene.seed);
+  sky_ = make_texture(gl, {sky}, false);
+  below_sky_ = below_horizon(sky);
+  for (GpuInstance& instance : scene_.instances) instance.open = light_map_.is_open(instance);
   for (const Material& material : scene.materials) programs_.get(shader_of(material, false));
   check_gl(gl, "uploading the scene");
 }
@@ -50,31 +54,42 @@ MeshShader Painter::shader_of(const Material& material, bool truth) const {
   return shader;
 }
 
-void Painter::clear(const TruthParts& truth) const {
-  draw_into(gl_, true, truth);
-  gl_.ClearColor(0, 0, 0, 0);
+void Painter::clear(const TruthParts& truth, float sky_brightness) const {
+  const Eigen::Vector4f below = sky_brightness * below_sky_;
+  draw_into(gl_, true, {});
+  gl_.ClearColor(below.x(), below.y(), below.z(), 0);
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  if (!truth.any()) return;
+  draw_into(gl_, false, truth);
+  gl_.ClearColor(0, 0, 0, 0);
+  gl_.Clear(GL_COLOR_BUFFER_BIT);
+  draw_into(gl_, true, truth);
 }
 
 void Painter::draw_meshes(const DrawList& list, bool terrain, bool truth) {
   int material_in_use = -1;
-  bool shaded_in_use = false;
+  bool shaded_in_use = false, open_in_use = false;
   for (const DrawBatch& batch : list.batches) {
     const GpuModel& model = scene_.models[static_cast<std::size_t>(batch.model)];
     for (const GpuPrimitive& primitive :
          model.levels[static_cast<std::size_t>(batch.level)].primitives) {
       const Material& material = scene_.materials[static_cast<std::size_t>(primitive.material)];
       if (material.terrain != terrain) continue;
-      if (primitive.material != material_in_use || batch.shaded != shaded_in_use) {
+      const bool open = batch.open && material.terrain;
+      if (primitive.material != material_in_use || batch.shaded != shaded_in_use ||
+          open != open_in_use) {
         MeshShader shader = shader_of(material, truth);
         shader.moving = batch.shaded;
-        programs_.get(shader).use_for(material, shadow_map_.texel(), ground_light_);
+        shader.open = open;
+        const Eigen::Vector3f light = open ? light_map_.open_light() : Eigen::Vector3f::Ones();
+        programs_.get(shader).use_for(material, shadow_map_.texel(), ground_light_ * light);
         if (material.texture >= 0) {
           gl_.BindTexture(GL_TEXTURE_2D,
                           scene_.textures[static_cast<std::size_t>(material.texture)].get());
         }
         material_in_use = primitive.material;
         shaded_in_use = batch.shaded;
+        open_in_use = open;
       }
       scene_.draw(primitive, batch.order, batch.first, batch.count);
     }
@@ -93,10 +108,14 @@ void Painter::draw_sky(const ViewBlock& view) const {
   const Eigen::Matrix3f R_world_cam = view.world_from_cam.topLeftCorner<3, 3>();
   ray_from_clip.topRows<3>() = (R_world_cam * ray_from_clip.topRows<3>()).eval();
   gl_.UniformMatrix4fv(sky_program_.uniform("ray_from_clip"), 1, GL_FALSE, ray_from_clip.data());
+  const GLint range = sky_program_.uniform("rows");
   gl_.Disable(GL_CULL_FACE);
   bind_texture(gl_, kImageUnit, sky_);
   gl_.BindVertexArray(no_vertices_.get());
-  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  for (const Eigen::Vector2f& rows : rows_with_sky(ray_from_clip)) {
+    gl_.Uniform2fv(range, 1, rows.data());
+    gl_.DrawArrays(GL_TRIANGLES, 0, 6);
+  }
 }
 
 void Painter::draw_wire_pieces(const GlProgram& program,
@@ -158,7 +177,8 @@ void Painter::draw(const GlTarget& target, const PinholeCamera& camera, const Po
   view.light_map = light_map_.map_from_world();
   view.lens.z() *= static_cast<float>(kSkyBrightest);
   view_.set(view);
-  ground_light_ = LightMap::kBrightest * static_cast<double>(encoded(settings.exposure));
+  ground_light_ =
+      static_cast<float>(LightMap::kBrightest * static_cast<double>(encoded(settings.exposure)));
   const DrawList list = make_draw_list(scene_, camera, T_world_cam, lod_scale, moving);
   scene_.set_instances(list.rows);
   gl_.Enable(GL_DEPTH_TEST);
@@ -166,7 +186,7 @@ void Painter::draw(const GlTarget& target, const PinholeCamera& camera, const Po
   gl_.DepthMask(GL_TRUE);
   gl_.FrontFace(GL_CW);
   gl_.Disable(GL_BLEND);
-  clear(truth);
+  clear(truth, view.lens.z());
   bind_maps();
   draw_meshes(list, false, truth.any());
   draw_meshes(list, true, truth.any());

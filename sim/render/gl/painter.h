@@ -33,7 +33,7 @@ class Painter {
             const ViewSettings& settings, const TruthParts& truth);
 
  private:
-  void clear(const TruthParts& truth) const;
+  void clear(const TruthParts& truth, float sky_brightness) const;
   void draw_meshes(const DrawList& list, bool terrain, bool truth);
   void draw_sky(const ViewBlock& view) const;
   void draw_wires(const PinholeCamera& camera, const Pose& T_world_cam,
@@ -57,7 +57,8 @@ class Painter {
   GlVertexArray no_vertices_;
   GlProgram wire_program_;
   GlProgram wire_truth_program_;
-  double ground_light_ = 1;  ///< brightness of the light map, encoded
+  Eigen::Vector4f below_sky_;  ///< what the sky's image shows below the horizon
+  float ground_light_ = 1;     ///< brightness of the light map, encoded
 };
 
 }  // namespace vinebench::sim

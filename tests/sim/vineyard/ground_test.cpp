@@ -65,7 +65,9 @@ TEST_F(GroundTest, EveryLevelOfTheTilesCoversTheGrid) {
   const auto tiles = static_cast<std::size_t>(terrain().tiles_x() * terrain().tiles_y());
   for (const Scene* scene : {&soil(), &grass()}) {
     ASSERT_EQ(scene->instances.size(), 1 + tiles);  // the apron is the first
-    for (std::size_t level = 0; level < 4; ++level) {
+    const std::size_t levels = model_of(*scene, scene->instances.back()).levels.size();
+    EXPECT_EQ(levels, 3u);  // even ground
+    for (std::size_t level = 0; level < levels; ++level) {
       double area = 0;
       for (std::size_t i = 1; i <= tiles; ++i) {
         area += area_from_above(model_of(*scene, scene->instances[i]).levels.at(level));
@@ -82,6 +84,13 @@ TEST_F(GroundTest, LevelsGetCoarser) {
     EXPECT_LT(triangle_count(levels[i]), triangle_count(levels[i - 1]) / 2);
   }
   EXPECT_EQ(levels.back().until, 1e9);
+}
+
+// The finest level is for the light map alone.
+TEST_F(GroundTest, EvenGroundIsDrawnInLargeTriangles) {
+  const std::vector<LevelOfDetail>& levels = model_of(soil(), soil().instances.back()).levels;
+  EXPECT_EQ(levels.front().until, 0);
+  EXPECT_GT(triangle_count(levels[0]), 10 * triangle_count(levels[1]));
 }
 
 TEST_F(GroundTest, TheApronIsTheRestOfTheSquare) {

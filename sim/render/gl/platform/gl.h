@@ -52,6 +52,7 @@ namespace vinebench::sim {
   X(USEPROGRAM, UseProgram)                                                                   \
   X(GETUNIFORMLOCATION, GetUniformLocation)                                                   \
   X(UNIFORM1F, Uniform1f)                                                                     \
+  X(UNIFORM2FV, Uniform2fv)                                                                   \
   X(UNIFORM3FV, Uniform3fv)                                                                   \
   X(UNIFORM4FV, Uniform4fv)                                                                   \
   X(UNIFORMMATRIX4FV, UniformMatrix4fv)                                                       \

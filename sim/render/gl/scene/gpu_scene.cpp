@@ -48,6 +48,21 @@ bool casts_shadow(const Model& model, const std::vector<Material>& materials) {
   return false;
 }
 
+/// A wall around the camera is far away, although its bounds contain the camera.
+double hollow_radius(const Model& model, const Eigen::AlignedBox3f& bounds) {
+  if (bounds.isEmpty()) return 0;
+  float squared = 1e12f;
+  const Eigen::Vector3f axis = bounds.center();
+  for (const LevelOfDetail& level : model.levels) {
+    for (const Primitive& primitive : level.primitives) {
+      for (const Vertex& vertex : primitive.vertices) {
+        squared = std::min(squared, (vertex.position - axis).head<2>().squaredNorm());
+      }
+    }
+  }
+  return std::sqrt(static_cast<double>(squared));
+}
+
 bool is_large(const Model& model) {
   std::size_t indices = 0;
   if (model.levels.empty()) return false;
@@ -70,6 +85,7 @@ GpuModel add_model(Geometry& geometry, const Model& model, const std::vector<Mat
       to.primitives.push_back(geometry.add(primitive, gpu.ordered));
     }
   }
+  gpu.hollow = hollow_radius(model, gpu.bounds);
   return gpu;
 }
 

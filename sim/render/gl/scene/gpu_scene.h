@@ -39,6 +39,7 @@ struct GpuLevel {
 struct GpuModel {
   std::vector<GpuLevel> levels;
   Eigen::AlignedBox3f bounds;  ///< of all levels
+  double hollow = 0;           ///< m, free of vertices around the bounds' vertical axis
   bool casts_shadow = false;   ///< ground and grass do not
   bool ordered = false;        ///< large enough for its triangles' order to matter
 };
@@ -52,6 +53,7 @@ struct GpuInstance {
   Eigen::Vector3d centre;  ///< m, world frame
   double radius = 0;       ///< m
   bool moves = false;      ///< it stands elsewhere at other times
+  bool open = false;       ///< no shadow of what stands still can fall on it
 };
 
 /// `scale` is the instance's.

@@ -60,7 +60,7 @@ MeshProgram::MeshProgram(const GlFunctions& gl, const MeshShader& shader)
       tint_(program_.uniform("tint")) {}
 
 void MeshProgram::use_for(const Material& material, double shadow_texel,
-                          double ground_light) const {
+                          const Eigen::Vector3f& ground_light) const {
   program_.use();
   gl_.Uniform4fv(surface_, 1, surface_of(material).data());
   // Away from the surface so that it does not shade itself; leaves further, as their own plant's
@@ -73,7 +73,7 @@ void MeshProgram::use_for(const Material& material, double shadow_texel,
   gl_.Uniform1f(sway_, sway_of(material.label));
   const Eigen::Vector3f tint(encoded(material.colour.x()), encoded(material.colour.y()),
                              encoded(material.colour.z()));
-  gl_.Uniform3fv(tint_, 1, Eigen::Vector3f(static_cast<float>(ground_light) * tint).data());
+  gl_.Uniform3fv(tint_, 1, Eigen::Vector3f(ground_light.cwiseProduct(tint)).data());
   (material.double_sided ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
 }
 

@@ -28,8 +28,9 @@ class MeshProgram {
  public:
   MeshProgram(const GlFunctions& gl, const MeshShader& shader);
   /// Makes the program current for a material. `shadow_texel`: m, of the shadow map;
-  /// `ground_light`: brightness of the ground's light map at 1.
-  void use_for(const Material& material, double shadow_texel, double ground_light) const;
+  /// `ground_light`: encoded, of the ground's light map at 1, or of open ground.
+  void use_for(const Material& material, double shadow_texel,
+               const Eigen::Vector3f& ground_light) const;
 
  private:
   const GlFunctions& gl_;

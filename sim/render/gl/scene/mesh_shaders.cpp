@@ -39,7 +39,9 @@ out vec3 v_shade;
 out vec3 v_sun;
 out vec3 v_shadow;
 #elif defined(LIGHT_MAP)
+#ifndef OPEN
 out vec2 v_map;
+#endif
 #ifdef MOVING
 out vec3 v_shade;
 #endif
@@ -83,7 +85,9 @@ void main() {
   v_haze = 1.0 - exp(-haze.a * length(p_cam));
 #endif
 #ifdef LIGHT_MAP
+#ifndef OPEN
   v_map = (world_from_cam * vec4(p_cam, 1.0)).xy * light_map.xy + light_map.zw;
+#endif
 #ifdef MOVING
   v_shade = encode(surface.rgb * ambient_light(n_cam, occlusion));
   v_moving = (moving_shadow_from_cam * vec4(p_cam, 1.0)).xyz;
@@ -140,7 +144,9 @@ in vec3 v_shade;
 in vec3 v_sun;
 in vec3 v_shadow;
 #elif defined(LIGHT_MAP)
+#ifndef OPEN
 in vec2 v_map;
+#endif
 layout(binding = 2) uniform sampler2D ground_light;
 uniform vec3 tint;
 #ifdef MOVING
@@ -180,7 +186,11 @@ void main() {
 #endif
   vec3 light = v_shade + v_sun * sun_share;
 #elif defined(LIGHT_MAP)
+#ifdef OPEN
+  vec3 light = tint;
+#else
   vec3 light = texture(ground_light, v_map).rgb * tint;
+#endif
 #ifdef MOVING
   float past = past_movers();
   // What is left is the sky's light; where a plant's shadow lies there is no more to take.
@@ -222,6 +232,7 @@ std::string defines(const MeshShader& shader) {
   define(shader.baking, "BAKING");
   define(shader.moving, "MOVING");
   define(shader.coloured, "COLOURED");
+  define(shader.open, "OPEN");
   return text;
 }
 

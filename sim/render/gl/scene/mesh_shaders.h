@@ -24,12 +24,13 @@ struct MeshShader {
   bool baking = false;    ///< draws the light map itself: light alone, from above
   bool moving = false;    ///< the shadow of what moves may fall on it
   bool coloured = false;  ///< multiplies the vertices' own colours
+  bool open = false;      ///< ground beyond the light map
 
   /// Different for different shaders.
   int key() const {
     return (textured ? 1 : 0) | (cutout ? 2 : 0) | static_cast<int>(shadows) << 2 |
            (haze ? 16 : 0) | (wind ? 32 : 0) | (truth ? 64 : 0) | (baking ? 128 : 0) |
-           (moving ? 256 : 0) | (coloured ? 512 : 0);
+           (moving ? 256 : 0) | (coloured ? 512 : 0) | (open ? 1024 : 0);
   }
 };
 

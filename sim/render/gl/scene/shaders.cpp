@@ -35,10 +35,13 @@ void main() {
 
 constexpr const char* kSkyVertex = R"(
 uniform mat4 ray_from_clip;
+uniform vec2 rows;
 out vec3 v_ray;
 
 void main() {
-  vec2 p = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+  bool right = gl_VertexID == 1 || gl_VertexID > 3;
+  bool second = gl_VertexID == 2 || gl_VertexID == 3 || gl_VertexID == 5;
+  vec2 p = vec2(right ? 1.0 : -1.0, second ? rows.y : rows.x);
   gl_Position = vec4(p, 1.0, 1.0);
   v_ray = (ray_from_clip * vec4(p, 1.0, 0.0)).xyz;
 }

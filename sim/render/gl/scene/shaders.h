@@ -12,7 +12,8 @@ namespace vinebench::sim {
 std::string shadow_vertex_shader();
 std::string shadow_fragment_shader(bool cutout);
 
-/// One triangle over the whole image, behind everything.
+/// The image's full width behind everything, from the first to the second of the clip space's y in
+/// `rows`.
 std::string sky_vertex_shader();
 std::string sky_fragment_shader();
 

@@ -53,14 +53,28 @@ GlFramebuffer colour_framebuffer(const GlFunctions& gl, const GlRenderbuffer& co
   return framebuffer;
 }
 
-/// The rim repeats for ever outside the map: there the ground is as light as where it lies open.
-void open_the_rim(cv::Mat& map) {
+/// The light where the ground lies open.
+cv::Scalar open_ground(const cv::Mat& map) {
   cv::Mat grey;
   cv::cvtColor(map, grey, cv::COLOR_RGBA2GRAY);
   double brightest = 0;
   cv::minMaxLoc(grey, nullptr, &brightest);
-  const cv::Scalar open = cv::mean(map, grey > 0.94 * brightest);
-  cv::rectangle(map, {0, 0}, {map.cols - 1, map.rows - 1}, open, 2);
+  return cv::mean(map, grey > 0.94 * brightest);
+}
+
+/// The rim repeats for ever outside the map: there the ground lies open. Coarse levels are few
+/// texels wide and would lose what they show.
+std::vector<cv::Mat> levels_with_open_rim(cv::Mat map, const cv::Scalar& open) {
+  constexpr int kCoarse = 16;  // texels a side
+  const auto paint_rim = [&](cv::Mat& level, int width) {
+    cv::rectangle(level, {0, 0}, {level.cols - 1, level.rows - 1}, open, width);
+  };
+  paint_rim(map, 2);
+  std::vector<cv::Mat> levels = mip_levels(map, false);
+  for (cv::Mat& level : levels) {
+    if (std::min(level.cols, level.rows) >= kCoarse) paint_rim(level, 1);
+  }
+  return levels;
 }
 
 }  // namespace
@@ -80,9 +94,15 @@ LightMap::LightMap(const GpuScene& scene, const ShadowMap& shadows, MeshPrograms
   const Eigen::Vector2d scale = box.sizes().cwiseInverse();
   const Eigen::Vector2d offset = -box.min().cwiseProduct(scale);
   map_from_world_ << scale.cast<float>(), offset.cast<float>();
+  box_ = box;
   cv::Mat map(8, 8, CV_8UC4, cv::Scalar::all(255));
-  if (any) map = bake(scene, shadows, programs, view, size);
-  texture_ = make_texture(scene.gl, mip_levels(map, false), false);
+  cv::Scalar open = cv::Scalar::all(255);
+  if (any) {
+    map = bake(scene, shadows, programs, view, size);
+    open = open_ground(map);
+  }
+  for (int i = 0; i < 3; ++i) open_light_[i] = static_cast<float>(std::round(open[i]) / 255);
+  texture_ = make_texture(scene.gl, levels_with_open_rim(map, open), false);
 }
 
 cv::Mat LightMap::bake(const GpuScene& scene, const ShadowMap& shadows, MeshPrograms& programs,
@@ -112,7 +132,7 @@ cv::Mat LightMap::bake(const GpuScene& scene, const ShadowMap& shadows, MeshProg
   MeshShader shader;
   shader.shadows = MeshShader::Shadows::kPixels;
   shader.baking = true;
-  programs.get(shader).use_for(white_ground(), shadows.texel(), 1);
+  programs.get(shader).use_for(white_ground(), shadows.texel(), Eigen::Vector3f::Ones());
   gl.Disable(GL_CULL_FACE);
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const GpuModel& model = scene.models[static_cast<std::size_t>(scene.instances[i].model)];
@@ -126,8 +146,11 @@ cv::Mat LightMap::bake(const GpuScene& scene, const ShadowMap& shadows, MeshProg
   cv::Mat map(size, CV_8UC4);
   gl.ReadPixels(0, 0, size.width, size.height, GL_RGBA, GL_UNSIGNED_BYTE, map.data);
   gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
-  open_the_rim(map);
   return map;
+}
+
+bool LightMap::is_open(const GpuInstance& instance) const {
+  return box_.exteriorDistance(Eigen::Vector2d(instance.centre.head<2>())) > instance.radius;
 }
 
 }  // namespace vinebench::sim

@@ -21,6 +21,10 @@ class LightMap {
            const ViewBuffer& view, int largest);
 
   const GlTexture& texture() const { return texture_; }
+  /// Whether all of the instance lies beyond the map.
+  bool is_open(const GpuInstance& instance) const;
+  /// The light of open ground, as the texture has it: 0 to 1.
+  const Eigen::Vector3f& open_light() const { return open_light_; }
   /// Scale and offset from the world's x and y (m) to the texture's coordinates.
   const Eigen::Vector4f& map_from_world() const { return map_from_world_; }
   /// Light that the texture's 1 stands for, encoded.
@@ -31,6 +35,8 @@ class LightMap {
                const ViewBuffer& view, const cv::Size& size) const;
 
   GlTexture texture_;
+  Eigen::AlignedBox2d box_;  ///< m, world
+  Eigen::Vector3f open_light_ = Eigen::Vector3f::Ones();
   Eigen::Vector4f map_from_world_ = Eigen::Vector4f::Zero();
 };
 

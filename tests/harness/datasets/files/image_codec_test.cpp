@@ -38,10 +38,12 @@ TEST(PngWriterTest, LibpngReadsTheSamePixels) {
     for (const cv::Size size :
          {cv::Size(1, 1), cv::Size(53, 37), cv::Size(1, 9), cv::Size(300, 2)}) {
       const cv::Mat image = noise(size.height, size.width, type);
-      const cv::Mat back = decoded(encode_png(image));
-      ASSERT_EQ(back.type(), type);
-      ASSERT_EQ(back.size(), size);
-      EXPECT_EQ(cv::norm(back, image, cv::NORM_INF), 0);
+      for (const PngRows rows : {PngRows::kRepetitions, PngRows::kCodes}) {
+        const cv::Mat back = decoded(encode_png(image, rows));
+        ASSERT_EQ(back.type(), type);
+        ASSERT_EQ(back.size(), size);
+        EXPECT_EQ(cv::norm(back, image, cv::NORM_INF), 0);
+      }
     }
   }
   // Rows of a larger image are not next to each other.

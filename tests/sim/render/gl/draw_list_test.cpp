@@ -95,6 +95,37 @@ TEST_F(DrawListTest, NearOnesComeFirstAndThoseOfOneDistanceTogether) {
   EXPECT_EQ(drawn.batches[2].count, 2u);
 }
 
+TEST_F(DrawListTest, InstancesOfABatchAreNearToFar) {
+  test::add_instance(scene_, panel_, {0, 50.2, 0});
+  test::add_instance(scene_, panel_, {1, 50.1, 0});
+  const DrawList drawn = list();
+  ASSERT_EQ(drawn.batches.size(), 1u);
+  EXPECT_EQ(drawn.rows[0].number, 2u);
+}
+
+// The bounds of walls all around contain the camera, which is 12 m away from them.
+TEST_F(DrawListTest, WallsAroundTheCameraAreAsFarAsTheyStand) {
+  Primitive walls = test::panel(0, 1, 1);
+  const std::size_t corners = walls.vertices.size();
+  const std::vector<std::uint32_t> indices = walls.indices;
+  for (const std::uint32_t i : indices) {
+    walls.indices.push_back(i + static_cast<std::uint32_t>(corners));
+  }
+  for (std::size_t i = 0; i < corners; ++i) {
+    walls.vertices.push_back(walls.vertices[i]);
+    walls.vertices[i].position.y() += 12;
+    walls.vertices.back().position.y() -= 12;
+  }
+  test::add_instance(scene_, test::add_model(scene_, walls), {0, 0, 0});
+  test::add_instance(scene_, panel_, {0, 5, 0});
+  test::add_instance(scene_, panel_, {0, 40, 0});
+  const DrawList drawn = list();
+  ASSERT_EQ(drawn.rows.size(), 3u);
+  EXPECT_EQ(drawn.rows[0].number, 2u);
+  EXPECT_EQ(drawn.rows[1].number, 1u);
+  EXPECT_EQ(drawn.rows[2].number, 3u);
+}
+
 TEST_F(DrawListTest, TheRoverIsOneMoreInstanceWhereItStands) {
   test::add_instance(scene_, panel_, {0, 5, 0});
   scene_.rover_model = panel_;

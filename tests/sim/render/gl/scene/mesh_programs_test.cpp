@@ -67,7 +67,7 @@ TEST_F(MeshProgramsTest, EveryUniformIsSetForAMaterial) {
   for (const Shadows shadows : {Shadows::kVertices, Shadows::kPixels, Shadows::kLightMap}) {
     MeshShader shader;
     shader.shadows = shadows;
-    programs.get(shader).use_for(leaf, 0.01, 1);
+    programs.get(shader).use_for(leaf, 0.01, Eigen::Vector3f::Ones());
     EXPECT_EQ(gl_.GetError(), static_cast<GLenum>(GL_NO_ERROR));
   }
 }

@@ -78,6 +78,22 @@ TEST_F(LightMapTest, BeyondItTheGroundLiesOpen) {
   EXPECT_NEAR(light_at(4, -3), byte_of(0.75), 1.5);
 }
 
+// The roof's ball and a margin reach 1 m from the middle; the tile's ball has 0.7 m.
+TEST_F(LightMapTest, ATileIsOpenIfNoneOfItIsOnTheMap) {
+  const int tile = test::add_model(scene_, slab(ground_, 2));
+  test::add_instance(scene_, tile, {1.6, 0, 0});
+  test::add_instance(scene_, tile, {1.8, 0, 0});
+  const GpuScene gpu(gl_, scene_);
+  const ViewBuffer view(gl_);
+  MeshPrograms programs(gl_);
+  const ShadowMap shadows(gpu, 512);
+  const LightMap map(gpu, shadows, programs, view, 256);
+  EXPECT_FALSE(map.is_open(gpu.instances[0]));
+  EXPECT_FALSE(map.is_open(gpu.instances[2]));
+  EXPECT_TRUE(map.is_open(gpu.instances[3]));
+  EXPECT_NEAR(255 * map.open_light().x(), byte_of(0.75), 1.5);
+}
+
 TEST_F(LightMapTest, AShadowLiesAwayFromALowSun) {
   scene_.light.towards_sun = Eigen::Vector3f(1, 0, 1).normalized();  // half a metre to -x
   EXPECT_NEAR(light_at(-0.8, 0), byte_of(0.25), 1.5);
