@@ -125,7 +125,7 @@ void add_wires(Scene& scene, const WorldConfig::Trellis& trellis, const WorldLay
     }
   }
   if (trellis.drip_line == 0) return;
-  const int black = add_line_material(scene, "drip line", {0.018f, 0.018f, 0.020f});
+  const int black = add_line_material(scene, "drip line", {0.035f, 0.038f, 0.042f});
   for (std::size_t i = 1; i < posts.size(); ++i) {
     if (posts[i].row != posts[i - 1].row) continue;
     add_drip_span(scene, above(terrain, posts[i - 1], trellis.drip_line),
