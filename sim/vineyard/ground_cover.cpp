@@ -108,14 +108,16 @@ class Patch {
     }
   }
 
+  /// Within the bounds of what lies and grows in the patch.
   void stand_cards() {
+    const float half_x = 0.88f * spec_.half_x, half_y = 0.88f * spec_.half_y;
     for (int i = 0; i < spec_.along; ++i) {
-      const float y = spec_.half_y * (2 * (static_cast<float>(i) + 0.5f) / spec_.along - 1);
-      stand_card({0, y, 0}, {spec_.half_x, 0.9f / spec_.along * spec_.half_y * uniform(-1, 1), 0});
+      const float y = half_y * (2 * (static_cast<float>(i) + 0.5f) / spec_.along - 1);
+      stand_card({0, y, 0}, {half_x, 0.9f / spec_.along * half_y * uniform(-1, 1), 0});
     }
     for (int i = 0; i < spec_.across; ++i) {
-      const float x = spec_.half_x * (2 * (static_cast<float>(i) + 0.5f) / spec_.across - 1);
-      stand_card({x + uniform(-0.05f, 0.05f), 0, 0}, {uniform(-0.2f, 0.2f), spec_.half_y, 0});
+      const float x = half_x * (2 * (static_cast<float>(i) + 0.5f) / spec_.across - 1);
+      stand_card({x + uniform(-0.05f, 0.05f), 0, 0}, {uniform(-0.2f, 0.2f), half_y, 0});
     }
   }
 
