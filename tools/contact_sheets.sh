@@ -111,6 +111,9 @@ effect colour_filters --set $c.bayer=rggb --set $c.exposure.gain_db=12 \
 effect fixed_pattern --set $c.fixed_pattern.response=0.08 \
   --set $c.fixed_pattern.hot_pixels=0.001 --set $c.exposure.gain_db=12 \
   --set $c.exposure.time=0.0005
+effect white_balance --set $c.white_balance.red=1.3 --set $c.white_balance.blue=0.8
+effect saturation_and_contrast --set $c.response.saturation=1.5 --set $c.response.contrast=0.8
+effect JPEG,_quality_10 --set $c.jpeg.quality=10
 effect automatic_exposure_at_dusk --set $c.exposure.automatic=true --set world.sun.elevation_deg=-1
 sheet sensors 4 376x
 
