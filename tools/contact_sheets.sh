@@ -102,7 +102,7 @@ effect lens_distortion --set \
   'sensors.calibration.cameras=[{name: front_left, distortion: [-0.2, 0.035, 0, 0]}]'
 effect motion_blur --set $c.exposure.time=0.03 --set $c.exposure.reference_time=0.01 \
   --set $c.blur_subframes=24
-effect rolling_shutter --set $c.readout_time=0.06 --set $c.readout_bands=60
+effect rolling_shutter --set $c.exposure.time=0.002 --set $c.readout_time=0.06 --set $c.readout_bands=60
 effect vignetting --set $c.vignetting.natural=0.7
 effect dirt --set $c.dirt='[{count: 60, opacity: 0.6}]'
 effect a_leaf_on_the_glass --set $c.leaves='[{position: [0.3, 0.5], size: 0.8, angle_deg: 25}]'
