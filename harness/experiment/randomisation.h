@@ -19,7 +19,8 @@ namespace vinebench::harness {
 ///       - {key: sensors.camera.exposure.time, log_uniform: [0.0005, 0.008]}
 ///       - {key: world.vines.bbch, choice: [75, 83, 89], weights: [1, 2, 1]}
 ///       - {key: world.vines.templates, integer: [4, 8]}
-///       - {key: world.vines.cultivar, file: [../../cultivars/merlot.yaml, ../../cultivars/riesling.yaml]}
+///       - {key: world.vines.cultivar, file: [../../cultivars/merlot.yaml,
+///       ../../cultivars/riesling.yaml]}
 ///
 /// A draw is a function of the seed and the key only. Throws Error that names file, line and key;
 /// the values themselves are validated when the scenario is read.

@@ -16,8 +16,8 @@ struct Bud {
 };
 
 /// Adds trunk, head, arms, spurs and canes of the training, up to the fruiting wire; of a dormant
-/// vine that is not pruned yet also the last summer's shoots. Returns the buds along the wire, about
-/// `shoots` of them per metre.
+/// vine that is not pruned yet also the last summer's shoots. Returns the buds along the wire,
+/// about `shoots` of them per metre.
 std::vector<Bud> grow_old_wood(Grapevine& plant, const PlantBrief& brief, RandomSequence& random);
 
 /// The thin stem of a second-year vine beside its stake, and its grow tube. Returns its buds.

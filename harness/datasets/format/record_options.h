@@ -20,8 +20,8 @@ struct RecordOptions {
   std::vector<std::string> formats{"euroc"};  ///< of parse_formats(); docs/datasets.md has them
   std::vector<std::string> cameras;           ///< names of the rig; all if empty
   std::set<Category> categories;              ///< of COCO's instances; all things if empty
-  std::int64_t least_area = 0;                ///< px, of COCO's instances; smaller ones are left out
-  std::int64_t first = 0;                     ///< frame of the run
+  std::int64_t least_area = 0;  ///< px, of COCO's instances; smaller ones are left out
+  std::int64_t first = 0;       ///< frame of the run
   std::int64_t last = std::numeric_limits<std::int64_t>::max();
   std::int64_t every = 1;
   std::optional<ImageKind> images;  ///< default: PNG in rgb and coco, raw in ros
