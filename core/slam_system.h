@@ -77,6 +77,12 @@ struct LoopClosure {
   std::optional<Matrix6d> covariance{};
 };
 
+/// A feature that supports the pose of a frame.
+struct SupportingFeature {
+  int camera = 0;         ///< index into Rig::cameras
+  Eigen::Vector2d pixel;  ///< in the camera's image
+};
+
 /// The live estimate of a SLAM system at one frame.
 struct Estimate {
   Stamp stamp = 0;

@@ -22,6 +22,9 @@ struct Sinks {
       : recorder(source.rig(), trial.site.tags) {
     if (!options.folder.empty()) {
       images.emplace(options.folder / "frames", source.rig(), source.size(), options.images);
+      if (options.film) {
+        film.emplace(options.folder, source.rig(), source.size(), options.features);
+      }
     }
     if (options.progress != nullptr) {
       progress.emplace(*options.progress, options.terminal, options.title, source.size());
@@ -30,6 +33,7 @@ struct Sinks {
   std::vector<Sink*> list() {
     std::vector<Sink*> sinks{&recorder, &hash};
     if (images) sinks.push_back(&*images);
+    if (film) sinks.push_back(&*film);
     if (progress) sinks.push_back(&*progress);
     return sinks;
   }
@@ -37,6 +41,7 @@ struct Sinks {
   RunRecorder recorder;
   RunHash hash;
   std::optional<FrameImages> images;
+  std::optional<Film> film;
   std::optional<Progress> progress;
 };
 
@@ -104,9 +109,12 @@ RunOutcome run_mapping_system(const Trial& trial, FrameSource& source, slam::Map
                               const RunOptions& options) {
   check_map_folders(options.maps);
   if (!options.maps.load.empty()) slam.load_map(options.maps.load);
-  const RunOutcome outcome = run_lockstep_and_judge(trial, source, slam, options);
+  RunOptions with_features = options;
+  with_features.features = [&slam] { return slam.supporting_features(); };
+  const RunOutcome outcome = run_lockstep_and_judge(trial, source, slam, with_features);
   if (!options.maps.save.empty()) slam.save_map(options.maps.save);
   if (!options.maps.cloud.empty()) slam.save_cloud(options.maps.cloud);
+  if (options.film && !options.folder.empty()) slam.save_cloud(options.folder / kLandmarksFile);
   return outcome;
 }
 

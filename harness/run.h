@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "harness/judge/run_report.h"
+#include "harness/run/film.h"
 #include "slam/slam.h"
 
 namespace vinebench::harness {
@@ -24,6 +25,8 @@ struct RunOptions {
   std::filesystem::path folder;  ///< for the results; nothing is written if empty
   MapFiles maps;
   int images = 12;                   ///< frames whose images are kept as PNG
+  bool film = false;                 ///< keep small pictures for a report, and the landmarks
+  Film::Features features;           ///< for these; run_mapping_system() knows
   std::ostream* progress = nullptr;  ///< receives the progress
   bool terminal = false;             ///< `progress` is a terminal
   std::string title = "run";         ///< of the progress line

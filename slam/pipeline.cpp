@@ -87,7 +87,33 @@ Estimate Pipeline::process(const std::shared_ptr<FrameFeatures>& frame) {
   release_images(*frame);
   record_tags(tracked);
   record_pose(tracked, estimate);
+  record_support(tracked);
   return estimate;
+}
+
+void Pipeline::record_support(const TrackedFrame& tracked) {
+  supporting_.assign(rig_.rig.pairs.size(), {});
+  if (!tracked.tracked) return;
+  for (std::size_t v = 0; v < tracked.associations.size(); ++v) {
+    const std::vector<Keypoint>& keypoints = tracked.frame->views[v].features.keypoints;
+    for (std::size_t i = 0; i < tracked.associations[v].size(); ++i) {
+      if (tracked.associations[v][i] < 0) continue;
+      supporting_[v].emplace_back(keypoints[i].x, keypoints[i].y);
+    }
+  }
+}
+
+std::vector<SupportingFeature> Pipeline::supporting_features() const {
+  std::vector<SupportingFeature> features;
+  for (std::size_t v = 0; v < supporting_.size(); ++v) {
+    const RectifiedPair& pair = rig_.rig.pairs[v];
+    for (const Eigen::Vector2f& at : supporting_[v]) {
+      const Eigen::Vector2d pixel = at.cast<double>();
+      features.push_back({pair.left_camera,
+                          pair.rectification ? pair.rectification->in_left_image(pixel) : pixel});
+    }
+  }
+  return features;
 }
 
 void Pipeline::join_due_mapping() {

@@ -36,6 +36,9 @@ class Pipeline {
   Estimate process(const std::shared_ptr<FrameFeatures>& frame);
   SlamSummary finish();
 
+  /// As MappingSystem::supporting_features().
+  std::vector<SupportingFeature> supporting_features() const;
+
   const Map& map() const { return map_; }
   const EstimatorRig& rig() const { return rig_; }
   StageTimes& times() { return times_; }
@@ -56,6 +59,7 @@ class Pipeline {
   static void release_images(FrameFeatures& frame);
   void record_tags(const TrackedFrame& tracked);
   void record_pose(const TrackedFrame& tracked, Estimate& estimate);
+  void record_support(const TrackedFrame& tracked);
 
   TrackedFrame initialise(const std::shared_ptr<FrameFeatures>& frame);
   TrackedFrame relocalise(const std::shared_ptr<FrameFeatures>& frame);
@@ -82,6 +86,7 @@ class Pipeline {
   PoseUncertainty uncertainty_;  ///< of the latest keyframe
   StageTimes times_;
   std::vector<FrameRecord> records_;
+  std::vector<std::vector<Eigen::Vector2f>> supporting_;  ///< px, of the last frame's views
   int seeing_frames_ = 0;   ///< in a row, that see enough and find nothing of the map
   double path_length_ = 0;  ///< m
   int closures_ = 0;

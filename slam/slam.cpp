@@ -36,6 +36,9 @@ class MulticameraSlam : public MappingSystem {
   void save_cloud(const std::filesystem::path& file) const override {
     save_point_cloud(pipeline_.map(), min_observations_, file);
   }
+  std::vector<SupportingFeature> supporting_features() const override {
+    return pipeline_.supporting_features();
+  }
 
  private:
   FrontEnd front_end_;

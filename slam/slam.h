@@ -32,6 +32,9 @@ class MappingSystem : public SlamSystem {
 
   /// Writes the landmarks as a point cloud in PLY format. Throws Error with the system's reason.
   virtual void save_cloud(const std::filesystem::path& file) const = 0;
+
+  /// Those of the last frame; none where the cameras did not support its pose.
+  virtual std::vector<SupportingFeature> supporting_features() const = 0;
 };
 
 /// The lockstep SLAM system: everything that a frame starts is finished before its estimate is

@@ -3,9 +3,10 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Installs missing Debian packages for building Vinebench, as root or through sudo. No effect if all
-# are installed. Usage: setup.sh [--ros] [--fuzz] [--cycles]; with --ros also those for recording ROS
-# bags, and for the tests that read data sets with Python: 136 packages, 323 MB; with --fuzz also clang
-# and its libFuzzer; with --cycles also Blender, for reference pictures: 414 MB.
+# are installed. Usage: setup.sh [--ros] [--browser] [--fuzz] [--cycles]; with --ros also those for
+# recording ROS bags, and for the tests that read data sets with Python: 136 packages, 323 MB; with
+# --browser also Chromium, for the tests of reports; with --fuzz also clang and its libFuzzer; with
+# --cycles also Blender, for reference pictures: 414 MB.
 set -euo pipefail
 
 packages=(
@@ -19,6 +20,8 @@ packages=(
   libboost-math-dev
   # files, text, command line
   libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libxxhash-dev libdeflate-dev
+  # the front end of reports
+  esbuild libjs-three
   # the Python module
   python3-dev python3-numpy pybind11-dev
   # tests
@@ -33,6 +36,9 @@ for option in "$@"; do
         python3-rosbag python3-opencv python3-pil python3-yaml
       )
       ;;
+    --browser)
+      packages+=(chromium chromium-driver python3-selenium node-typescript)
+      ;;
     --fuzz)
       packages+=(clang libclang-rt-14-dev)
       ;;
@@ -40,7 +46,7 @@ for option in "$@"; do
       packages+=(blender)
       ;;
     *)
-      echo "setup.sh: $option is no option; usage: setup.sh [--ros] [--fuzz] [--cycles]" >&2
+      echo "setup.sh: $option is no option; usage: setup.sh [--ros] [--browser] [--fuzz] [--cycles]" >&2
       exit 2
       ;;
   esac

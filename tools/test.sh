@@ -10,7 +10,7 @@ set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
-tools/setup.sh ${CI:+--ros --fuzz}
+tools/setup.sh ${CI:+--ros --browser --fuzz}
 if [[ -n ${CI:-} ]]; then cmake --preset ci; else cmake --preset release; fi
 cmake --build build
 echo "checking the format"

@@ -20,8 +20,8 @@ struct WorldTag {
   bool registered = true;  ///< whether the SLAM system is given its pose
 };
 
-/// Top view of a vineyard, for evaluation, plots and data sets. Empty if a source has none, such as
-/// a recording of others.
+/// What stands in a vineyard, for evaluation, plots, reports and data sets. Empty if a source has
+/// none, such as a recording of others.
 struct Site {
   struct Row {
     Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< m
@@ -35,6 +35,8 @@ struct Site {
     double yaw_deg = 0;
     Eigen::Vector3d colour = Eigen::Vector3d::Zero();  ///< sRGB, 0 to 1
     bool moves = false;                                ///< along a path that begins there
+    double foot = 0;                                   ///< m, world; z of its lowest point
+    double height = 0;                                 ///< m
   };
   std::string name;  ///< of the world
   std::vector<Row> rows;
@@ -44,7 +46,10 @@ struct Site {
   std::vector<WorldTag> tags;  ///< in the order of the indices in Truth::visible_tags
   double vine_spacing = 0;     ///< m, along a row
   double canopy_depth = 0;     ///< m, across a row
+  double canopy_foot = 0;      ///< m above the ground
+  double canopy_top = 0;       ///< m above the ground
   double post_radius = 0;      ///< m
+  double post_height = 0;      ///< m
 };
 
 }  // namespace vinebench

@@ -230,9 +230,11 @@ std::vector<std::size_t> causes_of(const StretchExplanation& stretch) {
     if (effect.losses_are_caused) most = std::max(most, effect.lost / was.lost.typical());
     return most;
   };
-  std::map<std::size_t, double> shares;
+  // Of factors whose absence gives as much of the frames back, the one without which less drifts.
+  std::map<std::size_t, std::pair<double, double>> shares;
   for (const FactorEffect& single : stretch.singles) {
-    if (single.effect.is_cause()) shares[single.factors[0]] = share(single.effect);
+    if (!single.effect.is_cause()) continue;
+    shares[single.factors[0]] = {share(single.effect), single.effect.metres};
   }
   const FactorEffect* joint = nullptr;
   for (const FactorEffect& pair : stretch.pairs) {
@@ -242,7 +244,9 @@ std::vector<std::size_t> causes_of(const StretchExplanation& stretch) {
     if (joint == nullptr || share(pair.effect) > share(joint->effect)) joint = &pair;
   }
   if (joint != nullptr) {
-    for (const std::size_t i : joint->factors) shares[i] = share(joint->effect);
+    for (const std::size_t i : joint->factors) {
+      shares[i] = {share(joint->effect), joint->effect.metres};
+    }
   }
   std::vector<std::size_t> causes;
   for (const auto& [factor, ignored] : shares) causes.push_back(factor);

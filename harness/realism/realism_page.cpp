@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/util/base64.h"
 #include "core/util/error.h"
 #include "core/util/xml_text.h"
 #include "harness/datasets/files/image_file.h"
@@ -36,21 +37,6 @@ tr.outside td:first-child { font-weight: 600; }
 </style></head><body>
 )";
 
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  constexpr const char* kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < left ? bytes[i + k] : 0U);
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += k <= left ? kDigits[group >> (18 - 6 * k) & 63] : '=';
-    }
-  }
-  return text;
-}
-
 std::string image_of(const MeasuredPicture& picture, int width) {
   const cv::Mat bgr = read_image(picture.file, cv::IMREAD_COLOR);
   if (bgr.empty()) fail("{}: damaged", picture.file.string());
@@ -60,7 +46,8 @@ std::string image_of(const MeasuredPicture& picture, int width) {
   std::vector<std::uint8_t> bytes;
   cv::imencode(".jpg", shown, bytes, {cv::IMWRITE_JPEG_QUALITY, kQuality});
   return fmt::format("<img alt=\"{}\" src=\"data:image/jpeg;base64,{}\">",
-                     xml_escaped(picture.name), base64(bytes));
+                     xml_escaped(picture.name),
+                     base64({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
 }
 
 /// Evenly spread over the set, those whose files are known.

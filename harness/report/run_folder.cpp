@@ -16,6 +16,8 @@
 #include "harness/report/events.h"
 #include "harness/report/plot.h"
 #include "harness/report/report_json.h"
+#include "harness/report/timeline.h"
+#include "harness/run/film.h"
 
 namespace vinebench::harness {
 namespace {
@@ -33,23 +35,12 @@ void remove_files(const std::filesystem::path& folder, const std::regex& names) 
 void remove_old_files(const std::filesystem::path& folder) {
   static const std::regex unfinished(".*\\.[0-9a-f]{16}\\.partial");
   static const std::regex images("[0-9]{6,}_.*\\.png");
-  remove_files(folder, unfinished);
-  remove_files(folder / "frames", unfinished);
-  remove_files(folder / "frames", images);
-}
-
-const char* name_of(TrackingStatus status) {
-  switch (status) {
-    case TrackingStatus::kInitializing:
-      return "initialising";
-    case TrackingStatus::kTracking:
-      return "tracked";
-    case TrackingStatus::kDeadReckoning:
-      return "dead_reckoning";
-    case TrackingStatus::kLost:
-      return "lost";
+  static const std::regex film("[0-9]{6,}\\.jpg|film\\.json");
+  for (const auto& inner : {folder, folder / "frames", folder / kFilmFolder}) {
+    remove_files(inner, unfinished);
   }
-  return "";
+  remove_files(folder / "frames", images);
+  remove_files(folder / kFilmFolder, film);
 }
 
 /// A line for each line of estimate.tum, whose format has no place for it.
@@ -60,7 +51,7 @@ std::string format_statuses(const RunRecord& record) {
   for (const StampedPose& pose : record.summary.trajectory) {
     const auto status = statuses.find(pose.stamp);
     text += fmt::format("{},{}\n", format_seconds(pose.stamp),
-                        status == statuses.end() ? "unknown" : name_of(status->second));
+                        status == statuses.end() ? "unknown" : status_name(status->second));
   }
   return text;
 }
@@ -74,7 +65,7 @@ FolderLock prepare_run_folder(const std::filesystem::path& folder, const std::st
     create_inner_folder(folder / "frames");
     write_file_atomically(folder / name, settings);
     std::error_code ignored;
-    for (const char* stale : {"metrics.json", kInputsFile}) {
+    for (const char* stale : {"metrics.json", kInputsFile, kLandmarksFile}) {
       std::filesystem::remove(folder / stale, ignored);
     }
     remove_old_files(folder);
@@ -97,6 +88,8 @@ void write_run_files(const std::filesystem::path& folder, const Trial& trial,
                         format_events(record, report.results, report.diagnosis, box_share));
   write_file_atomically(folder / "summary.txt", format_diagnosis(record, report.diagnosis));
   write_file_atomically(folder / "plot.svg", plot_svg(trial, record, report.results));
+  write_file_atomically(folder / kTimelineFile, format_timeline(record));
+  write_file_atomically(folder / kSiteFile, json_text(site_json(trial.site, record.rig)) + "\n");
 }
 
 void write_metrics(const std::filesystem::path& folder, const RunReport& report) {

@@ -13,6 +13,9 @@ namespace vinebench::harness {
 /// In the folder of a set's run: the fingerprint of its inputs (run_inputs.h).
 inline constexpr const char* kInputsFile = "inputs.txt";
 
+/// The final map's landmarks, of a run with a film: PLY, in the map's axes.
+inline constexpr const char* kLandmarksFile = "landmarks.ply";
+
 /// Before the number of a folder of repeats: seed-1/repeat-2. The first is seed-1 itself.
 inline constexpr const char* kRepeatFolder = "repeat-";
 

@@ -275,13 +275,18 @@ Site site_of(const WorldConfig& world) {
     const Eigen::Vector2d centre = layout.occluders[i].translation.head<2>();
     const double yaw =
         occluder.path ? yaw_of(layout.occluders[i].rotation) / kRadiansPerDegree : occluder.yaw_deg;
-    site.objects.push_back({class_of(occluder), centre, size_of(occluder).head<2>(), yaw,
-                            colour_of(occluder), occluder.path.has_value()});
+    const Eigen::Vector3d size = size_of(occluder);
+    site.objects.push_back({class_of(occluder), centre, size.head<2>(), yaw, colour_of(occluder),
+                            occluder.path.has_value(), layout.occluders[i].translation.z(),
+                            size.z()});
   }
   site.tags = world_tags(world);
   site.vine_spacing = world.vines.spacing;
   site.canopy_depth = world.vines.canopy_depth;
+  site.canopy_foot = world.vines.lowest_bunch;
+  site.canopy_top = world.vines.canopy_top;
   site.post_radius = world.trellis.post_radius;
+  site.post_height = world.trellis.post_height;
   return site;
 }
 

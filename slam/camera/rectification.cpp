@@ -148,6 +148,10 @@ cv::Mat Rectification::fill_maps(Camera& camera) const {
   return seen;
 }
 
+Eigen::Vector2d Rectification::in_left_image(const Eigen::Vector2d& pixel) const {
+  return cameras_[0].model.project(cameras_[0].R_cam_common * lens_.unproject(pixel));
+}
+
 cv::Mat Rectification::Camera::remapped(const cv::Mat& grey) const {
   cv::Mat result;
   // The border's greys go on outside, so that no edge appears there.

@@ -34,6 +34,9 @@ class Rectification {
   cv::Mat left(const cv::Mat& grey) const { return cameras_[0].remapped(grey); }
   cv::Mat right(const cv::Mat& grey) const { return cameras_[1].remapped(grey); }
 
+  /// Where in the left camera's image a pixel of its rectified one is.
+  Eigen::Vector2d in_left_image(const Eigen::Vector2d& pixel) const;
+
   /// Takes away the left image's features whose neighbourhood has pixels without a source.
   void drop_unseen(Features& features, const OrbExtractor& extractor) const;
 

@@ -50,6 +50,25 @@ TEST(PipelineTest, RecoversTheWayExactlyWithoutNoise) {
   EXPECT_LT(worst_error(summary.trajectory, truth), 2e-6);
 }
 
+TEST(PipelineTest, TellsWhichFeaturesSupportThePose) {
+  const SyntheticAisle aisle(0, 1, kLandmarks);
+  Pipeline pipeline(config(), aisle.rig, {});
+  EXPECT_TRUE(pipeline.supporting_features().empty());
+  Estimate estimate;
+  for (std::int64_t i = 0; i < 10; ++i) estimate = pipeline.process(aisle.frame(i, driving(i)));
+  std::vector<int> counts(estimate.cameras.size());
+  for (const SupportingFeature& feature : pipeline.supporting_features()) {
+    ++counts.at(static_cast<std::size_t>(feature.camera));
+    const RectifiedPair& pair = aisle.rig.pairs[0];
+    EXPECT_TRUE(pair.lens.contains(feature.pixel));
+  }
+  // As many as the estimate counts, in the left cameras alone.
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    EXPECT_GE(counts[i], estimate.cameras[i].inliers) << i;
+    EXPECT_EQ(counts[i] > 0, estimate.cameras[i].inliers > 0) << i;
+  }
+}
+
 TEST(PipelineTest, DriftsLittleWithNoise) {
   const SyntheticAisle aisle(0.5, 2, kLandmarks);
   Pipeline pipeline(config(), aisle.rig, {});

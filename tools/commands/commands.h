@@ -14,6 +14,7 @@ Command record_command(const Surroundings& surroundings);
 Command check_command();
 Command eval_command();
 Command compare_command();
+Command report_command();
 Command plan_command();
 Command guard_command(const Surroundings& surroundings);
 Command explain_command(const Surroundings& surroundings);

@@ -15,6 +15,7 @@
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/interactive.h"
+#include "tools/commands/report/open_page.h"
 #include "tools/commands/run_many.h"
 
 namespace vinebench::tools {
@@ -34,6 +35,8 @@ struct RunArguments {
   std::vector<std::string> overrides;
   int threads = default_threads();
   bool verify_determinism = false;
+  bool report = false;
+  double report_megabytes = 20;
   harness::MapFiles maps;
   std::filesystem::path cache;
   harness::Machine machine;
@@ -61,6 +64,10 @@ std::vector<harness::ScenarioConfig> scenarios_of(const RunArguments& arguments)
     if (arguments.seed) scenarios.back().seed = *arguments.seed;
   }
   return scenarios;
+}
+
+std::size_t report_bytes(const RunArguments& arguments) {
+  return static_cast<std::size_t>(1e6 * arguments.report_megabytes);
 }
 
 std::optional<harness::RunRecording> recording_of(const RunArguments& arguments) {
@@ -126,7 +133,9 @@ int run_set(const RunArguments& arguments) {
                    .jobs = arguments.jobs,
                    .threads = arguments.threads,
                    .repeats = arguments.repeats,
-                   .force = arguments.force});
+                   .force = arguments.force,
+                   .report = arguments.report,
+                   .report_bytes = report_bytes(arguments)});
 }
 
 int run_one(const RunArguments& arguments) {
@@ -139,10 +148,12 @@ int run_one(const RunArguments& arguments) {
   harness::RunOptions options = interactive_options(scenario.name);
   options.folder = folder;
   options.maps = arguments.maps;
+  options.film = arguments.report;
   const harness::RunOutcome outcome = harness::run_scenario(
       scenario, arguments.machine, arguments.threads, options, recording_of(arguments));
   if (outcome.interrupted) return report_interruption(outcome, folder);
   print_verdict(scenario, outcome, folder);
+  if (arguments.report) write_report(folder / kReportFile, {{folder}, {}, report_bytes(arguments)});
   std::fflush(stdout);
   const int repeated =
       arguments.verify_determinism ? verify_determinism(scenario, arguments, outcome.report) : 0;
@@ -181,6 +192,11 @@ std::vector<Option> run_options(RunArguments& arguments) {
           overrides_option(arguments.overrides,
                            "Set a key of the scenario, e.g. world.sun.elevation_deg=20"),
           threads_option(arguments.threads),
+          {.name = "--report",
+           .target = &arguments.report,
+           .help = "Keep small pictures of every camera, and make a page of the run or the set: "
+                   "report.html in the folder of the results"},
+          report_size_option(arguments.report_megabytes),
           cache_option(arguments.cache),
           untrusted_option(arguments.untrusted)};
 }

@@ -20,6 +20,7 @@
 #include "harness/sets/set_report.h"
 #include "tools/arguments/command.h"
 #include "tools/commands/interactive.h"
+#include "tools/commands/report/open_page.h"
 
 namespace vinebench::tools {
 namespace {
@@ -79,8 +80,9 @@ MadeRuns make_runs(const ManyRuns& many) {
   options.jobs = many.jobs;
   options.threads = many.threads;
   options.force = many.force;
-  options.run = [&machine](const harness::ScenarioConfig& scenario, int threads,
-                           const harness::RunOptions& run) {
+  options.run = [&machine, film = many.report](const harness::ScenarioConfig& scenario, int threads,
+                                               harness::RunOptions run) {
+    run.film = film;
     return harness::run_scenario(scenario, machine, threads, run);
   };
   options.libraries = [](const harness::ScenarioConfig& scenario) {
@@ -102,7 +104,13 @@ MadeRuns make_runs(const ManyRuns& many) {
 int run_many(const ManyRuns& many) {
   const MadeRuns made = make_runs(many);
   if (made.outcome.interrupted) return interruption_code();
-  return report(many, harness::summarise(made.plan, made.outcome));
+  const int code = report(many, harness::summarise(made.plan, made.outcome));
+  const bool any = std::ranges::any_of(
+      made.outcome.runs, [](const harness::SetRun& run) { return run.result.has_value(); });
+  if (many.report && any) {
+    write_report(many.out / kReportFile, {{many.out}, {}, many.report_bytes});
+  }
+  return code;
 }
 
 }  // namespace vinebench::tools

@@ -24,6 +24,8 @@ struct ManyRuns {
   int threads = 1;
   int repeats = 1;
   bool force = false;
+  bool report = false;           ///< keep small pictures, and make a page
+  std::size_t report_bytes = 0;  ///< most of the page
 };
 
 /// The runs of a set, in the folder that the lock is of.

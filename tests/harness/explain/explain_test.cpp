@@ -53,6 +53,12 @@ TEST_F(CausesTest, LostFramesCountByTheirShare) {
   EXPECT_THAT(causes_of(explanation_), ElementsAre(1, 0));  // all of the losses, 70 % of the drift
 }
 
+TEST_F(CausesTest, OfEqualLossesTheDriftDecides) {
+  // Without either no frame is lost; without the second one the rest of the drive drifts less.
+  singles({drift_and_losses(0.04, 0), drift_and_losses(0.022, 0)});
+  EXPECT_THAT(causes_of(explanation_), ElementsAre(1, 0));
+}
+
 TEST_F(CausesTest, APairIsACauseWhereItsTwoAreNone) {
   singles({drift_and_losses(0.02, 10), drift_and_losses(0.02, 10), drift_and_losses(0.019, 10)});
   EXPECT_THAT(causes_of(explanation_), ElementsAre());

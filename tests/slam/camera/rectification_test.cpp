@@ -131,6 +131,17 @@ TEST(RectificationTest, PointsFallOnOneRowAtTheirDisparity) {
   }
 }
 
+TEST(RectificationTest, KnowsWhereAPixelIsInTheRealImage) {
+  const Rig rig = raw_rig();
+  const Rectification pair(rig.cameras[0], rig.cameras[1], "test");
+  const Eigen::Vector3d p_body(1.2, 0.2, -0.15);
+  const Eigen::Vector2d rectified = pair.lens().project(pair.T_body_left().inverse() * p_body);
+  const RigCamera& left = rig.cameras[0];
+  const Eigen::Vector2d real = left.model.project(left.T_body_cam.inverse() * p_body);
+  // The same point by both ways: rounding alone.
+  EXPECT_LT((pair.in_left_image(rectified) - real).norm(), 1e-8);
+}
+
 TEST(RectificationTest, NoFeatureWhereAImageEnds) {
   Rig rig = raw_rig();
   for (RigCamera& camera : rig.cameras) {
