@@ -57,7 +57,7 @@ class Simulation : public SimulatedSource {
     for (; index_ < frames_ && index_ <= plan_.last; ++index_) {
       sample.frame.index = index_;
       sample.frame.stamp = timing_.stamp(index_);
-      drive(sample.frame);
+      drive(sample);
       if (index_ == 0) {
         exposure_.meter([&](std::size_t camera) { return capture(camera, shot_of(camera)).rgb; });
       }
@@ -94,7 +94,8 @@ class Simulation : public SimulatedSource {
  private:
   /// Past the frame's instant, if an image's exposure or the stamps require it; readings are taken
   /// up to the stamp.
-  void drive(Frame& frame) {
+  void drive(Sample& sample) {
+    Frame& frame = sample.frame;
     const ScopedTimer timer(times_, "physics");
     const Stamp instant = timing_.instant(frame.index);
     rover_.forget_before(instant - window_);
@@ -108,8 +109,10 @@ class Simulation : public SimulatedSource {
     const auto inertial = static_cast<std::ptrdiff_t>(frame.imu.size());
     const auto wheels = static_cast<std::ptrdiff_t>(frame.wheels.size());
     rover_.hand_out(frame.stamp, frame.imu, frame.wheels);
-    std::for_each(frame.imu.begin() + inertial, frame.imu.end(),
-                  [&](ImuSample& reading) { inertial_.measure(reading); });
+    std::for_each(frame.imu.begin() + inertial, frame.imu.end(), [&](ImuSample& reading) {
+      sample.truth.imu_biases.push_back(inertial_.bias(reading.stamp));
+      inertial_.measure(reading);
+    });
     std::for_each(frame.wheels.begin() + wheels, frame.wheels.end(),
                   [&](WheelSample& reading) { wheels_.measure(reading); });
   }

@@ -20,6 +20,13 @@ struct Capture {
   double stamp_error = 0;   ///< s, that the frame's stamp is after the middle of the exposure
 };
 
+/// What an inertial reading has besides truth and noise, in the body frame.
+struct ImuBias {
+  Stamp stamp = 0;                                             ///< of the reading
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< rad/s
+  Eigen::Vector3d specific_force = Eigen::Vector3d::Zero();    ///< m/s^2
+};
+
 /// The ground truth of an instant, for the evaluation only.
 struct Truth {
   Pose T_world_body;
@@ -29,6 +36,8 @@ struct Truth {
   /// True poses at the instants of the inertial readings since the previous frame, and that of the
   /// start, oldest first; empty if unknown.
   Trajectory path{};
+  /// Of the frame's inertial readings, in their order; empty if unknown.
+  std::vector<ImuBias> imu_biases{};
   /// Indices into the list of the world's tags (Site::tags) that are completely in the image of a
   /// tag camera, unoccluded at their centre and corners.
   std::vector<int> visible_tags;

@@ -54,6 +54,10 @@ ImuSample InertialSensor::measured_at_start(const ImuSample& truth) const {
           accelerometer_.measure_at_start(truth.specific_force)};
 }
 
+ImuBias InertialSensor::bias(Stamp stamp) const {
+  return {stamp, gyroscope_.bias(), accelerometer_.bias()};
+}
+
 void InertialSensor::measure(ImuSample& sample) {
   sample.angular_velocity = gyroscope_.measure(sample.angular_velocity);
   sample.specific_force = accelerometer_.measure(sample.specific_force);

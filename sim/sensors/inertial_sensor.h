@@ -8,6 +8,7 @@
 
 #include "core/config/config_field.h"
 #include "core/frame.h"
+#include "core/truth/sample.h"
 #include "core/util/random.h"
 
 namespace vinebench::sim {
@@ -51,6 +52,8 @@ class InertialAxes {
                std::uint64_t seed);
   /// The reading for the next true value.
   Eigen::Vector3d measure(const Eigen::Vector3d& truth);
+  /// Of the next reading.
+  Eigen::Vector3d bias() const { return bias_ + wandering_bias_; }
   /// A reading before the first one, which changes none of them.
   Eigen::Vector3d measure_at_start(const Eigen::Vector3d& truth) const;
 
@@ -75,6 +78,8 @@ class InertialSensor {
  public:
   InertialSensor(const InertialSensorConfig& config, double rate_hz, std::uint64_t seed);
   void measure(ImuSample& sample);
+  /// Of the next reading, which is that of `stamp`.
+  ImuBias bias(Stamp stamp) const;
   /// A reading before the first one, which changes none of them.
   ImuSample measured_at_start(const ImuSample& truth) const;
 

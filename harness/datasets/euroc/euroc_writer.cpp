@@ -158,6 +158,7 @@ void EurocWriter::write_readings(const Frame& frame) {
 /// The supports are the path's poses, or the frames' own where a source has no path.
 void EurocWriter::add_truth(const DatasetFrame& frame) {
   const StampedPose now{frame.frame.stamp, frame.truth.T_world_body};
+  biases_.insert(biases_.end(), frame.truth.imu_biases.begin(), frame.truth.imu_biases.end());
   for (const StampedPose& pose : frame.truth.path) add_support(pose);
   if (frame.truth.path.empty()) {
     add_support(now);
@@ -175,7 +176,13 @@ void EurocWriter::add_support(const StampedPose& support) {
   support_ = support;
 }
 
-/// With the mean velocity from one pose to another; the sensor models do not expose biases.
+/// That of the last inertial reading until then, of the first one before it; zero where unknown.
+ImuBias EurocWriter::bias_at(Stamp stamp) {
+  while (biases_.size() > 1 && biases_[1].stamp <= stamp) biases_.pop_front();
+  return biases_.empty() ? ImuBias() : biases_.front();
+}
+
+/// With the mean velocity from one pose to another.
 void EurocWriter::append_truth(const StampedPose& at, const StampedPose& from,
                                const StampedPose& to) {
   const double seconds = to_seconds(to.stamp - from.stamp);
@@ -183,8 +190,11 @@ void EurocWriter::append_truth(const StampedPose& at, const StampedPose& from,
   if (seconds > 0) v = (to.pose.translation - from.pose.translation) / seconds;
   const Eigen::Vector3d& p = at.pose.translation;
   const Eigen::Quaterniond& q = at.pose.rotation;
-  truth_.append(fmt::format("{},{},{},{},{},{},{},{},{},{},{},0,0,0,0,0,0\n", at.stamp, p.x(),
-                            p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), v.x(), v.y(), v.z()));
+  const ImuBias bias = bias_at(at.stamp);
+  truth_.append(fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", at.stamp, p.x(), p.y(),
+                            p.z(), q.w(), q.x(), q.y(), q.z(), v.x(), v.y(), v.z(),
+                            fmt::join(bias.angular_velocity, ","),
+                            fmt::join(bias.specific_force, ",")));
 }
 
 }  // namespace vinebench::harness

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -37,6 +38,7 @@ class EurocWriter : public FormatWriter {
   void write_readings(const Frame& frame);
   void add_truth(const DatasetFrame& frame);
   void add_support(const StampedPose& support);
+  ImuBias bias_at(Stamp stamp);
   void append_truth(const StampedPose& at, const StampedPose& from, const StampedPose& to);
 
   std::filesystem::path mav_;
@@ -51,6 +53,7 @@ class EurocWriter : public FormatWriter {
   std::vector<PendingPose> pending_;
   std::optional<StampedPose> support_;  ///< the latest
   std::optional<StampedPose> before_;   ///< the one before it
+  std::deque<ImuBias> biases_;          ///< those of truth that is not written yet
 };
 
 }  // namespace vinebench::harness

@@ -101,6 +101,30 @@ TEST(InertialSensorTest, InitialBiasStaysWithTheSeed) {
   EXPECT_NE(values, readings(config, 100, 2));
 }
 
+TEST(InertialSensorTest, TheBiasIsWhatAReadingHasBesidesTruthAndNoise) {
+  InertialSensorConfig config;
+  for (InertialAxesConfig* axes : {&config.gyroscope, &config.accelerometer}) {
+    axes->noise_density = 0;
+    axes->bias_random_walk = 0.01;
+    axes->bias_instability = 0.02;
+    axes->initial_bias = 0.1;
+    axes->range = 0;
+  }
+  InertialSensor sensor(config, 200, 3);
+  for (int i = 0; i < 5; ++i) {
+    ImuSample sample{.stamp = i, .angular_velocity = {1, 2, 3}, .specific_force = {0, 0, 9.81}};
+    const ImuBias bias = sensor.bias(sample.stamp);
+    EXPECT_EQ(bias.stamp, i);
+    sensor.measure(sample);
+    // Differences of numbers of 10: rounding to 1e-15.
+    EXPECT_LT((sample.angular_velocity - Eigen::Vector3d(1, 2, 3) - bias.angular_velocity).norm(),
+              1e-14);
+    EXPECT_LT((sample.specific_force - Eigen::Vector3d(0, 0, 9.81) - bias.specific_force).norm(),
+              1e-14);
+    EXPECT_GT(bias.specific_force.norm(), 1e-3);
+  }
+}
+
 TEST(InertialSensorTest, SaturationClips) {
   InertialAxesConfig config;
   config.range = 2;
