@@ -13,6 +13,7 @@
 #include "python/frames.h"
 #include "python/requests.h"
 #include "python/scenarios.h"
+#include "python/systems.h"
 #include "vinebench/version.h"
 
 namespace vinebench::python {
@@ -56,5 +57,8 @@ PYBIND11_MODULE(_core, module) {
   python::define_frames(module);
   python::define_scenario(module);
   python::define_drive(module);
+  python::define_slam(module);
+  python::define_runs(module);
+  python::define_evaluation(module);
   python::define_data(module);
 }

@@ -10,11 +10,8 @@ Python, NumPy and other modules keep their functions. The extension itself is lo
 has the functions linked in.
 """
 import ctypes
-import importlib
 import os
 import pathlib
-import sys
-import types
 import warnings
 
 # Libraries that compute for a run. One that was loaded before keeps the C library's functions.
@@ -47,12 +44,8 @@ def _load_arithmetic() -> bool:
     return not before
 
 
-def load() -> types.ModuleType:
-    """Imports and returns vinebench._core."""
-    loaded = sys.modules.get("vinebench._core")
-    if loaded is not None:
-        return loaded
-    pinned = _load_arithmetic()
-    core = importlib.import_module("vinebench._core")
-    core.pin_arithmetic(pinned)
-    return core
+_pinned = _load_arithmetic()
+
+import vinebench._core as core  # noqa: E402  (its libraries are loaded now)
+
+core.pin_arithmetic(_pinned)
