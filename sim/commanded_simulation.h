@@ -5,9 +5,14 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "sim/simulation.h"
+#include "core/files/cache_folder.h"
+#include "core/truth/frame_source.h"
+#include "core/util/worker_pool.h"
+#include "sim/simulation_config.h"
 
 namespace vinebench::sim {
+
+class DrawnScene;
 
 /// A simulation whose rover is driven by body twists in place of its route, from the route's first
 /// waypoint, where it stands until the first command.

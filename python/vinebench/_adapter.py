@@ -6,7 +6,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import traceback
-from typing import TYPE_CHECKING, Any, Optional, Protocol, Union
+from typing import TYPE_CHECKING, Any, Callable, Optional, Protocol, TypeVar, Union
 
 import numpy as np
 
@@ -15,6 +15,9 @@ from vinebench.trajectories import Array, row_of
 
 if TYPE_CHECKING:
     from vinebench._core import Rig, SensorFrame
+
+
+_Answer = TypeVar("_Answer")
 
 
 class SlamSystem(Protocol):
@@ -100,7 +103,7 @@ class SystemAdapter:
         finish = getattr(self._system, "finish", None)
         return self._guarded("finish", lambda: self._summary(finish() if finish else None))
 
-    def _guarded(self, method: str, call: Any) -> Any:
+    def _guarded(self, method: str, call: Callable[[], _Answer]) -> _Answer:
         """Calls and, where that raises, raises again with a message that says what and where."""
         try:
             return call()

@@ -14,6 +14,8 @@ import os
 import pathlib
 import warnings
 
+__all__ = ["core"]
+
 # Libraries that compute for a run. One that was loaded before keeps the C library's functions.
 _COMPUTING = ("libopencv_", "libmujoco", "libapriltag", "libOSMesa", "libLLVM", "libassimp",
               "libcholmod")

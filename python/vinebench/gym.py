@@ -15,7 +15,11 @@ from vinebench.simulation import Image, Observation, Simulation
 from vinebench.trajectories import Array, PathLike
 
 
-class VineyardEnv(gymnasium.Env[Any, Array]):
+def _unlimited(size: int) -> gymnasium.spaces.Box[Any]:
+    return gymnasium.spaces.Box(-np.inf, np.inf, (size,), dtype=np.float64)
+
+
+class VineyardEnv(gymnasium.Env[Any, Any]):
     """Simulation as a gymnasium.Env. Actions are twists (3,) float32 within max_twist; observations
     are those of Simulation. Its arguments are those of Simulation."""
 
@@ -28,14 +32,13 @@ class VineyardEnv(gymnasium.Env[Any, Array]):
         self.render_mode = render_mode
         self.simulation = Simulation(scenario, **arguments)
         limits = self.simulation.max_twist.astype(np.float32)
-        unlimited = {"low": -np.inf, "high": np.inf, "dtype": np.float64}
         self.action_space = gymnasium.spaces.Box(-limits, limits, dtype=np.float32)
         self.observation_space = gymnasium.spaces.Dict({
             "images": gymnasium.spaces.Dict({
                 name: gymnasium.spaces.Box(0, 255, shape, np.uint8)
                 for name, shape in self.simulation.image_shapes.items()}),
-            "imu": gymnasium.spaces.Box(shape=(6,), **unlimited),
-            "wheels": gymnasium.spaces.Box(shape=(4,), **unlimited)})
+            "imu": _unlimited(6),
+            "wheels": _unlimited(4)})
         self._observation: Optional[Observation] = None
 
     def reset(self, *, seed: Optional[int] = None, options: Optional[dict[str, Any]] = None
@@ -51,7 +54,7 @@ class VineyardEnv(gymnasium.Env[Any, Array]):
         self._observation = answer[0]
         return answer
 
-    def render(self) -> Optional[Image]:  # type: ignore[override]
+    def render(self) -> Optional[Image]:
         """The first camera's image of the current state, (h, w, 3) uint8."""
         if self.render_mode is None or self._observation is None:
             return None
