@@ -44,8 +44,10 @@ PYBIND11_MODULE(_core, module) {
   module.doc() = "The compiled part of vinebench.";
   module.attr("__version__") = kVersion;
   module.attr("label_names") = python::label_names();
-  py::register_exception<Error>(module, "Error", PyExc_RuntimeError).attr("__module__") =
-      "vinebench";
+  auto error = py::register_exception<Error>(module, "Error", PyExc_RuntimeError);
+  error.attr("__module__") = "vinebench";
+  error.attr("__doc__") =
+      "Bad input or a failing environment: what is wrong, where, and what was expected.";
   module.def("pin_arithmetic", [](bool libraries) {
     pin_arithmetic();
     if (libraries) declare_libraries_pinned();

@@ -11,9 +11,10 @@ import argparse
 import numpy as np
 
 import vinebench as vb
+from vinebench.trajectories import Array
 
 
-def towards(goal: np.ndarray, T_world_body: np.ndarray, speed: float) -> np.ndarray:
+def towards(goal: Array, T_world_body: Array, speed: float) -> Array:
     """A twist towards a waypoint (x, y, heading); the rover moves sideways as well as ahead."""
     offset = T_world_body[:2, :2].T @ (goal[:2] - T_world_body[:2, 3])
     distance = float(np.linalg.norm(offset))

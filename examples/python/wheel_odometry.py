@@ -11,6 +11,7 @@ from typing import Optional
 import numpy as np
 
 import vinebench as vb
+from vinebench.trajectories import Array
 
 
 class WheelOdometry:
@@ -20,7 +21,7 @@ class WheelOdometry:
     def __init__(self) -> None:
         self.wheels = vb.Wheels(0.1, 0.19, 0.15)
         self.pose = np.eye(4)
-        self.before: Optional[np.ndarray] = None  # type: ignore[type-arg]
+        self.before: Optional[Array] = None
 
     def start(self, setup: vb.SystemSetup) -> None:
         """The nominal geometry of the wheels."""
@@ -36,7 +37,7 @@ class WheelOdometry:
             self.before = angles
         return vb.Estimate(self.pose.copy(), vb.TrackingStatus.DEAD_RECKONING)
 
-    def step(self, turned: np.ndarray) -> np.ndarray:  # type: ignore[type-arg]
+    def step(self, turned: Array) -> Array:
         """The body's motion while the wheels turned by these angles, rad."""
         front_left, front_right, rear_left, rear_right = self.wheels.radius / 4 * turned
         lever = self.wheels.half_track + self.wheels.half_wheelbase

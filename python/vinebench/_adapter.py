@@ -114,22 +114,21 @@ class SystemAdapter:
                                f"({place.filename}:{place.lineno})") from error
 
     def _entry(self, frame: "SensorFrame", answer: Any) -> dict[str, Any]:
-        estimate = answer if isinstance(answer, Estimate) else Estimate(T_map_body=answer)
+        estimate = answer if isinstance(answer, Estimate) else self._estimate(answer)
         pose = None if estimate.T_map_body is None else _pose(estimate.T_map_body)
         if pose is not None:
             self._live.append(row_of(frame.stamp, pose))
         closure = estimate.loop_closure
-        return {"status": int(self._status(estimate)), "T_map_body": pose,
+        return {"status": int(TrackingStatus(estimate.status)), "T_map_body": pose,
                 "covariance": _covariance(estimate.covariance), "cameras": _counts(estimate),
                 "keyframe": bool(estimate.keyframe),
                 "loop_closure": None if closure is None else dataclasses.asdict(closure)}
 
-    def _status(self, estimate: Estimate) -> TrackingStatus:
-        if estimate.status is not None:
-            return TrackingStatus(estimate.status)
-        if estimate.T_map_body is not None:
-            return TrackingStatus.TRACKING
-        return TrackingStatus.LOST if self._live else TrackingStatus.INITIALIZING
+    def _estimate(self, pose: Any) -> Estimate:
+        """Of a bare pose, or of none."""
+        if pose is None and not self._live:
+            return Estimate(status=TrackingStatus.INITIALIZING)
+        return Estimate(T_map_body=pose)
 
     def _summary(self, answer: Any) -> dict[str, Any]:
         summary = answer if isinstance(answer, SlamSummary) else SlamSummary(trajectory=answer)

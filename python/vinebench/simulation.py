@@ -36,8 +36,8 @@ Reward = Callable[[Observation, dict[str, Any]], float]
 
 def progress_reward(observation: Observation, info: dict[str, Any]) -> float:
     """The default: metres gained along the scenario's route since the last step, less 1 for a
-    collision."""
-    return float(info["gain"]) - (1.0 if info["collision"] else 0.0)
+    collision and for leaving the ground."""
+    return float(info["gain"]) - (1.0 if info["collision"] or info["failure"] else 0.0)
 
 
 class Simulation:
@@ -45,7 +45,7 @@ class Simulation:
 
     A step drives through the physics until the next cameras' instant and then renders, so that the
     images are always those of the returned state. The same scenario, seed and twists give the same
-    bytes, with any number of threads.
+    bytes, with any number of threads. For one thread at a time.
     """
 
     def __init__(self, scenario: PathLike, *, seed: Optional[int] = None,
@@ -191,7 +191,6 @@ class Simulation:
         self._running = False
         info = self._info(self.frame, command)
         info["delivered"] = {name: True for name in self.image_shapes}
-        info["collision"] = True
         info["failure"] = reason
         return self._observation, self._reward(self._observation, info), True, False, info
 

@@ -82,8 +82,8 @@ class Estimate:
     T_map_body: Optional[Array] = None
     """(4, 4), m: coordinates in the body (x forward, y left, z up) to the system's own map; None if
     not initialised or lost."""
-    status: Optional[TrackingStatus] = None
-    """TRACKING with a pose by default; without, LOST after a first pose, else INITIALIZING."""
+    status: TrackingStatus = None  # type: ignore[assignment]
+    """By default TRACKING with a pose, LOST without."""
     stamp: int = 0
     """ns, of the frame."""
     covariance: Optional[Array] = None
@@ -93,6 +93,11 @@ class Estimate:
     tags: tuple[TagSighting, ...] = ()
     keyframe: bool = False
     loop_closure: Optional[LoopClosure] = None
+
+    def __post_init__(self) -> None:
+        if self.status is None:
+            known = TrackingStatus.LOST if self.T_map_body is None else TrackingStatus.TRACKING
+            object.__setattr__(self, "status", known)
 
     @property
     def time(self) -> float:

@@ -206,9 +206,13 @@ class VectorSimulation:
         """Sends each worker its message and collects all answers before an error is raised."""
         if len(self._connections) != self.n:
             raise core.Error("the simulations are closed")
-        for connection, message in zip(self._connections, messages):
-            connection.send(message)
-        answers = [self._answer(i) for i in range(self.n)]
+        try:
+            for connection, message in zip(self._connections, messages):
+                connection.send(message)
+            answers = [self._answer(i) for i in range(self.n)]
+        except KeyboardInterrupt:  # answers are left that belong to no message
+            self.close()
+            raise
         for i, answer in enumerate(answers):
             if answer[0] != "ok":
                 kind = {"ValueError": ValueError, "TypeError": TypeError}.get(answer[1], core.Error)

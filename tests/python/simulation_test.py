@@ -107,6 +107,24 @@ class SimulationTest(CourtTest):
         self.assertLess(reward, -0.9)
         self.assertLess(info["T_world_body"][1, 3], -0.3)
 
+    # Uneven ground reaches two metres around the rows and the route.
+    def test_leaving_the_ground_terminates_with_the_last_observation(self):
+        simulation = vb.Simulation(self.court, set={"duration": None, "world.terrain": {
+            "amplitude": 0.01, "margin": 2.0}})
+        simulation.reset(options={"start": (0.0, -0.3, 0.0)})
+        before = None
+        for _ in range(90):
+            observation, reward, terminated, _, info = simulation.step((0, -1.0, 0))
+            if terminated:
+                break
+            before = observation
+        self.assertIn("left the uneven ground", info["failure"])
+        self.assertFalse(info["collision"])
+        self.assertIs(observation, before)
+        self.assertEqual(reward, -1)
+        self.assertRaisesRegex(vb.Error, "call reset", lambda: simulation.step((0, 0, 0)))
+        self.assertIsNone(simulation.reset()[1]["failure"])
+
     def test_limits_and_rewards_are_the_users(self):
         simulation = vb.Simulation(self.court, max_twist=(0.1, 0.1, 0.1), reward=half_reward,
                                    cameras=["right"])

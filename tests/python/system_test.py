@@ -109,6 +109,13 @@ class SystemTest(CourtTest):
         self.assertEqual(theirs.metrics.keyframes, ours.metrics.keyframes)
         self.assertTrue(theirs.passed)
 
+    # It believes to stand, so that the position loop drives on faster than it should.
+    def test_its_estimates_may_steer_the_rover(self):
+        usual = vb.run(self.court, slam=Standing())
+        steered = vb.run(self.court, slam=Standing(), set={"route.steering": "estimate"})
+        ends = [report.trajectories.truth[-1, 1] for report in (usual, steered)]
+        self.assertGreater(ends[1], ends[0] + 0.005)
+
     def test_none_is_no_pose(self):
         report = vb.run(self.court, slam=Answers(lambda frame: None))
         self.assertEqual(report.metrics.lost_frames, 1)

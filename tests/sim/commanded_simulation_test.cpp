@@ -29,6 +29,8 @@ class CommandedSimulationTest : public testing::Test {
     const std::filesystem::path models =
         std::filesystem::path(VINEBENCH_SOURCE_DIR) / "models/csl-rover";
     SimulationConfig config;
+    config.world.rows = {{{-4, 3}, {-2, 3}}};  // out of the way; a world has one
+    config.world.vines.templates = 1;
     config.world.occluders = {{.size = {{1, 4, 2}}, .position = {kWall + 0.5, 0}}};
     config.rover = load_rover(models / "rover.yaml");
     config.rover.rig = folder_.write("rig.yaml", kOneCamera);
