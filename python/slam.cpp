@@ -8,8 +8,8 @@
 
 #include "core/config/yaml.h"
 #include "core/files/files.h"
-#include "core/util/error.h"
 #include "core/files/output_folder.h"
+#include "core/util/error.h"
 #include "python/requests.h"
 #include "python/scenarios.h"
 #include "python/systems.h"

@@ -17,8 +17,8 @@ import warnings
 __all__ = ["core"]
 
 # Libraries that compute for a run. One that was loaded before keeps the C library's functions.
-_COMPUTING = ("libopencv_", "libmujoco", "libapriltag", "libOSMesa", "libLLVM", "libassimp",
-              "libcholmod")
+_COMPUTING = ("libopencv_core.", "libmujoco.", "libapriltag.", "libOSMesa.", "libLLVM", "libassimp.",
+              "libcholmod.")
 
 
 def _loaded_before() -> list[str]:
@@ -36,6 +36,8 @@ def _load_arithmetic() -> bool:
     """Whether all libraries that compute have the program's elementary functions now."""
     file = pathlib.Path(__file__).with_name("_arithmetic.so")
     if not file.exists():  # another processor architecture, or a build with sanitizers
+        return False
+    if os.environ.get("LD_PRELOAD"):  # an allocator, say, which would not be found first
         return False
     before = _loaded_before()
     ctypes.CDLL(str(file), mode=os.RTLD_NOW | os.RTLD_LOCAL | os.RTLD_DEEPBIND)

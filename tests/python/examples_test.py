@@ -24,6 +24,19 @@ class ExamplesTest(CourtTest):
         self.assertRegex(text, r"0\.600 s: TRACKING, \d+ inliers")
         self.assertRegex(text, r"ATE \d+\.\d mm over 10 poses")
 
+    # All but the last, which frames_test.py runs, on the court and its cameras.
+    def test_the_documentation(self):
+        text = (ROOT / "docs/python.md").read_text().split("## Frames")[0]
+        blocks = [part.split("```")[0] for part in text.split("```python\n")[1:]]
+        self.assertEqual(len(blocks), 3)
+        expected = [r"^(True|False) 0\.0\d+ [0-9a-f]{32}\n", "^$", r"^0\.60*1? 0\.1\d+ False\n$"]
+        for block, words in zip(blocks, expected):
+            code = block.replace('"quick-loop"', repr(str(self.court))).replace("front_left", "left")
+            code = code.replace('"duration": 20', '"duration": 0.6')
+            done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertRegex(done.stdout, words)
+
     # The wheels turn as they should but for slip: some millimetres in some centimetres.
     def test_wheel_odometry(self):
         text = self.example("wheel_odometry.py", self.court)
