@@ -26,9 +26,9 @@ class Observation(TypedDict):
     images: dict[str, Image]
     """By camera, (h, w, 3) RGB. Zeros where the camera delivered none (info["delivered"])."""
     imu: Array
-    """(6,): the latest reading, rad/s x y z, m/s^2 x y z, body axes."""
+    """(6,): the latest reading, rad/s x y z, m/s^2 x y z, body axes; zeros before the first."""
     wheels: Array
-    """(4,): the latest reading, rad/s of front left, front right, rear left, rear right."""
+    """(4,): likewise, rad/s of the front left, front right, rear left, rear right wheel."""
 
 
 Reward = Callable[[Observation, dict[str, Any]], float]

@@ -48,6 +48,18 @@ class RunTest(CourtTest):
         self.assertFalse(report.passed)  # its end is not reached
         self.assertIn("FAILED", report.verdict)
 
+    def test_a_driver_that_computes_otherwise_is_told(self):
+        code = ("import json, vinebench\nreport = vinebench.run('quick-loop', set={'duration': 0.01})\n"
+                "print(json.dumps(dict(report.hash_environment)))")
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True,
+                              env={**os.environ, "VINEBENCH_GL": "egl"})
+        if "EGL" in done.stderr:
+            self.skipTest(done.stderr)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        environment = json.loads(done.stdout)
+        if environment["libm"].startswith("vinebench"):
+            self.assertEqual(environment["driver"], environment["processor"])
+
     def test_the_report_is_that_of_the_folder(self):
         out = self.folder / "out"
         report = vb.run(self.court, out=out)
