@@ -7,7 +7,6 @@
 #include "core/files/files.h"
 #include "harness/datasets/files/json_file.h"
 #include "harness/datasets/format/dataset_card.h"
-#include "harness/report/report_json.h"
 #include "harness/run/system_failure.h"
 #include "tests/support/court_scenario.h"
 #include "tests/support/plugins.h"
@@ -163,7 +162,8 @@ TEST_F(SecondVisitTest, ItsMapIsWhereTheRunBegins) {
   const FolderLock lock = prepare_scenario_folder(options.folder, visited());
   const RunReport report = run_scenario(visited(), machine(), 1, options).report;
   EXPECT_EQ(report.frames, kFrames);
-  const Json earlier = Json::parse(read_file(options.folder / "earlier-visit/metrics.json"));
+  const auto earlier =
+      nlohmann::json::parse(read_file(options.folder / "earlier-visit/metrics.json"));
   EXPECT_EQ(earlier["frames"], 16);
   EXPECT_EQ(earlier["scenario"], "court (earlier visit)");  // compare finds two runs
   EXPECT_TRUE(earlier["expectations"].empty());
