@@ -6,8 +6,10 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "core/config/validate.h"
+#include "sim/commanded_simulation.h"
 #include "sim/drawn_scene.h"
 #include "sim/rover/driven_rover.h"
 #include "sim/truth/truth.h"
@@ -22,10 +24,17 @@ Rig checked_rig(const SimulationConfig& config) {
   return rig;
 }
 
-class Simulation : public SimulatedSource {
+enum class Driver { kRoute, kCommands };
+
+std::int64_t frames_until(double seconds, double rate_hz) {
+  return static_cast<std::int64_t>(std::floor(seconds * rate_hz + 1e-9)) + 1;
+}
+
+class Simulation : public CommandedSimulation {
  public:
   Simulation(const SimulationConfig& config, std::uint64_t seed, const CacheFolder& cache,
-             WorkerPool& pool, const CapturePlan& plan, const std::shared_ptr<DrawnScene>& drawn)
+             WorkerPool& pool, const CapturePlan& plan, const std::shared_ptr<DrawnScene>& drawn,
+             Driver driver)
       : config_(config),
         pool_(pool),
         plan_(plan),
@@ -47,9 +56,14 @@ class Simulation : public SimulatedSource {
       cameras_.emplace_back(config.sensors.camera, rig_.cameras[i], static_cast<int>(i), seed,
                             drawn_->light());
     }
+    if (driver == Driver::kCommands) {
+      rover_.command(Eigen::Vector3d::Zero());
+      frames_ = config.duration ? frames_until(*config.duration, rig_.rate_hz) : kEndless;
+      return;
+    }
     const double route_seconds = to_seconds(rover_.route().duration());
     const double seconds = std::min(config.duration.value_or(route_seconds), route_seconds);
-    frames_ = static_cast<std::int64_t>(std::floor(seconds * rig_.rate_hz + 1e-9)) + 1;
+    frames_ = frames_until(seconds, rig_.rate_hz);
   }
 
   std::optional<Sample> next() override {
@@ -84,6 +98,9 @@ class Simulation : public SimulatedSource {
     rover_.steer_by(instant, *T_world_map_ * *estimate.T_map_body);
   }
 
+  void command(const Eigen::Vector3d& twist) override { rover_.command(twist); }
+  bool collided() const override { return rover_.collided(); }
+
   std::int64_t size() const override { return plan_.count(frames_); }
   const SceneIndex& scene() const override { return drawn_->index(); }
   const Rig& true_rig() const override { return rig_; }
@@ -92,6 +109,8 @@ class Simulation : public SimulatedSource {
   const StageTimes& times() const override { return times_; }
 
  private:
+  static constexpr std::int64_t kEndless = std::numeric_limits<std::int64_t>::max();
+
   /// Past the frame's instant, if an image's exposure or the stamps require it; readings are taken
   /// up to the stamp.
   void drive(Sample& sample) {
@@ -285,7 +304,14 @@ std::unique_ptr<SimulatedSource> make_simulation(const SimulationConfig& config,
                                                  const CapturePlan& plan,
                                                  const std::shared_ptr<DrawnScene>& drawn) {
   validate(config);
-  return std::make_unique<Simulation>(config, seed, cache, pool, plan, drawn);
+  return std::make_unique<Simulation>(config, seed, cache, pool, plan, drawn, Driver::kRoute);
+}
+
+std::unique_ptr<CommandedSimulation> make_commanded_simulation(
+    const SimulationConfig& config, std::uint64_t seed, const CacheFolder& cache, WorkerPool& pool,
+    const CapturePlan& plan, const std::shared_ptr<DrawnScene>& drawn) {
+  validate(config);
+  return std::make_unique<Simulation>(config, seed, cache, pool, plan, drawn, Driver::kCommands);
 }
 
 }  // namespace vinebench::sim

@@ -11,11 +11,11 @@
 #include <system_error>
 #include <vector>
 
+#include "core/util/pin_arithmetic.h"
 #include "core/util/warning.h"
 #include "harness/systems/plugin_process.h"
 #include "tools/arguments/command_line.h"
 #include "tools/arguments/completion.h"
-#include "tools/arithmetic.h"
 #include "tools/commands/commands.h"
 #include "tools/outcome.h"
 #include "tools/versions.h"
@@ -72,7 +72,7 @@ int checked_output(int code) {
 }  // namespace vinebench::tools
 
 int main(int argc, char** argv) {
-  vinebench::tools::pin_arithmetic();
+  vinebench::pin_arithmetic();
   vinebench::set_warning_sink(
       [](const std::string& text) { fmt::print(stderr, "vinebench: warning: {}\n", text); });
   const std::vector<std::string> arguments(argv + 1, argv + argc);

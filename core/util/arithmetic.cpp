@@ -11,6 +11,8 @@
 #include <fstream>
 #include <opencv2/core/utility.hpp>
 
+#include "core/util/pin_arithmetic.h"
+
 namespace vinebench {
 namespace {
 
@@ -27,6 +29,7 @@ std::string file_of(const char* symbol, void** base = nullptr) {
 
 /// Whether libraries' references to the symbol are resolved to the object that this code is in.
 bool is_ours(const char* symbol) {
+  if (are_libraries_pinned()) return true;
   void* base = nullptr;
   Dl_info own{};
   return !file_of(symbol, &base).empty() &&

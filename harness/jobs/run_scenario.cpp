@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/jobs/run_scenario.h"
 
+#include <utility>
+
 #include "core/util/error.h"
 #include "harness/datasets/dataset_writer.h"
 #include "harness/datasets/files/dataset_folder.h"
@@ -9,6 +11,7 @@
 #include "harness/jobs/simulation_versions.h"
 #include "harness/report/run_folder.h"
 #include "harness/run/prefetch.h"
+#include "harness/run/system_failure.h"
 #include "harness/systems/external_slam.h"
 #include "harness/systems/plugin_slam.h"
 #include "harness/systems/process_group.h"
@@ -21,6 +24,37 @@ void expect_no_maps(const MapFiles& maps) {
   if (!maps.load.empty() || !maps.save.empty() || !maps.cloud.empty()) {
     fail("--load-map, --save-map and --save-cloud require the built-in SLAM core");
   }
+}
+
+/// A system that failed while it was made: so says its first frame, and the run has a verdict.
+class FailedSystem : public SlamSystem {
+ public:
+  explicit FailedSystem(SystemFailure failure) : failure_(std::move(failure)) {}
+  Estimate process(const Frame&) override { throw SystemFailure(failure_); }
+  SlamSummary finish() override { throw SystemFailure(failure_); }
+  const StageTimes& times() const override { return times_; }
+
+ private:
+  SystemFailure failure_;
+  StageTimes times_;
+};
+
+std::unique_ptr<SlamSystem> made_system(const SystemMaker& make, const SystemSetup& setup) {
+  try {
+    return make(setup);
+  } catch (const SystemFailure& failure) {
+    return std::make_unique<FailedSystem>(failure);
+  }
+}
+
+RunOutcome run_made_system(const SystemMaker& make, const ScenarioConfig& scenario,
+                           FrameSource& source, int threads, const RunOptions& options) {
+  const auto slam =
+      made_system(make, {source.rig(), sim::registered_tags(scenario.simulation.world),
+                         scenario.slam.dead_reckoning.wheels, threads});
+  Trial trial = trial_of(scenario);
+  trial.guard = trial.now = {};
+  return run_lockstep_and_judge(trial, source, *slam, options);
 }
 
 /// With a SLAM system that is not ours.
@@ -42,11 +76,12 @@ RunOutcome run_other_system(const ScenarioConfig& scenario, const RecordingNotes
 }
 
 RunOutcome drive(const ScenarioConfig& scenario, const Machine& machine, int threads,
-                 const RunOptions& options, const std::optional<RunRecording>& recording) {
+                 const RunOptions& options, const std::optional<RunRecording>& recording,
+                 const SystemMaker& make = {}) {
   check_map_folders(options.maps);  // before the vineyard is generated
-  const bool ours = !scenario.slam.external && !scenario.slam.plugin;
+  const bool ours = !make && !scenario.slam.external && !scenario.slam.plugin;
   if (!ours) expect_no_maps(options.maps);
-  if (scenario.slam.external) check_executable(scenario.slam.external->program);
+  if (!make && scenario.slam.external) check_executable(scenario.slam.external->program);
   std::optional<FolderLock> lock;
   if (recording) {
     lock.emplace(lock_recording(recording->folder));
@@ -74,6 +109,7 @@ RunOutcome drive(const ScenarioConfig& scenario, const Machine& machine, int thr
                    source.size());
     with_writer.sinks.push_back(&*writer);
   }
+  if (make) return run_made_system(make, scenario, source, threads, with_writer);
   if (!ours) {
     RecordingNotes notes = notes_of(scenario);
     notes.first_reading = simulation->first_reading();
@@ -126,6 +162,14 @@ RunOutcome run_scenario(const ScenarioConfig& scenario, const Machine& machine, 
   RunOutcome earlier = visit_earlier(scenario, machine, threads, options, with_map.maps.load);
   if (earlier.interrupted) return earlier;
   return drive(scenario, machine, threads, with_map, recording);
+}
+
+RunOutcome run_scenario_with(const SystemMaker& make, const ScenarioConfig& scenario,
+                             const Machine& machine, int threads, const RunOptions& options) {
+  if (scenario.earlier_visit) {
+    fail("{}: earlier_visit: requires the built-in SLAM core, whose map is kept", scenario.name);
+  }
+  return drive(scenario, machine, threads, options, std::nullopt, make);
 }
 
 }  // namespace vinebench::harness

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/files/output_folder.h"
 #include "harness/datasets/format/record_options.h"
@@ -29,5 +32,21 @@ struct RunRecording {
 RunOutcome run_scenario(const ScenarioConfig& scenario, const Machine& machine, int threads,
                         const RunOptions& options,
                         const std::optional<RunRecording>& recording = std::nullopt);
+
+/// What a SLAM system is given before the first frame.
+struct SystemSetup {
+  const Rig& rig;  ///< nominal
+  std::vector<RegisteredTag> tags;
+  std::optional<slam::MecanumWheels> wheels;
+  int threads = 1;
+};
+/// Makes the system under test. A SystemFailure in it is the run's verdict.
+using SystemMaker = std::function<std::unique_ptr<SlamSystem>(const SystemSetup&)>;
+
+/// As run_scenario(), with a system of the caller's in place of the scenario's, judged as other
+/// systems are: without the guard, which was measured with the built-in core. Throws Error for a
+/// scenario with an earlier visit, whose map only the built-in core keeps.
+RunOutcome run_scenario_with(const SystemMaker& make, const ScenarioConfig& scenario,
+                             const Machine& machine, int threads, const RunOptions& options);
 
 }  // namespace vinebench::harness

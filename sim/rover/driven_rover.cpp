@@ -34,7 +34,7 @@ DrivenRover::DrivenRover(const RoverConfig& rover, const WorldConfig& world,
 void DrivenRover::advance_to(Stamp stamp) {
   for (; next_control_ <= stamp; next_control_ += kControlPeriod) {
     drive_to(next_control_);
-    steer(route_.at(next_control_));
+    if (!commanded_) steer(route_.at(next_control_));
   }
   drive_to(stamp);
   remember();
@@ -56,9 +56,17 @@ void DrivenRover::drive_to(Stamp stamp) {
     const Stamp instant = stamp_of_frame(path_count_, imu_rate_hz_);
     if (instant > stamp) break;
     if (instant > rover_.now()) rover_.advance_to(instant, imu_, wheels_);
+    collided_ = collided_ || (commanded_ && rover_.touches_obstacle());
     path_.push_back({instant, rover_.T_world_body()});
   }
   if (stamp > rover_.now()) rover_.advance_to(stamp, imu_, wheels_);
+}
+
+void DrivenRover::command(const Eigen::Vector3d& twist) {
+  commanded_ = true;
+  collided_ = false;
+  twist_ = twist;
+  rover_.command(twist);
 }
 
 void DrivenRover::steer_by(Stamp stamp, const Pose& T_world_body) {

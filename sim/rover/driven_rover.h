@@ -14,7 +14,8 @@
 
 namespace vinebench::sim {
 
-/// The rover with its position loop and a short history of its poses.
+/// The rover with its position loop and a short history of its poses. Commands take the loop's
+/// place.
 class DrivenRover {
  public:
   DrivenRover(const RoverConfig& rover, const WorldConfig& world, const RouteConfig& route,
@@ -32,6 +33,14 @@ class DrivenRover {
   /// From now on the position loop uses this pose, of the instant `stamp`, and the commands since
   /// then, instead of the true pose.
   void steer_by(Stamp stamp, const Pose& T_world_body);
+
+  /// From now on this body twist (m/s forward, left; rad/s to the left) drives it, in place of the
+  /// route.
+  void command(const Eigen::Vector3d& twist);
+
+  /// Since the latest command: whether it touched anything but the ground, looked at 200 times a
+  /// second (at the inertial unit's rate).
+  bool collided() const { return collided_; }
 
   /// The true pose at a recorded instant, linearly interpolated; the start pose before t = 0.
   Pose T_world_body(Stamp stamp) const;
@@ -56,7 +65,9 @@ class DrivenRover {
   ImuSample first_reading_;
   Stamp next_control_ = 0;
   Eigen::Vector3d twist_ = Eigen::Vector3d::Zero();  ///< commanded: m/s forward, left; rad/s
-  std::optional<StampedPose> believed_;              ///< pose for steering; the truth if absent
+  bool commanded_ = false;                           ///< by twists; by the route if not
+  bool collided_ = false;
+  std::optional<StampedPose> believed_;  ///< pose for steering; the truth if absent
   std::deque<StampedPose> poses_;
   std::vector<ImuSample> imu_;
   std::vector<WheelSample> wheels_;

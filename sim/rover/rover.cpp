@@ -41,6 +41,8 @@ struct Rover::Physics {
   void settle(const Eigen::Vector3d& start);
   void place(const Eigen::Vector3d& start);
   void drop_on_ground(const Eigen::Vector3d& start);
+  bool is_rover(int geom) const;
+  const mjContact* contact_beside_ground() const;
   void check_clear(const Eigen::Vector3d& start) const;
   void check_on_ground() const;
   void step();
@@ -189,28 +191,38 @@ void Rover::Physics::place(const Eigen::Vector3d& start) {
   world.refresh();
 }
 
+bool Rover::Physics::is_rover(int geom) const {
+  const mjModel& model = world.model();
+  return model.body_rootid[model.geom_bodyid[geom]] == model.jnt_bodyid[chassis];
+}
+
+/// The first contact that is not with the ground; null if there is none.
+const mjContact* Rover::Physics::contact_beside_ground() const {
+  const int ground = world.find(mjOBJ_GEOM, "ground");
+  for (int i = 0; i < world.state().ncon; ++i) {
+    const mjContact& contact = world.state().contact[i];
+    if (contact.geom1 != ground && contact.geom2 != ground) return &contact;
+  }
+  return nullptr;
+}
+
 void Rover::Physics::check_clear(const Eigen::Vector3d& start) const {
   const mjModel& model = world.model();
-  const auto is_rover = [&](int geom) {
-    return model.body_rootid[model.geom_bodyid[geom]] == model.jnt_bodyid[chassis];
-  };
   // A model need not name its parts.
   const auto named = [&](int type, int index) {
     const char* name = mj_id2name(&model, type, index);
     return name != nullptr ? std::string(name) : fmt::format("number {}", index);
   };
-  const int ground = world.find(mjOBJ_GEOM, "ground");
-  for (int i = 0; i < world.state().ncon; ++i) {
-    const int one = world.state().contact[i].geom1;
-    const int other = world.state().contact[i].geom2;
-    if (one == ground || other == ground) continue;
-    if (is_rover(one) && is_rover(other)) {
-      fail("the rover's model collides with itself: bodies {} and {}",
-           named(mjOBJ_BODY, model.geom_bodyid[one]), named(mjOBJ_BODY, model.geom_bodyid[other]));
-    }
-    fail("the rover cannot start at ({:.3f}, {:.3f}) m: it collides with {} of the world",
-         start.x(), start.y(), named(mjOBJ_GEOM, is_rover(one) ? other : one));
+  const mjContact* contact = contact_beside_ground();
+  if (contact == nullptr) return;
+  const int one = contact->geom1;
+  const int other = contact->geom2;
+  if (is_rover(one) && is_rover(other)) {
+    fail("the rover's model collides with itself: bodies {} and {}",
+         named(mjOBJ_BODY, model.geom_bodyid[one]), named(mjOBJ_BODY, model.geom_bodyid[other]));
   }
+  fail("the rover cannot start at ({:.3f}, {:.3f}) m: it collides with {} of the world", start.x(),
+       start.y(), named(mjOBJ_GEOM, is_rover(one) ? other : one));
 }
 
 void Rover::Physics::check_on_ground() const {
@@ -371,6 +383,10 @@ Pose Rover::T_world_body() const {
 
 ImuSample Rover::inertial_reading() const {
   return physics_->imu_at(physics_->now);
+}
+
+bool Rover::touches_obstacle() const {
+  return physics_->contact_beside_ground() != nullptr;
 }
 
 }  // namespace vinebench::sim

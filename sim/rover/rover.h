@@ -70,6 +70,8 @@ class Rover {
   Pose T_world_body() const;  ///< the true pose at `now`
   /// What an inertial unit without errors measures at `now`.
   ImuSample inertial_reading() const;
+  /// Whether a part of it touches anything but the ground, at the end of the latest step.
+  bool touches_obstacle() const;
 
  private:
   struct Physics;

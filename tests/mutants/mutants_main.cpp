@@ -17,8 +17,8 @@
 #include <sstream>
 #include <thread>
 
+#include "core/util/pin_arithmetic.h"
 #include "tests/mutants/course.h"
-#include "tools/arithmetic.h"
 
 namespace vinebench::mutants {
 namespace {
@@ -169,7 +169,7 @@ int run(int argc, char** argv) {
 }  // namespace vinebench::mutants
 
 int main(int argc, char** argv) {
-  vinebench::tools::pin_arithmetic();  // its shaders must not be mixed with other programs'
+  vinebench::pin_arithmetic();  // its shaders must not be mixed with other programs'
   try {
     return vinebench::mutants::run(argc, argv);
   } catch (const std::exception& error) {

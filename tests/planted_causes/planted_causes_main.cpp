@@ -15,10 +15,10 @@
 #include <fstream>
 #include <thread>
 
+#include "core/util/pin_arithmetic.h"
 #include "harness/sets/child_process.h"
 #include "harness/sets/seed_list.h"
 #include "tests/planted_causes/case_table.h"
-#include "tools/arithmetic.h"
 
 namespace vinebench::planted {
 namespace {
@@ -157,7 +157,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    vinebench::tools::pin_arithmetic();  // as the program does
+    vinebench::pin_arithmetic();  // as the program does
     return vinebench::planted::run(argc, argv);
   } catch (const std::exception& error) {
     fmt::print(stderr, "planted_causes: {}\n", error.what());

@@ -7,6 +7,7 @@
 #include "core/files/files.h"
 #include "harness/datasets/files/json_file.h"
 #include "harness/datasets/format/dataset_card.h"
+#include "harness/run/system_failure.h"
 #include "tests/support/court_scenario.h"
 #include "tests/support/plugins.h"
 
@@ -80,6 +81,68 @@ TEST_F(RunScenarioTest, MapsAreForTheBuiltInCore) {
               HasSubstr("nowhere does not exist"));
 }
 
+/// A system of the caller's that stays where it began.
+class StandingSlam : public SlamSystem {
+ public:
+  Estimate process(const Frame& frame) override {
+    if (frame.index == fails_at) fail_system("no idea");
+    Estimate estimate;
+    estimate.stamp = frame.stamp;
+    estimate.status = TrackingStatus::kTracking;
+    estimate.T_map_body = Pose();
+    estimate.cameras.resize(2);
+    summary_.trajectory.push_back({frame.stamp, Pose()});
+    return estimate;
+  }
+  SlamSummary finish() override { return summary_; }
+  const StageTimes& times() const override { return times_; }
+
+  std::int64_t fails_at = -1;
+
+ private:
+  SlamSummary summary_;
+  StageTimes times_;
+};
+
+// Judged by the expectation that it breaks, and without the guard, of the built-in core.
+TEST_F(RunScenarioTest, ASystemOfTheCallersIsGivenTheRigAndJudged) {
+  ScenarioConfig judged = scenario();
+  judged.expectations.ate_origin_rmse_max = 1e-6;
+  judged.guard.emplace().bounds.coverage_min = 2;
+  const auto make = [](const SystemSetup& setup) {
+    EXPECT_EQ(setup.rig.name, "pair");
+    EXPECT_EQ(setup.wheels.value().radius, 0.10);
+    EXPECT_EQ(setup.threads, 2);
+    return std::make_unique<StandingSlam>();
+  };
+  const RunReport report = run_scenario_with(make, judged, machine(), 2, {}).report;
+  EXPECT_EQ(report.frames, kFrames);
+  EXPECT_EQ(report.results.coverage, 1);
+  EXPECT_FALSE(report.hash.empty());
+  ASSERT_EQ(report.checks.size(), 1u);
+  EXPECT_FALSE(report.checks[0].ok);  // the rover drove some centimetres
+}
+
+TEST_F(RunScenarioTest, AFailureOfTheCallersSystemIsItsVerdict) {
+  const auto failing = [](const SystemSetup&) {
+    auto slam = std::make_unique<StandingSlam>();
+    slam->fails_at = 3;
+    return slam;
+  };
+  const RunReport report = run_scenario_with(failing, scenario(), machine(), 1, {}).report;
+  EXPECT_EQ(report.failure.value().cause, "no idea");
+  EXPECT_EQ(report.failure->frame, 3);
+  const auto unmade = [](const SystemSetup&) -> std::unique_ptr<SlamSystem> {
+    fail_system("no start");
+  };
+  EXPECT_EQ(run_scenario_with(unmade, scenario(), machine(), 1, {}).report.failure.value().cause,
+            "no start");
+  ScenarioConfig twice = scenario();
+  twice.earlier_visit.emplace().duration = 1;
+  EXPECT_THAT(test::error_of([&] { run_scenario_with(failing, twice, machine(), 1, {}); }),
+              HasSubstr("earlier_visit: requires the built-in SLAM core"));
+}
+
 /// The court with a camera pair that can be tracked, visited twice.
 class SecondVisitTest : public RunScenarioTest {
  protected:
@@ -99,7 +162,8 @@ TEST_F(SecondVisitTest, ItsMapIsWhereTheRunBegins) {
   const FolderLock lock = prepare_scenario_folder(options.folder, visited());
   const RunReport report = run_scenario(visited(), machine(), 1, options).report;
   EXPECT_EQ(report.frames, kFrames);
-  const Json earlier = Json::parse(read_file(options.folder / "earlier-visit/metrics.json"));
+  const auto earlier =
+      nlohmann::json::parse(read_file(options.folder / "earlier-visit/metrics.json"));
   EXPECT_EQ(earlier["frames"], 16);
   EXPECT_EQ(earlier["scenario"], "court (earlier visit)");  // compare finds two runs
   EXPECT_TRUE(earlier["expectations"].empty());

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/geometry/pose.h"
 #include "sim/config_files.h"
 
 namespace vinebench::sim {
@@ -159,6 +160,57 @@ TEST_F(CarriedRoverTest, TheAccelerometerFeelsIt) {
   double speed = 0;
   for (const ImuSample& sample : imu) speed += (sample.specific_force.z() - 9.81) / 200;
   EXPECT_NEAR(speed, 0.5, 0.02);
+}
+
+/// Drives by commands for so many frames of 15 Hz, from frame `from` on.
+void drive_frames(DrivenRover& rover, std::int64_t from, std::int64_t frames) {
+  for (std::int64_t i = 1; i <= frames; ++i) rover.advance_to(stamp_of_frame(from + i, 15));
+}
+
+// 0.2 m/s forward and 0.1 m/s left for 2 s are (0.4, 0.2) m; the route would go to (0.6, 0). 3 cm:
+// motors differ by 1 %, so that it turns by some tenths of a degree a second, and it starts with
+// the torque that its motors have.
+TEST_F(DrivenRoverTest, ACommandIsDrivenInPlaceOfTheRouteUntilTheNext) {
+  DrivenRover rover(rover_, world_, route_, 1);
+  rover.command({0.2, 0.1, 0});
+  drive_frames(rover, 0, 30);
+  const Eigen::Vector3d driven = rover.T_world_body(stamp_of_frame(30, 15)).translation;
+  EXPECT_NEAR(driven.x(), 0.4, 0.03);
+  EXPECT_NEAR(driven.y(), 0.2, 0.03);
+  rover.command(Eigen::Vector3d::Zero());
+  drive_frames(rover, 30, 15);
+  const Eigen::Vector3d stopped = rover.T_world_body(stamp_of_frame(45, 15)).translation;
+  EXPECT_LT((stopped - driven).norm(), 0.03);  // it comes to rest: 0.22 m/s would be 0.22 m
+  drive_frames(rover, 45, 15);
+  const Eigen::Vector3d still = rover.T_world_body(stamp_of_frame(60, 15)).translation;
+  EXPECT_LT((still - stopped).norm(), 0.001);
+}
+
+// 1 rad/s to the left for a second, in place. 0.1 rad and 2 cm: slip of the rollers as it starts.
+TEST_F(DrivenRoverTest, ACommandTurnsToTheLeft) {
+  DrivenRover rover(rover_, world_, route_, 1);
+  rover.command({0, 0, 1});
+  drive_frames(rover, 0, 15);
+  const Pose pose = rover.T_world_body(stamp_of_frame(15, 15));
+  EXPECT_NEAR(yaw_of(pose.rotation), 1, 0.1);
+  EXPECT_LT(pose.translation.head<2>().norm(), 0.02);
+}
+
+// Sideways into the row's first post, 1.5 m to the left. The rover reaches 0.2 to 0.4 m aside, so
+// that at 0.5 m/s they meet after 2.2 to 2.6 s.
+TEST_F(DrivenRoverTest, ACollisionIsNoticedSinceTheLatestCommand) {
+  DrivenRover rover(rover_, world_, route_, 1);
+  rover.command({0, 0.5, 0});
+  drive_frames(rover, 0, 27);
+  EXPECT_FALSE(rover.collided());
+  drive_frames(rover, 27, 18);
+  EXPECT_TRUE(rover.collided());
+  rover.command({0, -0.5, 0});
+  EXPECT_FALSE(rover.collided());
+  drive_frames(rover, 45, 15);
+  rover.command({0, -0.5, 0});
+  drive_frames(rover, 60, 5);
+  EXPECT_FALSE(rover.collided());
 }
 
 }  // namespace

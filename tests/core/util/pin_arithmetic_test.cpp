@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/arithmetic.h"
+#include "core/util/pin_arithmetic.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <opencv2/core/utility.hpp>
 #include <string>
 
-namespace vinebench::tools {
+namespace vinebench {
 namespace {
 
 TEST(PinArithmetic, TurnsOpenCvsDispatchOffAndKeepsShadersApartOnce) {
@@ -25,4 +25,4 @@ TEST(PinArithmetic, TurnsOpenCvsDispatchOffAndKeepsShadersApartOnce) {
 }
 
 }  // namespace
-}  // namespace vinebench::tools
+}  // namespace vinebench

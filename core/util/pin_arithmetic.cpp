@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/arithmetic.h"
+#include "core/util/pin_arithmetic.h"
 
+#include <atomic>
 #include <cstdlib>
 #include <filesystem>
 #include <opencv2/core/utility.hpp>
 
-namespace vinebench::tools {
+namespace vinebench {
 namespace {
 
 /// Another one where what llvm_symbols.cpp replaces changes.
@@ -20,6 +21,8 @@ std::filesystem::path user_cache() {
   if (home != nullptr && *home != '\0') return std::filesystem::path(home) / ".cache";
   return {};
 }
+
+std::atomic<bool> g_libraries_pinned = false;
 
 }  // namespace
 
@@ -35,4 +38,12 @@ void pin_arithmetic() {
   }
 }
 
-}  // namespace vinebench::tools
+void declare_libraries_pinned() {
+  g_libraries_pinned = true;
+}
+
+bool are_libraries_pinned() {
+  return g_libraries_pinned;
+}
+
+}  // namespace vinebench
