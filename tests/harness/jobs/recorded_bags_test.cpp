@@ -9,7 +9,7 @@
 #include <csignal>
 
 #include "harness/datasets/dataset_check.h"
-#include "harness/datasets/ros/ros_writer.h"
+#include "harness/datasets/ros/rosbag/ros_bag.h"
 #include "tests/support/small_scenario.h"
 
 namespace vinebench::harness {
