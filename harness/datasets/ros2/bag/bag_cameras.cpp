@@ -107,6 +107,13 @@ std::string name_of_pair(std::size_t number) {
   return number == 0 ? "front" : number == 1 ? "back" : fmt::format("pair{}", number);
 }
 
+/// "back" of "/back_left" and "/back_right".
+std::string name_of_pair(const BagCamera& left, const std::vector<StereoPair>& before) {
+  const std::string name = left.name.substr(0, left.name.rfind("_left"));
+  const bool usable = name != left.name && std::ranges::count(before, name, &StereoPair::name) == 0;
+  return usable ? name : name_of_pair(before.size());
+}
+
 /// Pairs by their names, and the cameras of pairs before the others.
 BagCameras paired(const std::vector<BagCamera>& found) {
   BagCameras result;
@@ -115,7 +122,7 @@ BagCameras paired(const std::vector<BagCamera>& found) {
     for (std::size_t j = 0; j < found.size(); ++j) {
       if (taken[i] || taken[j] || !is_pair(found[i], found[j])) continue;
       const auto first = static_cast<int>(result.cameras.size());
-      result.pairs.push_back({name_of_pair(result.pairs.size()), first, first + 1});
+      result.pairs.push_back({name_of_pair(found[i], result.pairs), first, first + 1});
       result.cameras.insert(result.cameras.end(), {found[i], found[j]});
       taken[i] = taken[j] = true;
     }

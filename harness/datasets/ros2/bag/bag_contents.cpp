@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "core/util/error.h"
+#include "harness/datasets/ros2/bag/sqlite_file.h"
 #include "harness/datasets/ros2/cdr/ros2_messages.h"
+#include "harness/datasets/ros2/mcap/mcap_file.h"
 
 namespace vinebench::harness {
 namespace {
@@ -146,6 +148,13 @@ class Collector {
   std::uint64_t readings_ = 0;
 };
 
+/// By the name's ending.
+std::shared_ptr<BagFile> open_bag_file(const std::filesystem::path& file) {
+  if (file.extension() == ".mcap") return std::make_shared<McapFile>(file);
+  if (file.extension() == ".db3") return std::make_shared<SqliteFile>(file);
+  fail("{}: expected a name that ends in .mcap or .db3", file.string());
+}
+
 }  // namespace
 
 BagContents scan_bag(const std::vector<std::filesystem::path>& files) {
@@ -155,6 +164,7 @@ BagContents scan_bag(const std::vector<std::filesystem::path>& files) {
   for (std::size_t i = 0; i < files.size(); ++i) {
     contents.files.push_back(open_bag_file(files[i]));
     contents.files[i]->scan([&](const BagMessage& message) { collector.take(i, message); });
+    contents.ours = contents.ours || contents.files[i]->start() != 0;
     const std::string cut_off = contents.files[i]->cut_off();
     if (!cut_off.empty()) contents.cut_off = files[i].string() + ": " + cut_off;
   }

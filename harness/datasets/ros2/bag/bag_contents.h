@@ -46,6 +46,7 @@ struct BagContents {
   std::vector<RosTransform> mounts;              ///< of /tf_static
   std::vector<WheelSample> wheels;               ///< of /joint_states
   std::vector<RosTransform> truth;               ///< of /ground_truth
+  bool ours = false;                             ///< a recording of ours, by its own record
   std::string cut_off;                           ///< what a file that ends too early lacks
 };
 

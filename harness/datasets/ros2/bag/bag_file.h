@@ -3,9 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
-#include <memory>
 #include <string>
 #include <string_view>
 
@@ -47,8 +45,5 @@ class BagFile {
   /// After scan(): what the times are ahead of the stamps of a recording of ours, ns.
   virtual std::int64_t start() const { return 0; }
 };
-
-/// By the name's ending: .mcap or .db3.
-std::unique_ptr<BagFile> open_bag_file(const std::filesystem::path& file);
 
 }  // namespace vinebench::harness

@@ -67,7 +67,7 @@ void set_frames(const BagContents& contents, const std::vector<BagCamera>& camer
     lists.back().camera = recording.rig.cameras[i].name;
   }
   std::vector<Stamp> instants = instants_of(lists.front());
-  if (is_present(frame_list)) instants = read_frame_list(frame_list);
+  if (!frame_list.empty() && is_present(frame_list)) instants = read_frame_list(frame_list);
   recording.frames = associate_images(lists, instants);
   recording.store = store;
   if (recording.frames.empty()) {
@@ -85,13 +85,15 @@ void set_frames(const BagContents& contents, const std::vector<BagCamera>& camer
 Recording read_bag(const fs::path& bag, const RecordingOptions& options) {
   std::error_code ignored;
   const bool folder = fs::is_directory(bag, ignored);
-  const fs::path place = folder ? bag : bag.parent_path();
   BagContents contents = scan_bag(folder ? bag_files(bag) : std::vector<fs::path>{bag});
+  // Beside a lone file there may be anyone's files.
+  const fs::path place = folder ? bag : bag.parent_path();
+  const bool has_ours = folder || contents.ours;
   BagCameras chosen = choose_bag_cameras(contents, options.topics);
   Recording recording;
   recording.format = "ROS 2 bag";
-  const fs::path ours = place / "rig.yaml";
-  const fs::path rig = !options.rig.empty() ? options.rig : is_present(ours) ? ours : fs::path();
+  fs::path rig = options.rig;
+  if (rig.empty() && has_ours && is_present(place / "rig.yaml")) rig = place / "rig.yaml";
   BagRig mounted = place_frames(contents, chosen);
   if (rig.empty()) {
     mounted = read_bag_rig(contents, chosen);
@@ -102,10 +104,10 @@ Recording read_bag(const fs::path& bag, const RecordingOptions& options) {
     order_by_rig(recording.rig, chosen.cameras);
   }
   recording.T_body_left = recording.rig.cameras.front().T_body_cam;
-  set_frames(contents, chosen.cameras, place / kFrameList, recording);
+  set_frames(contents, chosen.cameras, has_ours ? place / kFrameList : fs::path(), recording);
   set_readings(contents, mounted, recording);
   if (options.groundtruth.empty()) set_truth(contents, mounted, recording);
-  read_tags_and_settings(place, recording);
+  if (has_ours) read_tags_and_settings(place, recording);
   if (!contents.cut_off.empty()) {
     recording.frames.back().events.push_back({"bag_cut_off", bag.string(), contents.cut_off});
   }
