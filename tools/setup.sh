@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Installs missing Debian packages for building Vinebench, as root or through sudo. No effect if all
-# are installed. Usage: setup.sh [--ros] [--fuzz] [--cycles]; with --ros also those for recording ROS
+# are installed. Usage: setup.sh [--ros] [--fuzz] [--cycles]; with --ros also those for recording ROS 1
 # bags, and for the tests that read data sets with Python: 136 packages, 323 MB; with --fuzz also clang
 # and its libFuzzer; with --cycles also Blender, for reference pictures: 414 MB.
 set -euo pipefail
@@ -19,6 +19,7 @@ packages=(
   libboost-math-dev
   # files, text, command line
   libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libxxhash-dev libdeflate-dev
+  libzstd-dev libsqlite3-dev
   # the Python module
   python3-dev python3-numpy pybind11-dev
   # tests

@@ -54,7 +54,6 @@ TEST(CdrTest, BigEndianMessagesAreRead) {
       "\0\0\0\0"s
       "\1\0\0\0"s
       "\0\0\0\3"s
-      "\0\0\0\0"s
       "\xc0\0\0\0\0\0\0\0"s;
   CdrReader in(message);
   EXPECT_EQ(in.get<std::uint8_t>(), 1);
