@@ -13,6 +13,7 @@
 namespace vinebench::harness {
 namespace {
 
+constexpr std::size_t kMostCameras = 64;  // of a rig
 constexpr std::string_view kCompressed = "/compressed";
 
 /// Topics of one camera, the best for a replay first.
@@ -103,15 +104,17 @@ bool is_pair(const BagCamera& left, const BagCamera& right) {
   return false;
 }
 
-std::string name_of_pair(std::size_t number) {
-  return number == 0 ? "front" : number == 1 ? "back" : fmt::format("pair{}", number);
-}
-
-/// "back" of "/back_left" and "/back_right".
+/// "back" of "/back_left" and "/back_right", else a name that no other pair has.
 std::string name_of_pair(const BagCamera& left, const std::vector<StereoPair>& before) {
   const std::string name = left.name.substr(0, left.name.rfind("_left"));
-  const bool usable = name != left.name && std::ranges::count(before, name, &StereoPair::name) == 0;
-  return usable ? name : name_of_pair(before.size());
+  const auto is_new = [&](const std::string& wanted) {
+    return std::ranges::count(before, wanted, &StereoPair::name) == 0;
+  };
+  if (name != left.name && is_new(name)) return name;
+  for (const char* usual : {"front", "back"}) {
+    if (is_new(usual)) return usual;
+  }
+  return left.topic;
 }
 
 /// Pairs by their names, and the cameras of pairs before the others.
@@ -163,10 +166,15 @@ BagCameras choose_bag_cameras(const BagContents& contents, const std::vector<std
     chosen.cameras.push_back(camera_of(topic));
   }
   if (topics.empty()) {
-    chosen = paired(best_cameras(contents));
+    const std::vector<BagCamera> found = best_cameras(contents);
+    if (found.size() > kMostCameras) {
+      fail("{}: expected at most {} cameras, found {}: --topics chooses some",
+           contents.names.front().string(), kMostCameras, found.size());
+    }
+    chosen = paired(found);
   } else {
-    if (topics.size() >= 2) chosen.pairs.push_back({name_of_pair(0), 0, 1});
-    if (topics.size() >= 4) chosen.pairs.push_back({name_of_pair(1), 2, 3});
+    if (topics.size() >= 2) chosen.pairs.push_back({"front", 0, 1});
+    if (topics.size() >= 4) chosen.pairs.push_back({"back", 2, 3});
   }
   if (chosen.cameras.empty()) fault_without_pair(contents);
   make_names_unique(chosen.cameras);

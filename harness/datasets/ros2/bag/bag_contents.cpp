@@ -17,6 +17,7 @@ namespace {
 
 // Readings and images of a bag at most: a small file can unpack to a great number of them.
 constexpr std::uint64_t kMostReadings = 20'000'000;
+constexpr std::uint64_t kMostImages = 4'000'000;
 
 template <std::size_t N>
 void expect_finite(const std::array<double, N>& numbers, const char* what) {
@@ -89,7 +90,7 @@ class Collector {
   Stamp stamp_of(const RosHeader& header) const { return header.time - start_; }
 
   void take_image(std::size_t file, const BagMessage& message) {
-    count();
+    if (++images_ > kMostImages) fail("expected at most {} images", kMostImages);
     BagImages& images = contents_.images[message.topic];
     const RosHeader header = decode_header(message.data);
     if (images.entries.empty()) {
@@ -146,6 +147,7 @@ class Collector {
   BagContents& contents_;
   Stamp start_ = 0;
   std::uint64_t readings_ = 0;
+  std::uint64_t images_ = 0;
 };
 
 /// By the name's ending.

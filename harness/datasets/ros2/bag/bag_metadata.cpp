@@ -115,7 +115,9 @@ std::vector<fs::path> bag_files(const fs::path& folder) {
 
 bool is_bag(const fs::path& bag) {
   std::error_code ignored;
-  if (fs::is_directory(bag, ignored)) return !bag_files_in(bag).empty();
+  if (fs::is_directory(bag, ignored)) {
+    return is_present(bag / kBagMetadata) || !bag_files_in(bag).empty();
+  }
   return is_bag_file(bag);
 }
 

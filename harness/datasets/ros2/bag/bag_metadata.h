@@ -31,7 +31,8 @@ std::string format_bag_metadata(const std::string& file, const std::vector<McapC
 /// compressed as a whole, and names outside of the folder.
 std::vector<std::filesystem::path> bag_files(const std::filesystem::path& folder);
 
-/// Whether a file, or a folder with such files, is a bag of ROS 2, by the names alone.
+/// Whether a file, or a folder with such files or metadata.yaml, is a bag of ROS 2, by the names
+/// alone.
 bool is_bag(const std::filesystem::path& bag);
 
 }  // namespace vinebench::harness

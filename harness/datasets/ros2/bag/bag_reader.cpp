@@ -94,15 +94,18 @@ Recording read_bag(const fs::path& bag, const RecordingOptions& options) {
   recording.format = "ROS 2 bag";
   fs::path rig = options.rig;
   if (rig.empty() && has_ours && is_present(place / "rig.yaml")) rig = place / "rig.yaml";
-  BagRig mounted = place_frames(contents, chosen);
+  BagRig mounted;
   if (rig.empty()) {
     mounted = read_bag_rig(contents, chosen);
-    recording.rig = mounted.rig;
-    recording.rig.rate_hz = 0;  // set by the frames
+    mounted.rig.rate_hz = 0;  // set by the frames
   } else {
-    recording.rig = load_rig_for(rig, chosen.cameras.size());
-    order_by_rig(recording.rig, chosen.cameras);
+    Rig given = load_rig_for(rig, chosen.cameras.size());
+    order_by_rig(given, chosen.cameras);
+    mounted = place_frames(contents, chosen);
+    mounted.rig = std::move(given);
+    mounted.T_body_reference = mounted.rig.cameras.front().T_body_cam;
   }
+  recording.rig = mounted.rig;
   recording.T_body_left = recording.rig.cameras.front().T_body_cam;
   set_frames(contents, chosen.cameras, has_ours ? place / kFrameList : fs::path(), recording);
   set_readings(contents, mounted, recording);

@@ -14,7 +14,7 @@ struct BagRig {
   /// else at that camera, x ahead, y left, z up.
   std::optional<Pose> body_from(const std::string& frame) const;
 
-  TransformTree mounts;
+  TransformTree mounts{{}};
   std::string reference;  ///< frame that T_body_reference belongs to
   Pose T_body_reference;
 };
@@ -24,7 +24,8 @@ struct BagRig {
 /// baseline.
 BagRig read_bag_rig(const BagContents& contents, const BagCameras& cameras);
 
-/// The place of frames alone, where a rig file has the cameras.
+/// The places of frames alone: where a rig file has the cameras, the body is to be set by it, as
+/// T_body_reference of the first camera.
 BagRig place_frames(const BagContents& contents, const BagCameras& cameras);
 
 }  // namespace vinebench::harness

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/datasets/ros2/bag/transform_tree.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace vinebench::harness {
@@ -11,6 +13,9 @@ namespace {
 std::string plain(const std::string& frame) {
   return frame.starts_with('/') ? frame.substr(1) : frame;
 }
+
+// Above a frame; of a tree that is made to do harm the rest is not connected.
+constexpr std::size_t kMostLevels = 256;
 
 }  // namespace
 
@@ -31,7 +36,7 @@ TransformTree::TransformTree(const std::vector<RosTransform>& mounts) {
 
 std::vector<std::pair<std::string, Pose>> TransformTree::ancestors(const std::string& frame) const {
   std::vector<std::pair<std::string, Pose>> line{{plain(frame), Pose{}}};
-  while (line.size() <= mounts_.size()) {
+  while (line.size() <= std::min(mounts_.size(), kMostLevels)) {
     const auto mount = mounts_.find(line.back().first);
     if (mount == mounts_.end()) break;
     const Pose T_child_frame = line.back().second;

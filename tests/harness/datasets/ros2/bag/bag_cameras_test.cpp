@@ -63,6 +63,22 @@ TEST(BagCamerasTest, NamesOfOtherDriversArePairsToo) {
               ElementsAre("infra1", "infra2"));
 }
 
+TEST(BagCamerasTest, EveryPairHasANameOfItsOwn) {
+  std::vector<std::string> names;
+  const BagContents contents =
+      bag_of({"/a/cam0/image", "/a/cam1/image", "/back_left/image", "/back_right/image",
+              "/c/back_left/image", "/c/back_right/image", "/d/cam0/image", "/d/cam1/image"});
+  for (const StereoPair& pair : choose_bag_cameras(contents, {}).pairs) names.push_back(pair.name);
+  EXPECT_THAT(names, ElementsAre("front", "back", "/c/back_left/image", "/d/cam0/image"));
+}
+
+TEST(BagCamerasTest, ARigHasAtMost64Cameras) {
+  std::vector<std::string> topics;
+  for (int i = 0; i < 65; ++i) topics.push_back(fmt::format("/c{}/image", i));
+  EXPECT_THAT(error_of([&] { choose_bag_cameras(bag_of(topics), {}); }),
+              HasSubstr("expected at most 64 cameras, found 65: --topics chooses some"));
+}
+
 TEST(BagCamerasTest, RectifiedBeforeRawAndRawBeforeCompressed) {
   BagContents contents =
       bag_of({"/left/image_raw", "/left/image_rect/compressed", "/right/image_rect",

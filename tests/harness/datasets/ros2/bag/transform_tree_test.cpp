@@ -47,6 +47,17 @@ TEST(TransformTreeTest, CirclesEnd) {
   EXPECT_FALSE(tree.between("c", "a"));
 }
 
+/// Searching long lines of frames would take the square of their length.
+TEST(TransformTreeTest, LinesOfFramesHaveALimit) {
+  std::vector<RosTransform> mounts;
+  for (int i = 0; i < 300; ++i) {
+    mounts.push_back(mount(std::to_string(i), std::to_string(i + 1), {}));
+  }
+  const TransformTree tree(mounts);
+  EXPECT_TRUE(tree.between("0", "200"));
+  EXPECT_FALSE(tree.between("0", "300"));
+}
+
 TEST(TransformTreeTest, TheLaterMountOfAFrameAndNamesWithASlash) {
   const TransformTree tree({mount("base", "arm", {{1, 0, 0}, {0, 0, 0, 1}}),
                             mount("/base", "/arm", {{2, 0, 0}, {0, 0, 0, 1}})});
