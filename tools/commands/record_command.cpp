@@ -110,7 +110,7 @@ std::vector<Option> content_options(RecordArguments& arguments) {
            .range = Range::between(1, 1'000'000)},
           {.name = "--image",
            .target = &arguments.images,
-           .help = "Images of rgb, coco, ros and mcap (default: png; those of ros and mcap are raw)",
+           .help = "Images of rgb, coco, ros and mcap (default: png; bags' are raw)",
            .choices = yaml_names(harness::ImageKind{})},
           {.name = "--quality",
            .target = &arguments.quality,
