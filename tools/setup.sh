@@ -4,7 +4,7 @@
 #
 # Installs missing Debian packages for building Vinebench, as root or through sudo. No effect if all
 # are installed. Usage: setup.sh [--ros] [--browser] [--fuzz] [--cycles]; with --ros also those for
-# recording ROS bags, and for the tests that read data sets with Python: 136 packages, 323 MB; with
+# recording ROS 1 bags, and for the tests that read data sets with Python: 136 packages, 323 MB; with
 # --browser also Chromium, for the tests of reports; with --fuzz also clang and its libFuzzer; with
 # --cycles also Blender, for reference pictures: 414 MB.
 set -euo pipefail
@@ -20,6 +20,7 @@ packages=(
   libboost-math-dev
   # files, text, command line
   libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libxxhash-dev libdeflate-dev
+  libzstd-dev libsqlite3-dev
   # the front end of reports
   esbuild libjs-three
   # the Python module

@@ -86,6 +86,19 @@ std::size_t InputFile::read(char* to, std::size_t size) {
   return filled;
 }
 
+std::size_t InputFile::read_at(std::uintmax_t offset, char* to, std::size_t size) const {
+  std::size_t filled = 0;
+  while (filled < size) {
+    const ssize_t count =
+        pread(descriptor_, to + filled, size - filled, static_cast<off_t>(offset + filled));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail("{}: cannot be read: {}", file_.string(), std::strerror(errno));
+    if (count == 0) break;
+    filled += static_cast<std::size_t>(count);
+  }
+  return filled;
+}
+
 InputStream::InputStream(const std::filesystem::path& file, FileKind kind)
     : std::istream(nullptr), buffer_(file, kind) {
   rdbuf(&buffer_);

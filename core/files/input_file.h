@@ -40,6 +40,9 @@ class InputFile {
   /// reading fails or the file has grown beyond the limit.
   std::size_t read(char* to, std::size_t size);
 
+  /// The same from a byte of the file on; on any thread, concurrently.
+  std::size_t read_at(std::uintmax_t offset, char* to, std::size_t size) const;
+
   /// When it was opened, bytes.
   std::uintmax_t size() const { return size_; }
 

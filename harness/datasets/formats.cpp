@@ -19,6 +19,7 @@
 #include "harness/datasets/normals/normals_format.h"
 #include "harness/datasets/rgb/rgb_format.h"
 #include "harness/datasets/ros/ros_format.h"
+#include "harness/datasets/ros2/mcap_format.h"
 #include "harness/datasets/semantic/semantic_format.h"
 #include "harness/datasets/tum/tum_format.h"
 
@@ -26,9 +27,10 @@ namespace vinebench::harness {
 
 const std::vector<DatasetFormat>& dataset_formats() {
   static const std::vector<DatasetFormat> formats{
-      euroc_format(),   kitti_format(),    tum_format(),       dcvslam_format(), rgb_format(),
-      depth_format(),   depth32_format(),  disparity_format(), flow_format(),    flo_format(),
-      normals_format(), semantic_format(), instances_format(), coco_format(),    ros_format()};
+      euroc_format(),     kitti_format(), tum_format(),     dcvslam_format(),
+      rgb_format(),       depth_format(), depth32_format(), disparity_format(),
+      flow_format(),      flo_format(),   normals_format(), semantic_format(),
+      instances_format(), coco_format(),  ros_format(),     mcap_format()};
   return formats;
 }
 

@@ -64,13 +64,16 @@ fs::path readable_part(const fs::path& folder) {
 
 Recording open_recording(const fs::path& named, const RecordingOptions& options) {
   std::error_code ignored;
-  if (!fs::is_directory(named, ignored)) {
-    fail("{}: expected a folder: {}", named.string(), known_layouts());
+  if (!fs::exists(named, ignored)) {
+    fail("{}: expected a folder or a file: {}", named.string(), known_layouts());
   }
   const fs::path folder = readable_part(named);
   const DatasetFormat* format = format_of(folder);
   if (format == nullptr) {
     fail("{}: is not a recording: expected {}", folder.string(), known_layouts());
+  }
+  if (!options.topics.empty() && format->name != "mcap") {
+    fail("{}: is {}: --topics are a bag's", folder.string(), format->reader.layout);
   }
   Recording recording = format->reader.read(folder, options);
   recording.name = fs::weakly_canonical(named).filename().string();

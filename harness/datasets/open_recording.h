@@ -6,8 +6,8 @@
 
 namespace vinebench::harness {
 
-/// Reads the index of a recording, whose format is detected from its folders: that of any format
-/// with a reader, or a data set of ours that has one of them. Faults of single frames become
+/// Reads the index of a recording, whose format is detected from its folders and files: that of any
+/// format with a reader, or a data set of ours that has one of them. Faults of single frames become
 /// events; an unusable calibration, a folder without images and images of another size than the
 /// calibration's throw Error.
 Recording open_recording(const std::filesystem::path& folder, const RecordingOptions& options = {});

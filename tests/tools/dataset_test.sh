@@ -26,7 +26,7 @@ route: {acceleration: 2, waypoints: [{position: [0, 0]}, {position: [1, 0]}]}
 duration: 0.2
 YAML
 
-formats=euroc,kitti,tum,dcvslam,rgb,depth,depth32,disparity,flow,flo,normals,semantic,instances,coco
+formats=euroc,kitti,tum,dcvslam,rgb,depth,depth32,disparity,flow,flo,normals,semantic,instances,coco,mcap
 "$vinebench" record "$work/small.yaml" --format "$formats" --out "$work/data" 2>"$work/log" ||
   { cat "$work/log"; exit 1; }
 "$vinebench" check "$work/data"

@@ -385,7 +385,7 @@ def make_base(base, root, program):
     write_scenario(base / "scenario", root, program)
     run_checked([program, "run", "scenario/scenario.yaml", "--out", "run", "--threads", "1"], base)
     shutil.rmtree(base / "run/frames")
-    formats = "euroc,kitti,tum,coco,depth,semantic,instances,flow,normals,disparity"
+    formats = "euroc,kitti,mcap,tum,coco,depth,semantic,instances,flow,normals,disparity"
     run_checked([program, "record", "scenario/scenario.yaml", "--format", formats, "--out", "data",
                  "--frames", "0..3"], base)
     run_checked([program, *(word.replace("{base}", str(base)) for word in RECORD_TWO)], base)
@@ -394,6 +394,9 @@ def make_base(base, root, program):
     shutil.rmtree(base / "replayed")
     shutil.copytree(base / "scenario", base / "mesh")
     write_meshes(base / "mesh")
+    (base / "bags").mkdir()
+    for bag, name in (("mcap/plain", "plain.mcap"), ("db3/small", "small.db3")):
+        shutil.copy(root / "tests/fuzz/corpus" / bag, base / "bags" / name)
 
 
 def mesh_kind(*names):
@@ -428,6 +431,9 @@ def kinds_of(base):
         "gltf": mesh_kind("mesh.gltf", "mesh.gltf", "mesh.png"),
         "euroc": Kind(["data"], euroc, ["replay", "data/euroc"] + replay),
         "kitti": Kind(["data"], kitti, ["replay", "data/kitti"] + replay),
+        "mcap": Kind(["data"], below("data/mcap", "*"), ["replay", "data/mcap"] + replay),
+        "plain mcap": Kind(["bags"], ["bags/plain.mcap"], ["replay", "bags/plain.mcap"] + replay),
+        "db3": Kind(["bags"], ["bags/small.db3"], ["replay", "bags/small.db3"] + replay),
         "map": Kind(["data", "map"], ["map/row.map"], ["replay", "data", "--load-map", "map/row.map"] + replay),
         "data set": Kind(["data"], lists, ["check", "data"]),
         "resume": Kind(["resumed"], below("resumed", "seed_000001/*.yaml", "seed_000001/coco/*.json"),

@@ -11,36 +11,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export VINEBENCH_CACHE=$work/cache
 
-cat >"$work/rig.yaml" <<'YAML'
-name: small
-rate_hz: 15
-cameras:
-  - {name: left, width: 96, height: 64, fx: 60, fy: 60, position: [0.15, 0.06, 0.5], rpy_deg: [0, 0, 90]}
-  - {name: right, width: 96, height: 64, fx: 60, fy: 60, position: [0.27, 0.06, 0.5], rpy_deg: [0, 0, 90]}
-  - {name: side, width: 160, height: 96, fx: 80, fy: 81, cx: 78, distortion: [-0.05, 0.01, 0.001, 0.002], position: [0, -0.15, 0.5], rpy_deg: [0, 0, -80]}
-stereo_pairs: [{name: front, left: left, right: right}]
-tag_cameras: [side]
-YAML
-cat >"$work/small.yaml" <<YAML
-name: small
-world:
-  rows: [{start: [-0.5, 1.2], end: [2.5, 1.2]}]
-  vines: {templates: 1}
-  tags: [{family: tag36h11, id: 3, size: 0.3, position: [0.2, -0.9, 0.5], facing_deg: 90}]
-rover: {model: $root/models/csl-rover/rover.xml, rig: rig.yaml}
-route: {acceleration: 2, waypoints: [{position: [0, 0]}, {position: [1, 0]}]}
-duration: 0.4
-YAML
-sed 's/duration: 0.4/duration: 60/; s/position: \[1, 0\]/position: [30, 0]/' "$work/small.yaml" >"$work/long.yaml"
-
-expect() {
-  local code=$1 words=$2 got=0
-  shift 2
-  "$@" >"$work/said" 2>&1 || got=$?
-  if [[ $got -ne $code ]] || ! grep -qF -- "$words" "$work/said"; then
-    echo "expected exit code $code and '$words', got $got:" && cat "$work/said" && exit 1
-  fi
-}
+. "$root/tests/tools/ros_scenario.sh"
 
 record=("$vinebench" record "$work/small.yaml" --out)
 if ! "${record[@]}" "$work/data" --format ros,euroc,dcvslam --jobs 3 >"$work/log" 2>&1; then
@@ -59,18 +30,11 @@ expect 2 "webp: expected png or jpg" "${record[@]}" "$work/webp" --format ros --
 # A disk that is full after a few frames; ^C; an end without a warning.
 (ulimit -f 500 && trap '' XFSZ && expect 2 "run.bag: cannot be written: File too large" \
   "$vinebench" record "$work/long.yaml" --format ros --out "$work/full")
-begin() {
-  "$vinebench" record "$work/long.yaml" --format ros --out "$work/$1" >"$work/log" 2>&1 &
-  until [[ -f $work/$1/frames.csv && $(wc -l <"$work/$1/frames.csv") -gt 4 ]]; do
-    kill -0 $! || { cat "$work/log"; exit 1; }
-    sleep 0.02
-  done
-}
-begin stopped
+begin ros stopped
 kill -INT $!
 wait $! && exit 1
 "$vinebench" check "$work/stopped"
-begin killed
+begin ros killed
 kill -KILL $!
 wait $! 2>/dev/null && exit 1
 [[ -f $work/killed/ros/run.bag.active && ! -e $work/killed/ros/run.bag ]]

@@ -110,7 +110,7 @@ std::vector<Option> content_options(RecordArguments& arguments) {
            .range = Range::between(1, 1'000'000)},
           {.name = "--image",
            .target = &arguments.images,
-           .help = "Images of rgb, coco and ros (default: png; ros's are raw)",
+           .help = "Images of rgb, coco, ros and mcap (default: png; bags' are raw)",
            .choices = yaml_names(harness::ImageKind{})},
           {.name = "--quality",
            .target = &arguments.quality,
@@ -120,7 +120,7 @@ std::vector<Option> content_options(RecordArguments& arguments) {
            .choices = yaml_names(sim::RenderQuality{})},
           {.name = "--colour",
            .target = &options.colour,
-           .help = "Images of euroc, dcvslam and ros in colour; kitti's also in colour"}};
+           .help = "Images of euroc, dcvslam, ros and mcap in colour; kitti's also in colour"}};
 }
 
 std::vector<Option> request_options(RecordArguments& arguments) {

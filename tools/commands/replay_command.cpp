@@ -18,6 +18,7 @@ struct ReplayArguments {
   std::string rig;
   std::string slam;
   std::string groundtruth;
+  std::vector<std::string> topics;
   std::string out;
   std::vector<std::string> overrides;
   harness::MapFiles maps;
@@ -29,7 +30,8 @@ struct ReplayArguments {
 
 int replay(const ReplayArguments& arguments) {
   harness::Recording recording = harness::open_recording(
-      arguments.dataset, {.rig = arguments.rig, .groundtruth = arguments.groundtruth});
+      arguments.dataset,
+      {.rig = arguments.rig, .groundtruth = arguments.groundtruth, .topics = arguments.topics});
   const slam::SlamConfig slam =
       harness::replay_settings(recording, arguments.slam, parse_overrides(arguments.overrides));
   const std::string name = recording.name;
@@ -62,10 +64,11 @@ Command replay_command(const Surroundings&) {
   Command command{
       .name = "replay",
       .description =
-          "Run the SLAM core on a recorded data set (EuRoC/ASL or KITTI odometry folder)",
+          "Run the SLAM core on a recorded data set (EuRoC/ASL or KITTI odometry folder, ROS 2 "
+          "bag)",
       .options = {{.name = "DATASET",
                    .target = &arguments->dataset,
-                   .help = "Folder of the data set",
+                   .help = "Folder of the data set, or file of a bag",
                    .required = true},
                   {.name = "--rig",
                    .target = &arguments->rig,
@@ -78,6 +81,11 @@ Command replay_command(const Surroundings&) {
                   {.name = "--groundtruth",
                    .target = &arguments->groundtruth,
                    .help = "True poses in place of the data set's: TUM, KITTI or EuRoC file"},
+                  {.name = "--topics",
+                   .target = &arguments->topics,
+                   .help = "Topics of a bag's images: left and right of a pair, of a second one, "
+                           "others (default: by their names)",
+                   .commas = true},
                   {.name = "--out",
                    .target = &arguments->out,
                    .help = "Folder for the results (default: out/<data set's name>)"},

@@ -6,18 +6,18 @@
 
 #include "core/files/input_file.h"
 #include "core/util/error.h"
+#include "harness/datasets/euroc/our_files.h"
 #include "harness/datasets/euroc/sensor_file.h"
-#include "harness/datasets/euroc/tag_list.h"
 #include "harness/datasets/files/text_table.h"
 #include "harness/datasets/reading/groundtruth.h"
 #include "harness/datasets/reading/image_association.h"
+#include "harness/datasets/reading/reading_order.h"
 
 namespace vinebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFrameList = "frames.csv";
 constexpr double kDefaultRate = 20;  // Hz, of EuRoC's cameras
 
 /// The folder that contains cam0; the user may name it or its parent.
@@ -54,16 +54,7 @@ ImageList read_images(const fs::path& folder, bool may_be_empty) {
 /// Our recordings list the frames, because any camera may lack one; otherwise cam0 defines them.
 std::vector<Stamp> read_instants(const fs::path& folder, const ImageList& first_camera) {
   const fs::path file = folder / kFrameList;
-  if (!is_present(file)) return instants_of(first_camera);
-  std::vector<Stamp> instants;
-  for (const TableRow& row : read_table(file)) {
-    instants.push_back(row.nanoseconds(0));
-    if (instants.size() > 1 && instants.back() <= instants[instants.size() - 2]) {
-      row.fault("expected a later stamp than the line before");
-    }
-  }
-  if (instants.empty()) fail("{}: expected a line for each frame, found none", file.string());
-  return instants;
+  return is_present(file) ? read_frame_list(file) : instants_of(first_camera);
 }
 
 /// cam0 and cam1 are a pair, and so are cam2 and cam3; further cameras are tag cameras.
@@ -92,23 +83,6 @@ Rig read_rig(const fs::path& folder, const std::vector<fs::path>& cameras,
     fail("{}: expected a cam1 beside cam0: a stereo pair", sensor_folder(folder).string());
   }
   return rig_of_sensors(cameras);
-}
-
-/// Readings sorted by time, without duplicate stamps.
-template <class Reading>
-void put_in_order(std::vector<Reading>& readings, const std::string& sensor, Recording& recording) {
-  const bool ascending = std::ranges::is_sorted(readings, {}, &Reading::stamp);
-  std::ranges::stable_sort(readings, {}, &Reading::stamp);
-  const auto repeated =
-      std::unique(readings.begin(), readings.end(),
-                  [](const Reading& a, const Reading& b) { return a.stamp == b.stamp; });
-  std::vector<SourceEvent>& events = recording.frames.front().events;
-  if (!ascending) events.push_back({"stamp_out_of_order", sensor, "readings sorted"});
-  if (repeated != readings.end()) {
-    events.push_back(
-        {"stamp_repeated", sensor, fmt::format("{} readings dropped", readings.end() - repeated)});
-  }
-  readings.erase(repeated, readings.end());
 }
 
 void read_imu(const fs::path& folder, Recording& recording) {
@@ -195,8 +169,7 @@ Recording read_euroc(const fs::path& named, const RecordingOptions& options) {
   read_imu(sensors / "imu0", recording);
   read_wheels(sensors / "wheels0", recording);
   if (options.groundtruth.empty()) recording.truth = read_truth(sensors);
-  if (is_present(folder / "tags.yaml")) recording.tags = read_tags(folder / "tags.yaml");
-  if (is_present(folder / "slam.yaml")) recording.settings = folder / "slam.yaml";
+  read_tags_and_settings(folder, recording);
   return recording;
 }
 

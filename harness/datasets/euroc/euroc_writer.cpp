@@ -4,10 +4,9 @@
 
 #include <fmt/ranges.h>
 
-#include "core/config/yaml_writer.h"
 #include "core/files/files.h"
+#include "harness/datasets/euroc/our_files.h"
 #include "harness/datasets/euroc/slam_settings.h"
-#include "harness/datasets/euroc/tag_list.h"
 #include "harness/datasets/files/image_codec.h"
 
 namespace vinebench::harness {
@@ -74,12 +73,12 @@ std::string digits_of(Stamp stamp) {
 EurocWriter::EurocWriter(const fs::path& folder, const RecordingNotes& notes, bool colour)
     : mav_(make_folder(folder / "mav0")),
       colour_(colour),
-      frames_(folder / "frames.csv"),
+      frames_(folder / kFrameList),
       times_(folder / "times.txt"),
       imu_(make_folder(mav_ / "imu0") / "data.csv"),
       wheels_(make_folder(mav_ / "wheels0") / "data.csv"),
       truth_(make_folder(mav_ / "state_groundtruth_estimate0") / "data.csv") {
-  frames_.append("#timestamp [ns]\n");
+  frames_.append(kFrameListHeader);
   imu_.append(kImuHeader);
   if (notes.first_reading) imu_.append(line_of(*notes.first_reading));
   wheels_.append(kWheelHeader);
@@ -96,9 +95,7 @@ EurocWriter::EurocWriter(const fs::path& folder, const RecordingNotes& notes, bo
 }
 
 void EurocWriter::describe(const fs::path& folder, const RecordingNotes& notes) const {
-  write_file_atomically(folder / "rig.yaml", format_yaml(notes.rig));
-  write_file_atomically(folder / "tags.yaml", format_tags(notes.tags));
-  write_file_atomically(folder / "slam.yaml", format_yaml(notes.slam));
+  write_our_files(folder, notes);
   write_file_atomically(mav_ / "body.yaml", fmt::format("comment: {}\n", notes.scenario));
   write_file_atomically(mav_ / "imu0/sensor.yaml", describe_imu(notes));
   write_file_atomically(

@@ -44,13 +44,16 @@ void write_image(const std::filesystem::path& file, const cv::Mat& image) {
 }
 
 cv::Mat read_image(const std::filesystem::path& file, int flags) {
-  const std::string bytes = read_file(file, FileKind::kImage);
-  check_image_size(bytes, file.string());
+  return decode_image(read_file(file, FileKind::kImage), file.string(), flags);
+}
+
+cv::Mat decode_image(const std::string& bytes, const std::string& name, int flags) {
+  check_image_size(bytes, name);
   const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
   try {
     return cv::imdecode(raw, flags);
   } catch (const cv::Exception& error) {
-    if (error.code == cv::Error::StsNoMem) fail("{}: not enough memory", file.string());
+    if (error.code == cv::Error::StsNoMem) fail("{}: not enough memory", name);
     return {};  // an invalid header
   }
 }

@@ -16,15 +16,14 @@ namespace fs = std::filesystem;
 constexpr Stamp kSameInstant = 1000;                    // ns
 constexpr Stamp kTruthGap = kNanosecondsPerSecond / 4;  // ns
 
-std::optional<SourceEvent> read_image(const fs::path& file, const RigCamera& camera,
-                                      cv::Mat& image) {
-  std::error_code ignored;
+std::optional<SourceEvent> read_image(const Recording& recording, const fs::path& file,
+                                      const RigCamera& camera, cv::Mat& image) {
   if (file.empty()) return SourceEvent{"picture_missing", camera.name, "not recorded"};
-  if (!fs::exists(file, ignored)) {
+  if (!has_image(recording, file)) {
     return SourceEvent{"picture_missing", camera.name, file.string()};
   }
   try {
-    image = read_grey(file);
+    image = read_grey(recording, file);
   } catch (const Error& error) {
     return SourceEvent{"picture_unreadable", camera.name, error.what()};
   }
@@ -74,7 +73,7 @@ void DatasetReader::read_images(const RecordedFrame& recorded, Sample& sample) {
   sample.frame.images.resize(cameras);
   std::vector<std::optional<SourceEvent>> faults(cameras);
   pool_.for_each(cameras, [&](std::size_t camera) {
-    faults[camera] = read_image(recorded.images[camera], recording_.rig.cameras[camera],
+    faults[camera] = read_image(recording_, recorded.images[camera], recording_.rig.cameras[camera],
                                 sample.frame.images[camera]);
   });
   for (const auto& fault : faults) {

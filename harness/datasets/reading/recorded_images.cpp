@@ -11,7 +11,20 @@
 namespace vinebench::harness {
 
 cv::Mat read_grey(const std::filesystem::path& file) {
-  const cv::Mat image = read_image(file, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  return grey_of_decoded(read_image(file, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION));
+}
+
+cv::Mat read_grey(const Recording& recording, const std::filesystem::path& image) {
+  return recording.store != nullptr ? recording.store->read_grey(image) : read_grey(image);
+}
+
+bool has_image(const Recording& recording, const std::filesystem::path& image) {
+  std::error_code ignored;
+  if (image.empty()) return false;
+  return recording.store != nullptr || std::filesystem::exists(image, ignored);
+}
+
+cv::Mat grey_of_decoded(const cv::Mat& image) {
   if (image.empty() || image.channels() == 1) return image;
   cv::Mat grey;
   cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
@@ -23,7 +36,7 @@ cv::Size first_image_size(const Recording& recording, std::size_t camera) {
     const std::filesystem::path& file = frame.images[camera];
     if (file.empty()) continue;
     try {
-      const cv::Mat image = read_grey(file);
+      const cv::Mat image = read_grey(recording, file);
       if (!image.empty()) return image.size();
     } catch (const Error&) {  // a fault of that frame, which is recorded when it is replayed
     }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
+#include <opencv2/core/mat.hpp>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,15 @@
 #include "core/truth/frame_source.h"
 
 namespace vinebench::harness {
+
+/// The images of a recording that are in no files of their own, by names that its reader gave
+/// them.
+class ImageStore {
+ public:
+  virtual ~ImageStore() = default;
+  /// As read_grey() of files; on any thread, concurrently.
+  virtual cv::Mat read_grey(const std::filesystem::path& image) const = 0;
+};
 
 /// The images of one instant, by name.
 struct RecordedFrame {
@@ -24,11 +35,12 @@ struct Recording {
   std::string name;
   std::string format;  ///< human-readable: "EuRoC/ASL", "KITTI odometry"
   Rig rig;
-  Pose T_body_left;                   ///< the camera of a ground truth in KITTI format
-  std::vector<RecordedFrame> frames;  ///< in ascending order of their stamps
-  std::vector<ImuSample> imu;         ///< likewise, in the body frame
-  std::vector<WheelSample> wheels;    ///< likewise
-  Trajectory truth;                   ///< T_world_body; empty if there is none
+  Pose T_body_left;                           ///< the camera of a ground truth in KITTI format
+  std::vector<RecordedFrame> frames;          ///< in ascending order of their stamps
+  std::shared_ptr<const ImageStore> store{};  ///< of the images; null if they are files
+  std::vector<ImuSample> imu;                 ///< likewise, in the body frame
+  std::vector<WheelSample> wheels;            ///< likewise
+  Trajectory truth;                           ///< T_world_body; empty if there is none
   std::vector<RegisteredTag> tags;
   std::filesystem::path settings;  ///< SlamConfig of the run that it was recorded from, if any
 };
@@ -37,6 +49,7 @@ struct Recording {
 struct RecordingOptions {
   std::filesystem::path rig;          ///< RigConfig, camera i is the recording's camera i
   std::filesystem::path groundtruth;  ///< TUM, KITTI (12 numbers a line) or EuRoC (csv)
+  std::vector<std::string> topics{};  ///< of a bag's images, in the order of cameras
 };
 
 /// A rig from its file for a recording with that many cameras; it may use fewer. Throws Error.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/geometry/rig.h"
-#include "harness/datasets/ros/rosbag/ros_bag.h"
+#include "harness/datasets/ros/messages/ros_messages.h"
 
 namespace vinebench::harness {
 

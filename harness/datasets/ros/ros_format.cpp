@@ -3,6 +3,7 @@
 #include "harness/datasets/ros/ros_format.h"
 
 #include "harness/datasets/ros/ros_writer.h"
+#include "harness/datasets/ros/rosbag/ros_bag.h"
 
 namespace vinebench::harness {
 
@@ -11,7 +12,8 @@ DatasetFormat ros_format() {
           .description = "a bag of ROS 1, run.bag",
           .available = has_rosbag(),
           .write = [](const WriterInputs& inputs) {
-            return std::make_unique<RosWriter>(inputs.folder, inputs.notes, inputs.options.colour,
+            auto bag = std::make_unique<RosBag>(make_folder(inputs.folder) / "run.bag");
+            return std::make_unique<RosWriter>(std::move(bag), inputs.notes, inputs.options.colour,
                                                inputs.options.images);
           }};
 }

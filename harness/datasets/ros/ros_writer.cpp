@@ -17,7 +17,8 @@ constexpr const char* kBody = "base_link";
 constexpr const char* kTruth = "ground_truth";
 
 std::optional<ImageKind> checked(std::optional<ImageKind> kind) {
-  if (kind == ImageKind::kWebp) fail("ros: --image webp: expected png or jpg, or raw images");
+  if (kind == ImageKind::kWebp)
+    fail("bag of ROS: --image webp: expected png or jpg, or raw images");
   return kind;
 }
 
@@ -41,7 +42,7 @@ std::string raw_bytes(const cv::Mat& image) {
 
 }  // namespace
 
-RosWriter::RosWriter(const std::filesystem::path& folder, const RecordingNotes& notes, bool colour,
+RosWriter::RosWriter(std::unique_ptr<RosOutput> bag, const RecordingNotes& notes, bool colour,
                      std::optional<ImageKind> kind)
     : notes_(notes),
       rig_(notes.rig.make()),
@@ -50,7 +51,7 @@ RosWriter::RosWriter(const std::filesystem::path& folder, const RecordingNotes& 
       cameras_(ros_cameras(rig_)),
       images_(cameras_.size()),
       detector_(notes.slam.tags, notes.tags),
-      bag_(make_folder(folder) / "run.bag") {
+      bag_(std::move(bag)) {
   if (!kind_) return;
   for (RosCamera& camera : cameras_) camera.images += "/compressed";  // image_transport's name
 }
@@ -85,18 +86,18 @@ void RosWriter::commit(const DatasetFrame& written) {
     if (!frame.images[i].empty()) write_image(i, frame.images[i], frame.stamp);
   }
   write_tags(frame);
-  bag_.end_chunk();
+  bag_->end_chunk();
 }
 
 void RosWriter::finish() {
-  bag_.close();
+  bag_->close();
 }
 
 RosHeader RosWriter::header(Stamp stamp, const std::string& frame) {
   const std::int64_t time = kStart + stamp;
   if (time > clock_) {
     const bool first = std::exchange(clock_, time) == 0;
-    bag_.write_clock("/clock", time);
+    bag_->write_clock("/clock", time);
     if (first) write_rig(stamp);
   }
   return {time, frame};
@@ -108,7 +109,7 @@ void RosWriter::write_rig(Stamp stamp) {
     mounts.push_back(
         {header(stamp, kBody), cameras_[i].frame, message(rig_.cameras[i].T_body_cam)});
   }
-  bag_.write_latched("/tf_static", mounts);
+  bag_->write_latched("/tf_static", mounts);
 }
 
 /// Sorted by stamp; an inertial reading comes before a wheel reading of the same stamp.
@@ -125,18 +126,18 @@ void RosWriter::write_readings(const Frame& frame) {
 }
 
 void RosWriter::write_imu(const ImuSample& reading) {
-  bag_.write("/imu", RosImu{header(reading.stamp, kBody), message(reading.angular_velocity),
-                            message(reading.specific_force),
-                            variance(notes_.imu.gyroscope, notes_.imu_rate_hz),
-                            variance(notes_.imu.accelerometer, notes_.imu_rate_hz)});
+  bag_->write("/imu", RosImu{header(reading.stamp, kBody), message(reading.angular_velocity),
+                             message(reading.specific_force),
+                             variance(notes_.imu.gyroscope, notes_.imu_rate_hz),
+                             variance(notes_.imu.accelerometer, notes_.imu_rate_hz)});
 }
 
 void RosWriter::write_wheels(const WheelSample& reading) {
-  bag_.write("/joint_states", RosJointState{header(reading.stamp, ""),
-                                            {"front_left_wheel", "front_right_wheel",
-                                             "rear_left_wheel", "rear_right_wheel"},
-                                            {reading.angle.begin(), reading.angle.end()},
-                                            {reading.velocity.begin(), reading.velocity.end()}});
+  bag_->write("/joint_states", RosJointState{header(reading.stamp, ""),
+                                             {"front_left_wheel", "front_right_wheel",
+                                              "rear_left_wheel", "rear_right_wheel"},
+                                             {reading.angle.begin(), reading.angle.end()},
+                                             {reading.velocity.begin(), reading.velocity.end()}});
 }
 
 /// Velocities are means since the previous frame.
@@ -150,8 +151,8 @@ void RosWriter::write_truth(const StampedPose& now) {
     odometry.angular_velocity = message(Eigen::Vector3d(-log_so3(step.rotation) / seconds));
   }
   before_ = now;
-  bag_.write_transforms("/tf", {{at, kTruth, message(now.pose)}});
-  bag_.write("/ground_truth", odometry);
+  bag_->write_transforms("/tf", {{at, kTruth, message(now.pose)}});
+  bag_->write("/ground_truth", odometry);
 }
 
 void RosWriter::write_image(std::size_t camera, const cv::Mat& image, Stamp stamp) {
@@ -159,14 +160,14 @@ void RosWriter::write_image(std::size_t camera, const cv::Mat& image, Stamp stam
   const RosHeader at = header(stamp, told.frame);
   std::string bytes = std::move(images_[camera]);
   if (kind_) {
-    bag_.write(told.images,
-               RosCompressedImage{at, kind_ == ImageKind::kJpeg ? "jpeg" : "png", bytes});
+    bag_->write(told.images,
+                RosCompressedImage{at, kind_ == ImageKind::kJpeg ? "jpeg" : "png", bytes});
   } else {
     const bool rgb = colour_ && image.channels() == 3;
-    bag_.write(told.images, RosImage{at, image.cols, image.rows, rgb ? "rgb8" : "mono8", bytes});
+    bag_->write(told.images, RosImage{at, image.cols, image.rows, rgb ? "rgb8" : "mono8", bytes});
   }
   told.calibration.header = at;
-  bag_.write(told.info, told.calibration);
+  bag_->write(told.info, told.calibration);
 }
 
 /// Ambiguous poses are left out, because the message cannot mark them.
@@ -182,7 +183,7 @@ void RosWriter::write_tags(const Frame& frame) {
       tags.push_back({header(frame.stamp, cameras_[camera].frame),
                       fmt::format("{}_{}", tag.family, tag.id), message(tag.T_cam_tag)});
     }
-    bag_.write_transforms("/tags", tags);
+    bag_->write_transforms("/tags", tags);
   }
 }
 

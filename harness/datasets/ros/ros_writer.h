@@ -7,13 +7,13 @@
 #include "core/trajectory.h"
 #include "harness/datasets/files/image_codec.h"
 #include "harness/datasets/format/format_writer.h"
+#include "harness/datasets/ros/messages/ros_output.h"
 #include "harness/datasets/ros/ros_camera.h"
-#include "harness/datasets/ros/rosbag/ros_bag.h"
 #include "slam/tags/tag_detector.h"
 
 namespace vinebench::harness {
 
-/// A bag of ROS 1, run.bag: images and calibration of each camera, inertial and wheel readings, the
+/// A bag of ROS: images and calibration of each camera, inertial and wheel readings, the
 /// tags that the SLAM core's detector finds, the clock and the rig's transforms; and the truth, on
 /// a separate topic and in a separate frame. docs/datasets.md has topics, types and frames.
 class RosWriter : public FormatWriter {
@@ -21,9 +21,9 @@ class RosWriter : public FormatWriter {
   /// Offset of stamps, because 0 means "not set" in ROS and faults may make stamps negative.
   static constexpr Stamp kStart = kNanosecondsPerSecond;
 
-  /// Raw images if `kind` is absent. Throws Error for WebP, which ROS does not support, as
-  /// ros_cameras() does, and if the program was built without ROS's libraries.
-  RosWriter(const std::filesystem::path& folder, const RecordingNotes& notes, bool colour,
+  /// Raw images if `kind` is absent. Throws Error for WebP, which ROS does not support, and as
+  /// ros_cameras() does.
+  RosWriter(std::unique_ptr<RosOutput> bag, const RecordingNotes& notes, bool colour,
             std::optional<ImageKind> kind);
 
   std::vector<FileTask> files(const std::shared_ptr<const DatasetFrame>& frame) override;
@@ -51,7 +51,7 @@ class RosWriter : public FormatWriter {
   slam::TagDetector detector_;
   std::optional<StampedPose> before_;  ///< previous true pose
   std::int64_t clock_ = 0;             ///< last written time
-  RosBag bag_;
+  std::unique_ptr<RosOutput> bag_;
 };
 
 }  // namespace vinebench::harness

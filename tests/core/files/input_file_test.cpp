@@ -47,6 +47,16 @@ TEST_F(InputFileTest, IsReadInParts) {
   EXPECT_EQ(in.read(part.data(), part.size()), 0u);
 }
 
+TEST_F(InputFileTest, IsReadFromAnyByteOn) {
+  const InputFile in(folder_.write("a", "0123456789"), FileKind::kTable);
+  std::array<char, 4> part{};
+  EXPECT_EQ(in.read_at(3, part.data(), part.size()), 4u);
+  EXPECT_EQ(std::string(part.data(), 4), "3456");
+  EXPECT_EQ(in.read_at(8, part.data(), part.size()), 2u);
+  EXPECT_EQ(std::string(part.data(), 2), "89");
+  EXPECT_EQ(in.read_at(10, part.data(), part.size()), 0u);
+}
+
 TEST_F(InputFileTest, OnlyRegularFilesAndLinksToThem) {
   const auto file = folder_.write("a", "text");
   fs::create_symlink(file, folder_ / "link");

@@ -4,12 +4,10 @@
 // What is in a bag is read by ROS's own library in tests/tools/ros_test.sh.
 
 #include <gmock/gmock.h>
-#include <sys/resource.h>
-
-#include <csignal>
 
 #include "harness/datasets/dataset_check.h"
-#include "harness/datasets/ros/ros_writer.h"
+#include "harness/datasets/ros/rosbag/ros_bag.h"
+#include "tests/support/size_limit.h"
 #include "tests/support/small_scenario.h"
 
 namespace vinebench::harness {
@@ -86,33 +84,13 @@ TEST_F(RecordedBagsTest, LinksInItsPlaceAreNotFollowed) {
   EXPECT_GT(fs::file_size(file), 0u);
 }
 
-/// Limits the size of files during its lifetime.
-class SizeLimit {
- public:
-  explicit SizeLimit(rlim_t bytes) : signal_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~SizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, signal_);
-  }
-  SizeLimit(const SizeLimit&) = delete;
-  SizeLimit& operator=(const SizeLimit&) = delete;
-
- private:
-  rlimit before_{};
-  void (*signal_)(int);
-};
-
 TEST_F(RecordedBagsTest, ABagThatOutgrowsTheDiskIsClosedAllTheSame) {
   if (!has_rosbag()) GTEST_SKIP() << "built without rosbag";
   const fs::path file = folder_ / "full.bag";
   std::int64_t written = 0;
   std::string error;
   {
-    const SizeLimit limit(300'000);
+    const test::SizeLimit limit(300'000);
     RosBag full(file);
     error = error_of([&] {
       for (std::int64_t i = 1; i < 1000; ++i) {

@@ -10,9 +10,7 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/JointState.h>
-#include <sys/resource.h>
 #include <tf2_msgs/TFMessage.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -22,6 +20,7 @@
 #include <set>
 #include <system_error>
 
+#include "core/files/disk_room.h"
 #include "core/files/output_file.h"
 #include "core/util/error.h"
 
@@ -142,18 +141,7 @@ struct RosBag::Impl {
   /// The library would detect it only when there is no space for the index.
   void expect_room(std::uint64_t bytes) const {
     const std::uint64_t index = (topics.size() + 1) * kIndexOfConnection + chunks * kIndexOfChunk;
-    const std::uint64_t more = bytes + kIndexOfMessage + index;
-    std::error_code unknown;
-    const fs::space_info space = fs::space(active.parent_path(), unknown);
-    int reason = 0;
-    if (!unknown && (geteuid() == 0 ? space.free : space.available) < more) reason = ENOSPC;
-    rlimit limit{};
-    std::error_code none;
-    const std::uint64_t size = fs::file_size(active, none);
-    if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
-        (none ? 0 : size) + more > limit.rlim_cur) {
-      reason = EFBIG;
-    }
+    const int reason = lack_of_room(active, bytes + kIndexOfMessage + index);
     if (reason != 0) fail("{}: cannot be written: {}", file.string(), std::strerror(reason));
   }
 
@@ -237,7 +225,7 @@ void RosBag::write(const std::string& topic, const RosCameraInfo& info) {
   m.header = message(info.header);
   m.width = static_cast<std::uint32_t>(info.width);
   m.height = static_cast<std::uint32_t>(info.height);
-  m.distortion_model = "plumb_bob";
+  m.distortion_model = info.model;
   m.D.assign(info.D.begin(), info.D.end());
   std::copy(info.K.begin(), info.K.end(), m.K.begin());
   std::copy(info.R.begin(), info.R.end(), m.R.begin());
