@@ -4,7 +4,8 @@
 // Definitions of the C library's elementary functions for programs: the loader resolves shared
 // libraries' references (MuJoCo's, OpenCV's, AprilTag's) to those of the program first. They are
 // all that glibc 2.36 chooses by the processor, and those that call one of these. Only programs
-// define them, never a library: it would change the arithmetic of a foreign process.
+// define them, never a library: it would change the arithmetic of a foreign process. The Python
+// module has them for itself and the libraries loaded with it (python/vinebench/_load.py).
 #include "core/math/elementary.h"
 
 namespace elementary = vinebench::elementary;

@@ -150,7 +150,7 @@ class Failure:
 
     cause: str
     frame: Optional[int]
-    """Index of the frame that it was given; None before the first and after the last one."""
+    """Index of the frame that it was given, 0 where start() failed; None after the last one."""
     exception: Optional[BaseException] = None
     """What a system written in Python raised, with its traceback."""
 
