@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include <opencv2/core.hpp>
+
 #include "harness/datasets/dataset_check.h"
 #include "harness/datasets/open_recording.h"
 #include "harness/datasets/reading/dataset_reader.h"

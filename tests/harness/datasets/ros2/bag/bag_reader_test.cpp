@@ -108,6 +108,40 @@ TEST_F(BagReaderTest, TruthOfAnotherFrameIsThatOfTheBody) {
   EXPECT_EQ(open_recording(folder_.path()).truth.at(0).pose.translation, Eigen::Vector3d(5, 6, 5));
 }
 
+TEST_F(BagReaderTest, ABagOfSeveralFilesIsOneRecording) {
+  const std::int64_t second = test::kBagStart + test::kBagPeriod;
+  const std::string bytes(32 * 16, 'x');
+  {
+    McapOutput first(folder_ / "bag_1.mcap", 0);  // of the pair's first frame
+    test::write_images(first, test::small_pair(), 1);
+    McapOutput last(folder_ / "bag_0.mcap", 0);
+    for (const std::string side : {"left", "right"}) {
+      const RosHeader header = test::header_at(second, side + "_optical_frame");
+      last.write("/" + side + "/image_rect", RosImage{header, 32, 16, "mono8", bytes});
+    }
+  }
+  folder_.write("metadata.yaml",
+                "rosbag2_bagfile_information:\n  relative_file_paths: [bag_1.mcap, bag_0.mcap]\n");
+  const std::vector<Sample> samples = play(open_recording(folder_.path()));
+  ASSERT_EQ(samples.size(), 2u);
+  EXPECT_EQ(samples[0].frame.images[1].at<std::uint8_t>(0, 0), 100);
+  EXPECT_EQ(samples[1].frame.images[1].at<std::uint8_t>(0, 0), 'x');
+}
+
+TEST_F(BagReaderTest, ReadingsWhosePlaceIsNotKnownAreLeftOut) {
+  {
+    McapOutput out(folder_ / "run.mcap", 0);
+    const RosHeader header = test::header_at(test::kBagStart, "somewhere");
+    out.write("/imu", RosImu{header, {0, 0, 1}, {2, 0, 9.81}, 0, 0});
+    test::write_images(out, test::small_pair());
+  }
+  const Recording recording = open_recording(folder_.path());
+  EXPECT_TRUE(recording.imu.empty());
+  ASSERT_EQ(recording.frames[0].events.size(), 1u);
+  EXPECT_EQ(recording.frames[0].events[0].event, "sensor_unplaced");
+  EXPECT_THAT(recording.frames[0].events[0].detail, HasSubstr("frame 'somewhere'"));
+}
+
 /// Stamps of a recording of ours are those of its run.
 TEST_F(BagReaderTest, OurRecordingsHaveTheirOwnStampsAndFiles) {
   write_bag(test::kBagStart);
