@@ -111,6 +111,7 @@ class SequenceFolder {
   void begin() {
     if (has_card(request_.out)) check_same(read_card(request_.out));
     make_folder(request_.out);
+    remove_unfinished(request_.out);
     write_card(request_.out, card_);
     std::error_code ignored;  // it would have hashes of cards that change now
     fs::remove(request_.out / FileManifest::kName, ignored);

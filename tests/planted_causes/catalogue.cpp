@@ -68,14 +68,6 @@ void add_world_causes(std::vector<PlantedCause>& list) {
                   },
                   {Cause::kOcclusion}});
   list.push_back({"moving-carton", carry_a_box, {}, {Cause::kMovingObjects, Cause::kOcclusion}});
-  list.push_back({"sun",
-                  [](ScenarioConfig& scenario, RandomSequence& draw) {
-                    world(scenario).sun.elevation_deg = draw.uniform(0.5, 2);
-                    world(scenario).sun.azimuth_deg = draw.uniform(45, 75);
-                    world(scenario).sky.glare = draw.uniform(7, 10);
-                  },
-                  {},
-                  {Cause::kExposure}});
   list.push_back({"wind", {}, [](ScenarioConfig& scenario) { world(scenario).wind.speed = 1; }});
 }
 
@@ -93,7 +85,7 @@ void expose_badly(ScenarioConfig& scenario, RandomSequence& draw) {
 
 void add_exposure_causes(std::vector<PlantedCause>& list) {
   list.push_back({"noise", [](ScenarioConfig& scenario, RandomSequence& draw) {
-                    camera(scenario).noise.read_noise = draw.uniform(150, 220);
+                    camera(scenario).noise.read_noise = draw.uniform(350, 420);
                   }});
   list.push_back({"exposure",
                   expose_badly,
@@ -110,7 +102,7 @@ void add_exposure_causes(std::vector<PlantedCause>& list) {
                   {Cause::kMotionBlur}});
   list.push_back({"rolling-shutter",
                   [](ScenarioConfig& scenario, RandomSequence& draw) {
-                    camera(scenario).readout_time = draw.uniform(0.05, 0.063);
+                    camera(scenario).readout_time = draw.uniform(0.044, 0.052);
                     camera(scenario).readout_bands = 4;
                   },
                   {},
@@ -121,7 +113,7 @@ void add_glass_causes(std::vector<PlantedCause>& list) {
   list.push_back({"dirt",
                   [](ScenarioConfig& scenario, RandomSequence& draw) {
                     sim::LensDirtConfig dirt;
-                    dirt.count = 40 + draw.below(40);
+                    dirt.count = 60 + draw.below(40);
                     dirt.radius_px = {5, draw.uniform(20, 30)};
                     dirt.opacity = 0.95;
                     dirt.blur_px = 3;
@@ -136,7 +128,7 @@ void add_glass_causes(std::vector<PlantedCause>& list) {
                   }});
   list.push_back({"leaf", [](ScenarioConfig& scenario, RandomSequence& draw) {
                     sim::LensLeafConfig leaf;
-                    leaf.size = draw.uniform(1.0, 1.3);
+                    leaf.size = draw.uniform(1.4, 1.8);
                     leaf.position = {draw.uniform(0.4, 0.6), draw.uniform(0.4, 0.6)};
                     leaf.angle_deg = draw.uniform(-180, 180);
                     leaf.scope.from = 1.8;

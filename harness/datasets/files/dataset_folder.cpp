@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <regex>
 #include <system_error>
 #include <vector>
 
@@ -44,6 +45,16 @@ std::filesystem::path claim_folder(const std::filesystem::path& folder) {
     fail("recording {}: cannot be written to: {}", folder.string(), std::strerror(errno));
   }
   return folder;
+}
+
+void remove_unfinished(const std::filesystem::path& folder) {
+  static const std::regex unfinished(".*\\.[0-9a-f]{16}\\.partial");
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    if (std::regex_match(entry.path().filename().string(), unfinished)) {
+      std::filesystem::remove(entry.path(), ignored);
+    }
+  }
 }
 
 void clear_folder(const std::filesystem::path& folder, const std::string& last) {

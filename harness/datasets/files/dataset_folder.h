@@ -20,6 +20,9 @@ std::filesystem::path make_folder(const std::filesystem::path& folder);
 /// writable, or is not empty.
 std::filesystem::path claim_folder(const std::filesystem::path& folder);
 
+/// Removes what a process that ended abruptly has left of a file in the folder (OutputFile).
+void remove_unfinished(const std::filesystem::path& folder);
+
 /// Removes the content of a folder, not the folder; the entry of the name `last` after all others,
 /// so that an interruption leaves it. Throws Error.
 void clear_folder(const std::filesystem::path& folder, const std::string& last = "");

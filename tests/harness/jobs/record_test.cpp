@@ -149,8 +149,13 @@ TEST_F(RecordTest, AnInterruptedSetSaysWhatThereIs) {
   std::filesystem::remove(request_.out / "files.xxh128");
   EXPECT_EQ(check_dataset(request_.out).interrupted, "1 of 3 sequences, 8 frames");
   EXPECT_THAT(faults(), testing::IsEmpty());
+  // Killed while the card was written.
+  folder_.write("stopped/dataset.yaml.0123456789abcdef.partial", "name:");
+  folder_.write("stopped/notes.partial", "a user's own");
   request_.resume = true;
   EXPECT_EQ(record({"coco"}).skipped, 1);
+  EXPECT_FALSE(std::filesystem::exists(request_.out / "dataset.yaml.0123456789abcdef.partial"));
+  EXPECT_TRUE(std::filesystem::exists(request_.out / "notes.partial"));
   EXPECT_EQ(root_files(), whole);
   EXPECT_EQ(check_dataset(request_.out).interrupted, "");
 }
