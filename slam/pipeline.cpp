@@ -7,6 +7,7 @@
 
 #include "core/util/error.h"
 #include "slam/calibration/stereo_calibration.h"
+#include "slam/camera/rectification.h"
 #include "slam/frame/measurements.h"
 #include "slam/tracking/keyframe_selector.h"
 
