@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/jobs/run_scenario.h"
 
-#include <utility>
-
 #include "core/util/error.h"
 #include "harness/datasets/dataset_writer.h"
 #include "harness/datasets/files/dataset_folder.h"
@@ -11,8 +9,8 @@
 #include "harness/jobs/simulation_versions.h"
 #include "harness/report/run_folder.h"
 #include "harness/run/prefetch.h"
-#include "harness/run/system_failure.h"
 #include "harness/systems/external_slam.h"
+#include "harness/systems/failed_system.h"
 #include "harness/systems/plugin_slam.h"
 #include "harness/systems/process_group.h"
 #include "sim/world/world_layout.h"
@@ -25,19 +23,6 @@ void expect_no_maps(const MapFiles& maps) {
     fail("--load-map, --save-map and --save-cloud require the built-in SLAM core");
   }
 }
-
-/// A system that failed while it was made: so says its first frame, and the run has a verdict.
-class FailedSystem : public SlamSystem {
- public:
-  explicit FailedSystem(SystemFailure failure) : failure_(std::move(failure)) {}
-  Estimate process(const Frame&) override { throw SystemFailure(failure_); }
-  SlamSummary finish() override { throw SystemFailure(failure_); }
-  const StageTimes& times() const override { return times_; }
-
- private:
-  SystemFailure failure_;
-  StageTimes times_;
-};
 
 std::unique_ptr<SlamSystem> made_system(const SystemMaker& make, const SystemSetup& setup) {
   try {

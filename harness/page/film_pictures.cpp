@@ -23,8 +23,10 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 struct Picture {
-  Json entry;       ///< of the index
-  std::string jpg;  ///< base64
+  Json entry;            ///< of the index
+  std::size_t size = 0;  ///< bytes in base64
+  fs::path file{};
+  std::string jpg{};  ///< base64, of a picture without a file
 };
 
 bool is_file(const fs::path& file) {
@@ -37,8 +39,12 @@ Picture picture_of(const Json& entry, const fs::path& index) {
   if (!entry.is_object() || !entry.contains("frame") || !entry["frame"].is_number_integer()) {
     fail("{}: expected the index of a film, found a picture without frame", index.string());
   }
-  const std::string name = fmt::format("{:06}.jpg", entry["frame"].get<std::int64_t>());
-  return {entry, base64(read_file(index.parent_path() / name, FileKind::kImage))};
+  const fs::path file =
+      index.parent_path() / fmt::format("{:06}.jpg", entry["frame"].get<std::int64_t>());
+  std::error_code error;
+  const auto bytes = fs::file_size(file, error);
+  if (error) fail("{}: {}", file.string(), error.message());
+  return {entry, (bytes + 2) / 3 * 4, file};
 }
 
 /// Of the film that the run has kept.
@@ -98,16 +104,16 @@ std::vector<Picture> film_of_frames(const fs::path& run, Json& layout) {
       if (bgr.empty()) fail("{}: damaged", file.string());
       cv::cvtColor(bgr, images.back(), cv::COLOR_BGR2RGB);
     }
-    const std::vector<std::uint8_t> jpg = film.picture(images);
-    pictures.push_back(
-        {{{"frame", frame}}, base64({reinterpret_cast<const char*>(jpg.data()), jpg.size()})});
+    const std::vector<std::uint8_t> bytes = film.picture(images);
+    std::string jpg = base64({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    pictures.push_back({{{"frame", frame}}, jpg.size(), {}, std::move(jpg)});
   }
   return pictures;
 }
 
 std::size_t bytes_of_every(const std::vector<Picture>& pictures, std::size_t step) {
   std::size_t bytes = 0;
-  for (std::size_t i = 0; i < pictures.size(); i += step) bytes += pictures[i].jpg.size();
+  for (std::size_t i = 0; i < pictures.size(); i += step) bytes += pictures[i].size;
   return bytes;
 }
 
@@ -125,7 +131,8 @@ std::optional<FilmPictures> film_pictures(const fs::path& run, std::size_t budge
   film.index["pictures"] = film.pictures = Json::array();
   for (std::size_t i = 0; i < all.size(); i += step) {
     film.index["pictures"].push_back(all[i].entry);
-    film.pictures.push_back(all[i].jpg);
+    film.pictures.push_back(all[i].file.empty() ? all[i].jpg
+                                                : base64(read_file(all[i].file, FileKind::kImage)));
   }
   return film;
 }

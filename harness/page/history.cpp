@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "core/util/error.h"
 #include "core/util/percentile.h"
@@ -150,13 +151,13 @@ Json history_json(const fs::path& folder) {
   if (versions.empty()) {
     fail("{}: contains no folder; expected one for each version", folder.string());
   }
-  std::map<std::string, bool> scenarios;
+  std::set<std::string> scenarios;
   Json names = Json::array(), series = Json::array();
   for (const Version& version : versions) {
     names.push_back(version.name);
-    for (const auto& [scenario, medians] : version.medians) scenarios[scenario] = true;
+    for (const auto& [scenario, medians] : version.medians) scenarios.insert(scenario);
   }
-  for (const auto& [scenario, known] : scenarios) {
+  for (const std::string& scenario : scenarios) {
     for (std::size_t i = 0; i < known_metrics().size(); ++i) {
       series.push_back(series_json(versions, scenario, i));
     }

@@ -37,16 +37,10 @@ std::string text_if_there(const fs::path& file) {
   return is_there(file) ? read_file(file, FileKind::kTable) : "";
 }
 
-double rounded(double value, double step) {
-  return std::round(value / step) * step;
-}
-
 /// Four significant digits; null if it is no number.
 Json brief(double value) {
   if (!std::isfinite(value)) return nullptr;
-  if (value == 0) return 0;
-  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 3);
-  return std::stod(fmt::format("{:.4g}", rounded(value, unit)));
+  return std::stod(fmt::format("{:.4g}", value));
 }
 
 /// Four decimals: positions to 0.1 mm, quaternions to 1e-4, errors to 0.1 um.

@@ -11,6 +11,7 @@
 #include "core/config/yaml_writer.h"
 #include "core/files/files.h"
 #include "core/util/error.h"
+#include "harness/datasets/files/dataset_folder.h"
 #include "harness/datasets/files/json_file.h"
 #include "harness/judge/diagnosis.h"
 #include "harness/report/events.h"
@@ -33,11 +34,10 @@ void remove_files(const std::filesystem::path& folder, const std::regex& names) 
 
 /// Images and what a killed run has left unfinished.
 void remove_old_files(const std::filesystem::path& folder) {
-  static const std::regex unfinished(".*\\.[0-9a-f]{16}\\.partial");
   static const std::regex images("[0-9]{6,}_.*\\.png");
   static const std::regex film("[0-9]{6,}\\.jpg|film\\.json");
   for (const auto& inner : {folder, folder / "frames", folder / kFilmFolder}) {
-    remove_files(inner, unfinished);
+    remove_unfinished(inner);
   }
   remove_files(folder / "frames", images);
   remove_files(folder / kFilmFolder, film);

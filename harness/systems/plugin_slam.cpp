@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "harness/run/system_failure.h"
+#include "harness/systems/failed_system.h"
 #include "harness/systems/host/loaded_plugin.h"
 #include "harness/systems/plugin_process.h"
 
@@ -197,19 +198,6 @@ class PluginSlam : public SlamSystem {
   StageTimes times_;
 };
 
-/// A plug-in that failed while it was created: so says its first frame, and the run has a verdict.
-class FailedPlugin : public SlamSystem {
- public:
-  explicit FailedPlugin(SystemFailure failure) : failure_(std::move(failure)) {}
-  Estimate process(const Frame&) override { throw SystemFailure(failure_); }
-  SlamSummary finish() override { throw SystemFailure(failure_); }
-  const StageTimes& times() const override { return times_; }
-
- private:
-  SystemFailure failure_;
-  StageTimes times_;
-};
-
 std::unique_ptr<PluginLink> start_plugin(const PluginSlamConfig& config, const Setup& setup,
                                          const std::string& file,
                                          const PluginSurroundings& around) {
@@ -233,7 +221,7 @@ std::unique_ptr<SlamSystem> load_plugin_slam(const PluginSlamConfig& config, con
   try {
     plugin.link = start_plugin(config, *plugin.setup, file, around);
   } catch (const SystemFailure& failure) {
-    return std::make_unique<FailedPlugin>(failure);
+    return std::make_unique<FailedSystem>(failure);
   }
   return std::make_unique<PluginSlam>(file, std::move(plugin));
 }

@@ -196,7 +196,7 @@ function header(run: RunEntry, details: Details): HTMLElement {
               html("p", {class: "small"}, run.hash === "" ? null : "hash ",
                    run.hash === "" ? null : html("code", {}, run.hash),
                    ` ${run.folder}${run.version === "" ? "" : `, Vinebench ${run.version}`}` +
-                   (details.step > 1 ? `; every ${details.step}th frame is drawn` : "")));
+                   (details.step > 1 ? `; one frame of ${details.step} is drawn` : "")));
 }
 
 function controls(cursor: Cursor): HTMLElement {

@@ -13,9 +13,8 @@ namespace vinebench::sim {
 namespace {
 
 TEST(CultivarTest, ThoseThatAreShippedCanBeReadAndGrown) {
-  for (const char* name :
-       {"merlot", "cabernet-sauvignon", "chardonnay", "riesling", "sauvignon-blanc", "syrah",
-        "gewuerztraminer"}) {
+  for (const char* name : {"merlot", "cabernet-sauvignon", "chardonnay", "riesling",
+                           "sauvignon-blanc", "syrah", "gewuerztraminer"}) {
     const auto file =
         std::filesystem::path(VINEBENCH_SOURCE_DIR) / "cultivars" / (std::string(name) + ".yaml");
     PlantBrief asked = test::brief();
