@@ -69,7 +69,7 @@ void LandmarkFactors::add_landmark(const Landmark& landmark, const Map& map,
 double* LandmarkFactors::offset_of(std::size_t view, ProblemBuilder& problem) {
   double* offset = &offsets_[view];
   if (!offset_used_[view]) {
-    problem.add_block(offset, 1, ProblemBuilder::Group::kOthers);
+    problem.add_block(offset, 1, ProblemBuilder::Group::kOffsets);
     problem.hold(offset);
     offset_used_[view] = 1;
   }

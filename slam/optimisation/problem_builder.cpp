@@ -25,7 +25,7 @@ ProblemBuilder::ProblemBuilder(const Map& map, const AdjustmentWindow& window)
   const auto add = [&](int id) {
     pose_index_[static_cast<std::size_t>(id)] = poses_.size();
     poses_.push_back(to_block(map.keyframe(id).T_map_body));
-    add_pose(poses_.back().data());
+    add_pose(poses_.back().data(), Group::kPoses);
   };
   for (const int id : window_.moved) add(id);
   for (const int id : window_.fixed) {
@@ -47,9 +47,9 @@ void ProblemBuilder::add_block(double* block, int size, Group group) {
   ordering_.AddElementToGroup(block, static_cast<int>(group));
 }
 
-void ProblemBuilder::add_pose(double* block) {
+void ProblemBuilder::add_pose(double* block, Group group) {
   problem_.AddParameterBlock(block, 7, &manifold_);
-  ordering_.AddElementToGroup(block, static_cast<int>(Group::kOthers));
+  ordering_.AddElementToGroup(block, static_cast<int>(group));
 }
 
 void ProblemBuilder::add_factor(ceres::CostFunction& factor, ceres::LossFunction* loss,

@@ -17,8 +17,11 @@ namespace vinebench::slam {
 /// and must stay where they are until the builder is gone.
 class ProblemBuilder {
  public:
-  /// Which unknowns are eliminated first (Schur complement).
-  enum class Group { kLandmarks = 0, kOthers = 1 };
+  /// The order in which unknowns are eliminated (Schur complement); the first are landmarks. Ceres
+  /// orders those of a group by their addresses, so the blocks of a group must be parts of one
+  /// array: those of two would be ordered by what was allocated before, and the last bits with
+  /// them.
+  enum class Group { kLandmarks = 0, kPoses = 1, kTags = 2, kOffsets = 3 };
 
   ProblemBuilder(const Map& map, const AdjustmentWindow& window);
   ProblemBuilder(const ProblemBuilder&) = delete;
@@ -31,7 +34,7 @@ class ProblemBuilder {
 
   /// Adds unknowns: `size` numbers, or a pose as PoseManifold has it.
   void add_block(double* block, int size, Group group);
-  void add_pose(double* block);
+  void add_pose(double* block, Group group);
   void hold(double* block) { problem_.SetParameterBlockConstant(block); }
   void release(double* block) { problem_.SetParameterBlockVariable(block); }
 

@@ -25,7 +25,7 @@ void TagFactors::add_to(ProblemBuilder& problem, const Map& map) {
 double* TagFactors::block_of(const MapTag& tag, std::size_t index, ProblemBuilder& problem) {
   double* block = blocks_[index].data();
   if (!used_[index]) {
-    problem.add_pose(block);
+    problem.add_pose(block, ProblemBuilder::Group::kTags);
     if (tag.fixed || !tags_move_) problem.hold(block);
     used_[index] = 1;
   }
