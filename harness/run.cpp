@@ -57,6 +57,10 @@ RunCost cost_of(const FrameSource& source, const SlamSystem& slam, std::int64_t 
           .stages = stage_timings(times)};
 }
 
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 void expect_folder(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.parent_path();
   std::error_code error;
@@ -74,8 +78,14 @@ RunOutcome run_lockstep_and_judge(const Trial& trial, FrameSource& source, SlamS
   Sinks sinks(trial, source, options);
   std::vector<Sink*> all = sinks.list();
   all.insert(all.end(), options.sinks.begin(), options.sinks.end());
+  if (options.watcher != nullptr) {
+    options.watcher->begin({options.title, trial.site, source.rig(), source.size(),
+                            trial.box_share(), options.features});
+    all.push_back(options.watcher);
+  }
   run_lockstep(source, slam, all, options.stopped);
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - options.started;
+  const double wall = seconds_since(options.started) -
+                      (options.watcher != nullptr ? options.watcher->waited_seconds() : 0);
 
   const RunRecord& record = sinks.recorder.record();
   RunOutcome outcome;
@@ -95,7 +105,7 @@ RunOutcome run_lockstep_and_judge(const Trial& trial, FrameSource& source, SlamS
   sinks.hash.add(json_text(hashed_json(report)));
   report.hash = sinks.hash.digits();
   report.hash_environment = hash_environment(options.libraries);
-  report.cost = cost_of(source, slam, report.frames, wall.count());
+  report.cost = cost_of(source, slam, report.frames, wall);
   if (!options.folder.empty()) write_metrics(options.folder, report);
   return outcome;
 }

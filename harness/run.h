@@ -10,6 +10,7 @@
 
 #include "harness/judge/run_report.h"
 #include "harness/run/film.h"
+#include "harness/run/watcher.h"
 #include "slam/slam.h"
 
 namespace vinebench::harness {
@@ -32,6 +33,7 @@ struct RunOptions {
   std::string title = "run";         ///< of the progress line
   std::function<bool()> stopped;     ///< polled before each frame
   std::vector<Sink*> sinks;          ///< receive each tick after the run's own sinks
+  Watcher* watcher = nullptr;        ///< looks on, after all of these
   NamedValues libraries;             ///< that made the frames, and their versions
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
 };

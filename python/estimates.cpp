@@ -2,22 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "harness/report/tick_events.h"
 #include "python/systems.h"
 
 namespace vinebench::python {
 namespace {
-
-const char* name_of(TagRejection reason) {
-  switch (reason) {
-    case TagRejection::kAmbiguous:
-      return "ambiguous";
-    case TagRejection::kMisplaced:
-      return "misplaced";
-    case TagRejection::kDuplicate:
-      return "duplicate";
-  }
-  return "";
-}
 
 py::object rejection_of(const Estimate& estimate, const TagSighting& tag) {
   const auto same = [&](const RejectedTag& rejected) {
@@ -25,7 +14,7 @@ py::object rejection_of(const Estimate& estimate, const TagSighting& tag) {
   };
   const auto found = std::ranges::find_if(estimate.rejected_tags, same);
   if (found == estimate.rejected_tags.end()) return py::none();
-  return py::str(name_of(found->reason));
+  return py::str(harness::name_of(found->reason));
 }
 
 py::list tags_of(const Rig& rig, const Estimate& estimate) {

@@ -35,6 +35,12 @@ struct Trial {
     }
     return nullptr;
   }
+
+  /// From this share of its image on, a camera counts as occluded.
+  double box_share() const {
+    const Expectations::Blind* asked = blind();
+    return asked != nullptr ? asked->box_share : Expectations::Blind{}.box_share;
+  }
 };
 
 }  // namespace vinebench::harness

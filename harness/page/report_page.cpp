@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/util/error.h"
-#include "core/util/xml_text.h"
 #include "harness/comparison/comparison_report.h"
 #include "harness/page/film_pictures.h"
 #include "harness/page/history.h"
 #include "harness/page/packed.h"
+#include "harness/page/page_html.h"
 #include "harness/page/page_parts.h"
 #include "harness/page/run_details.h"
 #include "harness/report/run_folder.h"
@@ -209,15 +209,7 @@ std::string report_page(const ReportRequest& request) {
   const std::string films = films_text(runs, budget);
   report["runs"] = Json::array();
   for (const ShownRun& run : runs) report["runs"].push_back(run.entry);
-  return fmt::format(
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<title>{}</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{}</style>\n</head>\n"
-      "<body>\n<noscript>This report needs JavaScript.</noscript>\n<div id=\"app\"></div>\n"
-      "<script type=\"application/json\" id=\"report\">{}</script>\n{}{}<script>\n{}</script>\n"
-      "</body>\n</html>\n",
-      xml_escaped(report["title"].get<std::string>()), page_style(), script_text(report), details,
-      films, page_script());
+  return page_html(report["title"].get<std::string>(), report, details + films);
 }
 
 }  // namespace vinebench::harness

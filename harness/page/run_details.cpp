@@ -17,6 +17,7 @@
 #include "harness/datasets/files/text_table.h"
 #include "harness/judge/evaluation.h"
 #include "harness/page/landmark_cloud.h"
+#include "harness/page/page_numbers.h"
 #include "harness/report/run_folder.h"
 #include "harness/report/timeline.h"
 
@@ -35,17 +36,6 @@ bool is_there(const fs::path& file) {
 
 std::string text_if_there(const fs::path& file) {
   return is_there(file) ? read_file(file, FileKind::kTable) : "";
-}
-
-/// Four significant digits; null if it is no number.
-Json brief(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return std::stod(fmt::format("{:.4g}", value));
-}
-
-/// Four decimals: positions to 0.1 mm, quaternions to 1e-4, errors to 0.1 um.
-Json decimal(double value) {
-  return std::stod(fmt::format("{:.4f}", value));
 }
 
 std::map<Stamp, Pose> by_stamp(const Trajectory& trajectory) {
@@ -93,10 +83,7 @@ Json path_json(const std::vector<Stamp>& stamps, const std::map<Stamp, Pose>& po
   columns.fill(Json::array());
   for (const Stamp stamp : stamps) {
     const auto found = poses.find(stamp);
-    const Pose pose = found == poses.end() ? Pose() : found->second;
-    const Eigen::Vector3d& p = pose.translation;
-    const Eigen::Vector4d q = pose.rotation.coeffs();
-    const std::array<double, 7> values{p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()};
+    const auto values = pose_values(found == poses.end() ? Pose() : found->second);
     for (std::size_t i = 0; i < columns.size(); ++i) {
       columns.at(i).push_back(found == poses.end() ? Json() : decimal(values.at(i)));
     }
@@ -164,9 +151,7 @@ void add_timeline(const std::vector<TableRow>& rows, std::size_t cameras, const 
     for (std::size_t k = 0; k < c.size(); ++k) c.at(k) = value_of(row, kCovariance + k);
     Eigen::Matrix3d m;
     m << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
-    m = R * m * R.transpose();
-    covariance.push_back({brief(m(0, 0)), brief(m(0, 1)), brief(m(0, 2)), brief(m(1, 1)),
-                          brief(m(1, 2)), brief(m(2, 2))});
+    covariance.push_back(covariance_json(R, m));
   }
   details["status"] = status;
   details["keyframes"] = keyframes;

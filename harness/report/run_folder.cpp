@@ -77,15 +77,13 @@ FolderLock prepare_run_folder(const std::filesystem::path& folder, const std::st
 
 void write_run_files(const std::filesystem::path& folder, const Trial& trial,
                      const RunRecord& record, const RunReport& report) {
-  const Expectations::Blind* blind = trial.blind();
-  const double box_share = blind ? blind->box_share : Expectations::Blind{}.box_share;
   write_tum(true_trajectory(record), folder / "groundtruth.tum");
   write_tum(live_trajectory(record), folder / "estimate_live.tum");
   write_tum(record.summary.trajectory, folder / "estimate.tum");
   write_file_atomically(folder / "estimate_status.csv", format_statuses(record));
   write_tum(record.summary.keyframes, folder / "keyframes.tum");
   write_file_atomically(folder / "events.jsonl",
-                        format_events(record, report.results, report.diagnosis, box_share));
+                        format_events(record, report.results, report.diagnosis, trial.box_share()));
   write_file_atomically(folder / "summary.txt", format_diagnosis(record, report.diagnosis));
   write_file_atomically(folder / "plot.svg", plot_svg(trial, record, report.results));
   write_file_atomically(folder / kTimelineFile, format_timeline(record));

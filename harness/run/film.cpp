@@ -15,7 +15,39 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Of each cell x, y, x, y, ...
+Json features_json(const FilmLayout& layout, const std::vector<SupportingFeature>& features) {
+  Json cells = Json::array();
+  for (std::size_t i = 0; i < layout.cells().size(); ++i) cells.push_back(Json::array());
+  for (const SupportingFeature& feature : features) {
+    const auto camera = static_cast<std::size_t>(feature.camera);
+    const FilmLayout::Cell& cell = layout.cells().at(camera);
+    cells[camera].push_back(cell.in_cell(feature.pixel.x()));
+    cells[camera].push_back(cell.in_cell(feature.pixel.y()));
+  }
+  return cells;
+}
+
+Json tags_json(const FilmLayout& layout, const std::vector<TagSighting>& sightings) {
+  Json tags = Json::array();
+  for (const TagSighting& tag : sightings) {
+    const FilmLayout::Cell& cell = layout.cells().at(static_cast<std::size_t>(tag.camera));
+    Json corners = Json::array();
+    for (const Eigen::Vector2d& corner : tag.corners) {
+      corners.push_back(cell.in_cell(corner.x()));
+      corners.push_back(cell.in_cell(corner.y()));
+    }
+    tags.push_back({{"camera", tag.camera}, {"id", tag.id}, {"corners", corners}});
+  }
+  return tags;
+}
+
 }  // namespace
+
+Json seen_json(const FilmLayout& layout, const std::vector<SupportingFeature>& features,
+               const std::vector<TagSighting>& tags) {
+  return {{"features", features_json(layout, features)}, {"tags", tags_json(layout, tags)}};
+}
 
 FilmLayout film_layout(const Rig& rig) {
   std::vector<FilmLayout::Camera> cameras;
@@ -39,42 +71,16 @@ void Film::on_tick(const Sample& sample, const Estimate& estimate) {
   const std::vector<std::uint8_t> bytes = layout_.picture(sample.frame.images);
   write_file_atomically(folder_ / fmt::format("{:06}.jpg", index),
                         {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  pictures_.push_back(
-      {{"frame", index}, {"features", features_json()}, {"tags", tags_json(estimate)}});
+  Json picture{{"frame", index}};
+  picture.update(seen_json(layout_, features_ ? features_() : std::vector<SupportingFeature>(),
+                           estimate.tags));
+  pictures_.push_back(std::move(picture));
 }
 
 void Film::on_finish(const SlamSummary&) {
   Json index = layout_.json();
   index["pictures"] = pictures_;
   write_file_atomically(folder_ / kFilmIndex, json_text(index) + "\n");
-}
-
-/// Of each camera x, y, x, y, ... in pixels of its cell.
-Json Film::features_json() const {
-  Json cameras = Json::array();
-  for (std::size_t i = 0; i < layout_.cells().size(); ++i) cameras.push_back(Json::array());
-  if (!features_) return cameras;
-  for (const SupportingFeature& feature : features_()) {
-    const auto camera = static_cast<std::size_t>(feature.camera);
-    const FilmLayout::Cell& cell = layout_.cells().at(camera);
-    cameras[camera].push_back(cell.in_cell(feature.pixel.x()));
-    cameras[camera].push_back(cell.in_cell(feature.pixel.y()));
-  }
-  return cameras;
-}
-
-Json Film::tags_json(const Estimate& estimate) const {
-  Json tags = Json::array();
-  for (const TagSighting& tag : estimate.tags) {
-    const FilmLayout::Cell& cell = layout_.cells().at(static_cast<std::size_t>(tag.camera));
-    Json corners = Json::array();
-    for (const Eigen::Vector2d& corner : tag.corners) {
-      corners.push_back(cell.in_cell(corner.x()));
-      corners.push_back(cell.in_cell(corner.y()));
-    }
-    tags.push_back({{"camera", tag.camera}, {"id", tag.id}, {"corners", corners}});
-  }
-  return tags;
 }
 
 }  // namespace vinebench::harness

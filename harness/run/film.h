@@ -31,9 +31,6 @@ class Film : public Sink {
   void on_finish(const SlamSummary& summary) override;
 
  private:
-  nlohmann::ordered_json features_json() const;
-  nlohmann::ordered_json tags_json(const Estimate& estimate) const;
-
   std::filesystem::path folder_;
   std::int64_t every_;
   Features features_;
@@ -43,5 +40,11 @@ class Film : public Sink {
 
 /// How the film of a rig is laid out.
 FilmLayout film_layout(const Rig& rig);
+
+/// What a SLAM system saw in a picture, by the indices of its cells and in their pixels:
+/// `features`, of each cell x, y, x, y, ...; `tags` with `camera`, `id` and `corners`.
+nlohmann::ordered_json seen_json(const FilmLayout& layout,
+                                 const std::vector<SupportingFeature>& features,
+                                 const std::vector<TagSighting>& tags);
 
 }  // namespace vinebench::harness

@@ -29,7 +29,8 @@ class FilmLayout {
     double in_cell(double pixel) const;
   };
 
-  explicit FilmLayout(const std::vector<Camera>& cameras);
+  /// `height` of all cells, px.
+  explicit FilmLayout(const std::vector<Camera>& cameras, int height = kHeight);
   const std::vector<Cell>& cells() const { return cells_; }
 
   /// JPEG of the images (RGB or grey, of any size), black for an empty one.
@@ -40,7 +41,7 @@ class FilmLayout {
 
  private:
   std::vector<Cell> cells_;
-  int width_ = 0;
+  int width_ = 0, height_;
 };
 
 }  // namespace vinebench::harness

@@ -17,85 +17,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import time
 
-try:
-    from selenium import webdriver
-    from selenium.webdriver.chrome.service import Service
-    from selenium.webdriver.common.by import By
-    from selenium.webdriver.common.keys import Keys
-except ImportError:
-    print("report_test.py: skipped, no Selenium")
-    sys.exit(77)
-
-BROWSER = shutil.which("chromium")
-DRIVER = shutil.which("chromedriver")
-SIZES = [(1440, 1000), (1024, 768), (400, 800)]
-
-
-def check(condition, text):
-    if not condition:
-        raise SystemExit(f"report_test.py: {text}")
-
-
-class Page:
-    """A page in a browser of its own."""
-
-    def __init__(self, file, size, dark=False):
-        options = webdriver.ChromeOptions()
-        options.binary_location = BROWSER
-        for argument in [
-            "--headless=new",
-            "--no-sandbox",
-            "--disable-gpu",
-            "--enable-unsafe-swiftshader",
-            "--disable-quic",
-            "--no-first-run",
-            "--disable-background-networking",
-            "--disable-component-update",
-            "--disable-sync",
-            f"--window-size={size[0]},{size[1]}",
-        ]:
-            options.add_argument(argument)
-        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-        self.driver = webdriver.Chrome(service=Service(DRIVER), options=options)
-        if dark:
-            self.driver.execute_cdp_cmd(
-                "Emulation.setEmulatedMedia",
-                {"features": [{"name": "prefers-color-scheme", "value": "dark"}]},
-            )
-        self.driver.get(file.as_uri())
-        self.wait("document.body.dataset.ready !== undefined")
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, kind, value, trace):
-        self.driver.quit()
-
-    def run(self, script):
-        return self.driver.execute_script(script)
-
-    def wait(self, condition, seconds=30):
-        end = time.monotonic() + seconds
-        while not self.run(f"return Boolean({condition})"):
-            check(time.monotonic() < end, f"never came true: {condition}")
-            time.sleep(0.05)
-
-    def find(self, selector):
-        return self.driver.find_elements(By.CSS_SELECTOR, selector)
-
-    def check_quiet(self, file):
-        """No error in the console, and no request but for the file itself."""
-        for entry in self.driver.get_log("browser"):
-            check(entry["level"] != "SEVERE", f"console: {entry['message']}")
-        for entry in self.driver.get_log("performance"):
-            message = json.loads(entry["message"])["message"]
-            if message["method"] != "Network.requestWillBeSent":
-                continue
-            url = message["params"]["request"]["url"]
-            local = url == file.as_uri() or url.startswith(("data:", "blob:", file.as_uri() + "#"))
-            check(local, f"request to {url}")
+from browser import SIZES, By, Keys, Page, check, webdriver
 
 
 def check_run_page(page, charts):
@@ -170,11 +93,11 @@ def check_tables(page):
 def check_pages(folder, passed, failed, history):
     for size in SIZES:
         for file, verdict in [(passed, "PASSED"), (failed, "FAILED")]:
-            with Page(file, size, dark=size == SIZES[1]) as page:
+            with Page(file.as_uri(), size, dark=size == SIZES[1]) as page:
                 check(verdict in page.find(".result")[0].text, f"no {verdict}")
                 check_run_page(page, 5)
-                page.check_quiet(file)
-    with Page(folder / "report.html", SIZES[0]) as page:
+                page.check_quiet(file.as_uri())
+    with Page((folder / "report.html").as_uri(), SIZES[0]) as page:
         check("1 failed" in page.find(".result")[0].text, "the set's verdict")
         first = page.find("table.runs tbody tr")[0]
         check("FAILED" in first.text, "failures are not first")
@@ -184,10 +107,10 @@ def check_pages(folder, passed, failed, history):
         check("FAILED" in page.find(".result")[0].text, "another run was opened")
         page.driver.back()
         page.wait("document.querySelector('main.set') !== null")
-        page.check_quiet(folder / "report.html")
-    with Page(history, SIZES[0]) as page:
+        page.check_quiet((folder / "report.html").as_uri())
+    with Page(history.as_uri(), SIZES[0]) as page:
         check("left their bands" in page.find(".alarm")[0].text, "no alarm")
-        page.check_quiet(history)
+        page.check_quiet(history.as_uri())
 
 
 def expect_error(vinebench, arguments, *words):
@@ -230,9 +153,6 @@ def make_history(vinebench, folder, run):
 
 
 def main():
-    if BROWSER is None or DRIVER is None:
-        print("report_test.py: skipped, no Chromium or no driver")
-        return 77
     vinebench, root = sys.argv[1], pathlib.Path(sys.argv[2])
     with tempfile.TemporaryDirectory(prefix="vinebench-report-") as name:
         folder = pathlib.Path(name)

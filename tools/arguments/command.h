@@ -43,6 +43,7 @@ struct Option {
   std::vector<std::string> choices{};
   Existing existing = Existing::kAnything;
   std::string excludes{};                   ///< the option that must not stand beside this one
+  std::string if_bare{};                    ///< its value where it stands alone
   std::optional<harness::DataKind> data{};  ///< it is a file of this kind, or the name of one
 };
 

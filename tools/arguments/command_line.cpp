@@ -71,6 +71,7 @@ CLI::Option& add_option(CLI::App& app, const Option& option) {
   }
   if (!option.type.empty()) parser->type_name(option.type);
   if (option.show_default) parser->capture_default_str();
+  if (!option.if_bare.empty()) parser->expected(0, 1)->default_str(option.if_bare);
   parser->required(option.required);
   return *parser;
 }

@@ -8,7 +8,7 @@
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/interactive.h"
-#include "tools/commands/report/open_page.h"
+#include "tools/commands/report/run_page.h"
 
 namespace vinebench::tools {
 namespace {
@@ -23,8 +23,7 @@ struct ReplayArguments {
   std::vector<std::string> overrides;
   harness::MapFiles maps;
   int threads = default_threads();
-  bool report = false;
-  double report_megabytes = 20;
+  PageArguments page;
   bool untrusted = false;  // nothing of a recording is executed anyway
 };
 
@@ -40,20 +39,18 @@ int replay(const ReplayArguments& arguments) {
                                                              : std::filesystem::path(arguments.out);
   const FolderLock lock = harness::prepare_replay_folder(folder, slam);
   catch_interrupts();
+  RunPage page(arguments.page, interrupted);
   harness::RunOptions options = interactive_options(name);
   options.folder = folder;
   options.maps = arguments.maps;
-  options.film = arguments.report;
+  page.join(options);
   const harness::RunOutcome outcome =
       harness::run_replay(std::move(recording), slam, arguments.threads, options);
   if (outcome.interrupted) return report_interruption(outcome, folder);
   fmt::print("\n{} ({}): {} frames in {:.0f} s, hash {}\n{}results: {}\n", name, format,
              outcome.report.frames, outcome.report.cost.wall_seconds, outcome.report.hash,
              harness::format_replay(outcome.report), std::filesystem::absolute(folder).string());
-  if (arguments.report) {
-    write_report(folder / kReportFile,
-                 {{folder}, {}, static_cast<std::size_t>(1e6 * arguments.report_megabytes)});
-  }
+  page.finish(folder, "replayed");
   return 0;
 }
 
@@ -92,15 +89,12 @@ Command replay_command(const Surroundings&) {
                   overrides_option(arguments->overrides,
                                    "Set a key of the settings, e.g. slam.cameras=front"),
                   threads_option(arguments->threads),
-                  {.name = "--report",
-                   .target = &arguments->report,
-                   .help = "Keep small pictures of every camera, and make a page of the run: "
-                           "report.html in the folder of the results"},
-                  report_size_option(arguments->report_megabytes),
                   {.name = "--untrusted",
                    .target = &arguments->untrusted,
                    .help = "Changes nothing: a replay executes nothing and loads no code"}},
       .run = [arguments] { return replay(*arguments); }};
+  append(command.options, report_options(arguments->page));
+  append(command.options, view_options(arguments->page));
   append(command.options, map_options(arguments->maps));
   return command;
 }

@@ -15,7 +15,7 @@
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/interactive.h"
-#include "tools/commands/report/open_page.h"
+#include "tools/commands/report/run_page.h"
 #include "tools/commands/run_many.h"
 
 namespace vinebench::tools {
@@ -35,8 +35,7 @@ struct RunArguments {
   std::vector<std::string> overrides;
   int threads = default_threads();
   bool verify_determinism = false;
-  bool report = false;
-  double report_megabytes = 20;
+  PageArguments page;
   harness::MapFiles maps;
   std::filesystem::path cache;
   harness::Machine machine;
@@ -64,10 +63,6 @@ std::vector<harness::ScenarioConfig> scenarios_of(const RunArguments& arguments)
     if (arguments.seed) scenarios.back().seed = *arguments.seed;
   }
   return scenarios;
-}
-
-std::size_t report_bytes(const RunArguments& arguments) {
-  return static_cast<std::size_t>(1e6 * arguments.report_megabytes);
 }
 
 std::optional<harness::RunRecording> recording_of(const RunArguments& arguments) {
@@ -121,7 +116,8 @@ int run_set(const RunArguments& arguments) {
        {std::pair("--record", !arguments.record.empty()),
         std::pair("--verify-determinism", arguments.verify_determinism),
         std::pair("--load-map", !maps.load.empty()), std::pair("--save-map", !maps.save.empty()),
-        std::pair("--save-cloud", !maps.cloud.empty())}) {
+        std::pair("--save-cloud", !maps.cloud.empty()),
+        std::pair("--view", arguments.page.view.has_value())}) {
     if (given) fail("{}: is for one scenario without --seeds and --repeats", option);
   }
   return run_many({.scenarios = scenarios_of(arguments),
@@ -134,8 +130,8 @@ int run_set(const RunArguments& arguments) {
                    .threads = arguments.threads,
                    .repeats = arguments.repeats,
                    .force = arguments.force,
-                   .report = arguments.report,
-                   .report_bytes = report_bytes(arguments)});
+                   .report = arguments.page.report,
+                   .report_bytes = arguments.page.bytes()});
 }
 
 int run_one(const RunArguments& arguments) {
@@ -145,15 +141,16 @@ int run_one(const RunArguments& arguments) {
                                            : std::filesystem::path(arguments.out);
   const FolderLock lock = harness::prepare_scenario_folder(folder, scenario);
   catch_interrupts();
+  RunPage page(arguments.page, interrupted);
   harness::RunOptions options = interactive_options(scenario.name);
   options.folder = folder;
   options.maps = arguments.maps;
-  options.film = arguments.report;
+  page.join(options);
   const harness::RunOutcome outcome = harness::run_scenario(
       scenario, arguments.machine, arguments.threads, options, recording_of(arguments));
   if (outcome.interrupted) return report_interruption(outcome, folder);
   print_verdict(scenario, outcome, folder);
-  if (arguments.report) write_report(folder / kReportFile, {{folder}, {}, report_bytes(arguments)});
+  page.finish(folder, harness::verdict_of(outcome.report.checks));
   std::fflush(stdout);
   const int repeated =
       arguments.verify_determinism ? verify_determinism(scenario, arguments, outcome.report) : 0;
@@ -192,11 +189,6 @@ std::vector<Option> run_options(RunArguments& arguments) {
           overrides_option(arguments.overrides,
                            "Set a key of the scenario, e.g. world.sun.elevation_deg=20"),
           threads_option(arguments.threads),
-          {.name = "--report",
-           .target = &arguments.report,
-           .help = "Keep small pictures of every camera, and make a page of the run or the set: "
-                   "report.html in the folder of the results"},
-          report_size_option(arguments.report_megabytes),
           cache_option(arguments.cache),
           untrusted_option(arguments.untrusted)};
 }
@@ -253,6 +245,8 @@ Command run_command(const Surroundings& surroundings) {
                       "not (or the SLAM system fails, or two runs differ), 2 for bad input, 130 "
                       "when interrupted.",
                   .run = [arguments] { return tools::run(*arguments); }};
+  append(command.options, report_options(arguments->page));
+  append(command.options, view_options(arguments->page));
   append(command.options, set_options(*arguments));
   append(command.options, single_run_options(*arguments));
   append(command.options, map_options(arguments->maps));

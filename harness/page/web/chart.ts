@@ -62,25 +62,33 @@ function pathOf(values: Values, x: (i: number) => number, y: (v: number) => numb
   return text;
 }
 
+/** Where an instant is in a drawing, in its units. */
+function across(cursor: Cursor, time: number): number {
+  return kWidth * (time - cursor.begin) / cursor.span;
+}
+
 /** The part of every chart that follows the cursor, and moves it. */
 function cursorArea(cursor: Cursor, drawing: SVGElement, label: string,
                     text: (index: number) => string): HTMLElement {
   const times = cursor.times;
   const mark = html("div", {class: "mark"});
-  const area = html("div", {class: "area", tabindex: 0, role: "slider", "aria-label": label,
-                            "aria-valuemin": times[0],
-                            "aria-valuemax": times[times.length - 1]}, drawing as unknown as Node,
-                    mark);
-  const span = Math.max(1e-9, times[times.length - 1] - times[0]);
-  cursor.listen((index) => {
-    mark.style.left = `${100 * (times[index] - times[0]) / span}%`;
+  const area = html("div", {class: "area", tabindex: 0, role: "slider", "aria-label": label},
+                    drawing as unknown as Node, mark);
+  const show = (index: number) => {
+    mark.style.left = `${100 * (times[index] - times[0]) / cursor.span}%`;
     area.setAttribute("aria-valuenow", times[index].toFixed(3));
     area.setAttribute("aria-valuetext", `${times[index].toFixed(2)} s: ${text(index)}`);
+  };
+  cursor.listen(show);
+  cursor.draw(() => {
+    area.setAttribute("aria-valuemin", `${times[0]}`);
+    area.setAttribute("aria-valuemax", `${times[times.length - 1]}`);
+    show(cursor.index);
   });
   const pick = (event: PointerEvent) => {
     const box = area.getBoundingClientRect();
     cursor.stop();
-    cursor.moveTo(times[0] + span * (event.clientX - box.left) / box.width);
+    cursor.moveTo(times[0] + cursor.span * (event.clientX - box.left) / box.width);
   };
   area.addEventListener("pointerdown", (event) => {
     area.setPointerCapture(event.pointerId);
@@ -92,59 +100,72 @@ function cursorArea(cursor: Cursor, drawing: SVGElement, label: string,
   return area;
 }
 
-function tableOf(title: string, times: number[], lines: Line[], decimals: number): HTMLElement {
-  return openedTable(`Table: ${title}`, ["t, s", ...lines.map((line) => line.name)], () => {
-    const rows: string[][] = [];
+function tableOf(title: string, times: number[], lines: () => Line[],
+                 decimals: number): HTMLElement {
+  return openedTable(`Table: ${title}`, () => ["t, s", ...lines().map((line) => line.name)], () => {
+    const rows: string[][] = [], columns = lines();
     const step = Math.max(1, Math.ceil(times.length / kTableRows));
     for (let i = 0; i < times.length; i += step) {
-      rows.push([times[i].toFixed(2), ...lines.map((line) => fixed(line.values[i], decimals))]);
+      rows.push([times[i].toFixed(2), ...columns.map((line) => fixed(line.values[i], decimals))]);
     }
     return rows;
   });
 }
 
-/** Lines over time, from 0 up. */
-export function chart(cursor: Cursor, title: string, unit: string, lines: Line[], decimals: number,
-                      spans: Span[] = []): HTMLElement {
-  const times = cursor.times, top = topOf(lines);
-  const span = Math.max(1e-9, times[times.length - 1] - times[0]);
-  const x = (i: number) => kWidth * (times[i] - times[0]) / span;
-  const y = (value: number) => kHeight * (1 - value / top);
-  const drawing = svg("svg", {viewBox: `0 0 ${kWidth} ${kHeight}`, preserveAspectRatio: "none",
-                              "aria-hidden": "true"});
+function drawSpans(cursor: Cursor, drawing: SVGElement, spans: Span[], least: number, y: number,
+                   height: number): void {
   for (const s of spans) {
-    const left = kWidth * (s.from - times[0]) / span, right = kWidth * (s.until - times[0]) / span;
-    drawing.append(svg("rect", {x: left, width: Math.max(2, right - left), y: 0, height: kHeight,
+    const left = across(cursor, s.from), right = across(cursor, s.until);
+    drawing.append(svg("rect", {x: left, width: Math.max(least, right - left), y, height,
                                 class: s.className}, svg("title", {}, s.title)));
   }
+}
+
+/** Lines over time, from 0 up. */
+export function chart(cursor: Cursor, title: string, unit: string, linesOf: () => Line[],
+                      decimals: number, spansOf: () => Span[] = () => []): HTMLElement {
+  const drawing = svg("svg", {viewBox: `0 0 ${kWidth} ${kHeight}`, preserveAspectRatio: "none",
+                              "aria-hidden": "true"});
   const scale = html("div", {class: "scale", "aria-hidden": "true"});
-  const step = niceStep(top);
-  for (let value = 0; value <= top * 1.001; value += step) {
-    drawing.append(svg("line", {x1: 0, x2: kWidth, y1: y(value), y2: y(value), class: "grid"}));
-    const label = html("span", {}, String(Number(value.toPrecision(3))));
-    label.style.top = `${y(value)}%`;
-    scale.append(label);
-  }
   const legend = html("span", {class: "legend"});
-  const readings: HTMLElement[] = [];
-  for (const line of lines) {
-    const path = svg("path", {d: pathOf(line.values, x, y), class: "line"});
-    path.style.stroke = line.colour;
-    drawing.append(path);
-    const key = html("i", {});
-    key.style.background = line.colour;
-    readings.push(html("b", {}));
-    legend.append(html("span", {}, key, `${line.name} `, readings[readings.length - 1]));
-  }
+  let lines: Line[] = [], readings: HTMLElement[] = [];
+  const read = (index: number) => readings.forEach((reading, i) => {
+    reading.textContent = fixed(lines[i].values[index], decimals);
+  });
+  cursor.draw(() => {
+    lines = linesOf();
+    const top = topOf(lines), step = niceStep(top);
+    const y = (value: number) => kHeight * (1 - value / top);
+    drawing.replaceChildren();
+    scale.replaceChildren();
+    drawSpans(cursor, drawing, spansOf(), 2, 0, kHeight);
+    for (let value = 0; value <= top * 1.001; value += step) {
+      drawing.append(svg("line", {x1: 0, x2: kWidth, y1: y(value), y2: y(value), class: "grid"}));
+      const label = html("span", {}, String(Number(value.toPrecision(3))));
+      label.style.top = `${y(value)}%`;
+      scale.append(label);
+    }
+    for (const line of lines) {
+      const d = pathOf(line.values, (i) => across(cursor, cursor.times[i]), y);
+      const path = svg("path", {d, class: "line"});
+      path.style.stroke = line.colour;
+      drawing.append(path);
+    }
+    readings = lines.map(() => html("b", {}));
+    legend.replaceChildren(...lines.map((line, i) => {
+      const key = html("i", {});
+      key.style.background = line.colour;
+      return html("span", {}, key, `${line.name} `, readings[i]);
+    }));
+    read(cursor.index);
+  });
+  cursor.listen(read);
   const text = (index: number) =>
       lines.map((line) => `${line.name} ${fixed(line.values[index], decimals)} ${unit}`).join(", ");
-  cursor.listen((index) => readings.forEach((reading, i) => {
-    reading.textContent = fixed(lines[i].values[index], decimals);
-  }));
   return html("figure", {class: "chart"},
               html("figcaption", {}, html("strong", {}, `${title}, ${unit}`), legend),
               html("div", {class: "plot"}, scale, cursorArea(cursor, drawing, title, text)),
-              tableOf(title, times, lines, decimals));
+              tableOf(title, cursor.times, linesOf, decimals));
 }
 
 export interface Lane {
@@ -153,55 +174,55 @@ export interface Lane {
 }
 
 /** Rows of what lasts for a while. */
-export function lanes(cursor: Cursor, title: string, list: Lane[]): HTMLElement {
-  const times = cursor.times;
-  const span = Math.max(1e-9, times[times.length - 1] - times[0]);
+export function lanes(cursor: Cursor, title: string, lanesOf: () => Lane[]): HTMLElement {
   const kLane = 20;
-  const height = kLane * list.length;
-  const drawing = svg("svg", {viewBox: `0 0 ${kWidth} ${height}`, preserveAspectRatio: "none",
-                              "aria-hidden": "true"});
+  const drawing = svg("svg", {preserveAspectRatio: "none", "aria-hidden": "true"});
   const scale = html("div", {class: "scale names", "aria-hidden": "true"});
-  list.forEach((lane, row) => {
-    const label = html("span", {title: lane.name}, lane.name);
-    label.style.top = `${100 * (row + 0.5) / list.length}%`;
-    scale.append(label);
-    for (const s of lane.spans) {
-      const left = kWidth * (s.from - times[0]) / span;
-      const right = kWidth * (s.until - times[0]) / span;
-      drawing.append(svg("rect", {x: left, width: Math.max(3, right - left), y: kLane * row + 3,
-                                  height: kLane - 6, class: s.className},
-                         svg("title", {}, s.title)));
-    }
-  });
+  const reading = html("span", {class: "legend"});
+  let list: Lane[] = [];
   const present = (index: number) => {
+    const time = cursor.times[index];
     const words = list.flatMap((lane) => lane.spans
-        .filter((s) => s.from <= times[index] && times[index] <= s.until).map((s) => s.title));
+        .filter((s) => s.from <= time && time <= s.until).map((s) => s.title));
     return words.length > 0 ? words.join(", ") : "nothing";
   };
-  const reading = html("span", {class: "legend"});
+  const area = cursorArea(cursor, drawing, title, present);
+  cursor.draw(() => {
+    list = lanesOf();
+    drawing.setAttribute("viewBox", `0 0 ${kWidth} ${kLane * list.length}`);
+    area.style.height = `${kLane * list.length}px`;
+    drawing.replaceChildren();
+    scale.replaceChildren();
+    list.forEach((lane, row) => {
+      const label = html("span", {title: lane.name}, lane.name);
+      label.style.top = `${100 * (row + 0.5) / list.length}%`;
+      scale.append(label);
+      drawSpans(cursor, drawing, lane.spans, 3, kLane * row + 3, kLane - 6);
+    });
+    reading.textContent = present(cursor.index);
+  });
   cursor.listen((index) => {
     reading.textContent = present(index);
   });
-  const area = cursorArea(cursor, drawing, title, present);
-  area.style.height = `${height}px`;
   return html("figure", {class: "chart"},
               html("figcaption", {}, html("strong", {}, title), reading),
               html("div", {class: "plot"}, scale, area),
-              openedTable(`Table: ${title}`, ["from, s", "until, s", "what"], () =>
-                  list.flatMap((lane) => lane.spans.map((s) =>
+              openedTable(`Table: ${title}`, () => ["from, s", "until, s", "what"], () =>
+                  lanesOf().flatMap((lane) => lane.spans.map((s) =>
                       [s.from.toFixed(2), s.until.toFixed(2), s.title]))));
 }
 
 /** The axis below all charts. */
 export function timeAxis(cursor: Cursor): HTMLElement {
-  const times = cursor.times;
-  const span = Math.max(1e-9, times[times.length - 1] - times[0]);
   const axis = html("div", {class: "time", "aria-hidden": "true"});
-  const step = niceStep(span * 0.6);
-  for (let t = Math.ceil(times[0] / step) * step; t <= times[times.length - 1]; t += step) {
-    const label = html("span", {}, `${Number(t.toPrecision(6))} s`);
-    label.style.left = `${100 * (t - times[0]) / span}%`;
-    axis.append(label);
-  }
+  cursor.draw(() => {
+    axis.replaceChildren();
+    const step = niceStep(cursor.span * 0.6);
+    for (let t = Math.ceil(cursor.begin / step) * step; t <= cursor.begin + cursor.span; t += step) {
+      const label = html("span", {}, `${Number(t.toPrecision(6))} s`);
+      label.style.left = `${100 * (t - cursor.begin) / cursor.span}%`;
+      axis.append(label);
+    }
+  });
   return html("div", {class: "plot"}, html("div", {class: "scale"}), axis);
 }

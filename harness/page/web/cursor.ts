@@ -5,13 +5,15 @@
 export class Cursor {
   private at = 0;
   private listeners: ((index: number) => void)[] = [];
+  private growers: (() => void)[] = [];
   private timer = 0;
   private playing = false;
   speed = 1;
   onPlay: (playing: boolean) => void = () => {};
 
-  /** `times` in s, ascending; at least one. */
-  constructor(readonly times: number[]) {}
+  /** `times` in s, ascending; at least one. More may be added while a run goes on, which is
+      expected to end at `end`, s. */
+  constructor(readonly times: number[], private readonly end = -Infinity) {}
 
   get index(): number {
     return this.at;
@@ -19,10 +21,36 @@ export class Cursor {
   get time(): number {
     return this.times[this.at];
   }
+  get begin(): number {
+    return this.times[0];
+  }
+  /** Length of the axis of time, s. */
+  get span(): number {
+    return Math.max(1e-9, this.end - this.begin, this.times[this.times.length - 1] - this.begin);
+  }
+  get growing(): boolean {
+    return this.end > -Infinity;
+  }
 
   listen(listener: (index: number) => void): void {
     this.listeners.push(listener);
     listener(this.at);
+  }
+
+  /** Draws now, and again whenever the run has grown. */
+  draw(draw: () => void): void {
+    this.growers.push(draw);
+    draw();
+  }
+
+  /** To be called after frames were added. */
+  grow(): void {
+    for (const draw of this.growers) draw();
+  }
+
+  /** Tells all parts where it is once more. */
+  refresh(): void {
+    for (const listener of this.listeners) listener(this.at);
   }
 
   move(index: number): void {

@@ -27,11 +27,12 @@ export function svg(tag: string, attributes: Attributes = {}, ...children: Child
   return element;
 }
 
-/** A table that is made when it is opened. */
-export function openedTable(title: string, header: string[], rows: () => string[][]): HTMLElement {
-  const details = html("details", {class: "data"}, html("summary", {}, title));
+/** A table that is made anew whenever it is opened. */
+export function openedTable(title: string, header: () => string[],
+                            rows: () => string[][]): HTMLElement {
+  const summary = html("summary", {}, title), details = html("details", {class: "data"}, summary);
   details.addEventListener("toggle", () => {
-    if (details.open && details.children.length === 1) details.append(table(title, header, rows()));
+    if (details.open) details.replaceChildren(summary, table(title, header(), rows()));
   });
   return details;
 }

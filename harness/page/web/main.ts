@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import {readDetails, readPictures, readReport} from "./data";
 import {html} from "./dom";
-import {RunView} from "./run_view";
+import {LiveView} from "./live";
+import {RunView, verdict} from "./run_view";
 import {setView} from "./set_view";
 
 const report = readReport();
@@ -19,7 +20,7 @@ async function showRun(index: number): Promise<void> {
   const run = report.runs[index];
   const details = run === undefined ? null : await readDetails(index);
   if (run === undefined || details === null) return fail("This run is not in the report.");
-  shown = new RunView(run, details, await readPictures(index));
+  shown = new RunView(verdict(run, details), details, await readPictures(index));
   const back = html("nav", {}, html("a", {href: "#"}, "← all runs"));
   app.replaceChildren(...(alone ? [] : [back]), shown.element);
   window.scrollTo(0, 0);
@@ -44,9 +45,14 @@ async function route(): Promise<void> {
   document.body.dataset.ready = location.hash || "set";
 }
 
+if (report.live === true) new LiveView(app, (view) => {
+  shown = view;
+});
 document.addEventListener("keydown", (event) => shown?.key(event));
 document.addEventListener("click", () => {
   if (shown === null) scrolled = window.scrollY;
 });
-window.addEventListener("hashchange", route);
-void route();
+if (report.live !== true) {
+  window.addEventListener("hashchange", route);
+  void route();
+}

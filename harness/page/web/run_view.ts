@@ -17,6 +17,7 @@ const kStatus: {[letter: string]: [string, string]} = {
   i: ["initialising", "starting"],
   l: ["lost", "lost"],
 };
+const kMostEvents = 2000;  // in the list
 const kEvents: {[event: string]: string} = {
   initialised: "initialised",
   lost: "lost",
@@ -37,7 +38,7 @@ function textOf(event: RunEvent): string {
     if (key in event) words.push(key === "id" ? `tag ${event[key]}` : `${event[key]}`);
   }
   if (event.event === "loop_closure") {
-    words.push(event.correct === false ? "WRONG" : "right",
+    words.push(event.correct === false ? "WRONG" : event.correct === true ? "right" : "not judged",
                `moved ${fixed(1000 * (event.correction_m as number), 1)} mm`);
   }
   return words.join(", ");
@@ -107,35 +108,47 @@ function lanesOf(details: Details): Lane[] {
 function cameraLines(details: Details, lists: Line["values"][]): Line[] {
   const lines: Line[] = [];
   details.site?.cameras.forEach((camera, i) => {
-    if (lists[i].some((value) => (value ?? 0) > 0)) {
+    if (lists[i]?.some((value) => (value ?? 0) > 0)) {
       lines.push({name: camera.name, values: lists[i], colour: kPalette[i % kPalette.length]});
     }
   });
   return lines;
 }
 
+function errorLines(details: Details): Line[] {
+  const lines: Line[] = [];
+  if (details.error) lines.push({name: "corrected", values: details.error, colour: kPalette[0]});
+  if (details.live_error) lines.push({name: "live", values: details.live_error, colour: kPalette[1]});
+  return lines;
+}
+
+/** mm. */
+function sigmaLines(details: Details): Line[] {
+  const values = (details.covariance ?? []).map((c) => c[0] === null ? null
+      : 1000 * Math.sqrt((c[0] ?? 0) + (c[3] ?? 0) + (c[5] ?? 0)));
+  return [{name: "σ", values, colour: kPalette[3]}];
+}
+
+function occlusionLines(details: Details): Line[] {
+  return cameraLines(details, (details.occluded ?? []).map((shares) =>
+      shares.map((s) => s === null ? null : 100 * s)));
+}
+
 function charts(details: Details, cursor: Cursor): HTMLElement {
-  const spans = causeSpans(details), list: HTMLElement[] = [];
-  const errors: Line[] = [];
-  if (details.error) errors.push({name: "corrected", values: details.error, colour: kPalette[0]});
-  if (details.live_error) errors.push({name: "live", values: details.live_error, colour: kPalette[1]});
-  if (errors.length > 0) list.push(chart(cursor, "Position error, first poses aligned", "mm", errors, 1, spans));
-  list.push(lanes(cursor, "What happened", lanesOf(details)));
+  const spans = () => causeSpans(details), list: HTMLElement[] = [];
+  // A chart that has nothing to show is left out, unless it may have later.
+  const add = (title: string, unit: string, lines: () => Line[], decimals: number) => {
+    if (cursor.growing || lines().length > 0) {
+      list.push(chart(cursor, title, unit, lines, decimals, spans));
+    }
+  };
+  add("Position error, first poses aligned", "mm", () => errorLines(details), 1);
+  list.push(lanes(cursor, "What happened", () => lanesOf(details)));
   if (details.covariance) {
-    const sigma = details.covariance.map((c) => c[0] === null ? null
-        : 1000 * Math.sqrt((c[0] ?? 0) + (c[3] ?? 0) + (c[5] ?? 0)));
-    list.push(chart(cursor, "Standard deviation of the position, as estimated", "mm",
-                    [{name: "σ", values: sigma, colour: kPalette[3]}], 1, spans));
+    add("Standard deviation of the position, as estimated", "mm", () => sigmaLines(details), 1);
   }
-  if (details.inliers) {
-    const lines = cameraLines(details, details.inliers);
-    if (lines.length > 0) list.push(chart(cursor, "Inliers", "features", lines, 0, spans));
-  }
-  if (details.occluded) {
-    const percent = details.occluded.map((shares) => shares.map((s) => s === null ? null : 100 * s));
-    const lines = cameraLines(details, percent);
-    if (lines.length > 0) list.push(chart(cursor, "Image covered by occluders", "%", lines, 0));
-  }
+  add("Inliers", "features", () => cameraLines(details, details.inliers ?? []), 0);
+  add("Image covered by occluders", "%", () => occlusionLines(details), 0);
   return html("section", {class: "charts", "aria-label": "Over time"}, ...list, timeAxis(cursor));
 }
 
@@ -148,13 +161,18 @@ function checksTable(checks: Check[]): HTMLElement {
 }
 
 function eventList(details: Details, cursor: Cursor): HTMLElement {
-  const events = details.events.filter((e) => e.event in kEvents);
-  const list = html("ol", {class: "events"});
-  for (const event of events.slice(0, 2000)) {
-    list.append(html("li", {}, html("button", {type: "button", click: () => cursor.moveTo(event.t)},
-                                    `${event.t.toFixed(2)} s`), ` ${textOf(event)}`));
-  }
-  return html("details", {class: "data"}, html("summary", {}, `Events (${events.length})`), list);
+  const list = html("ol", {class: "events"}), title = html("summary", {});
+  let seen = 0;
+  cursor.draw(() => {
+    for (; seen < details.events.length && list.children.length < kMostEvents; ++seen) {
+      const event = details.events[seen];
+      if (!(event.event in kEvents)) continue;
+      list.append(html("li", {}, html("button", {type: "button", click: () => cursor.moveTo(event.t)},
+                                      `${event.t.toFixed(2)} s`), ` ${textOf(event)}`));
+    }
+    title.textContent = `Events (${details.events.filter((e) => e.event in kEvents).length})`;
+  });
+  return html("details", {class: "data"}, title, list);
 }
 
 /** Numbers of the metrics, nested ones by their path. */
@@ -170,7 +188,7 @@ function metricRows(value: unknown, path: string): string[][] {
 function texts(details: Details): HTMLElement[] {
   const list: HTMLElement[] = [];
   if (details.metrics !== null) {
-    list.push(openedTable("All metrics", ["metric", "value"],
+    list.push(openedTable("All metrics", () => ["metric", "value"],
                           () => metricRows({...details.metrics, expectations: []}, "")));
   }
   if (details.settings !== null) {
@@ -184,37 +202,43 @@ function texts(details: Details): HTMLElement[] {
   return list;
 }
 
-function header(run: RunEntry, details: Details): HTMLElement {
+/** Verdict of a run that has ended, and what it failed. */
+export function verdict(run: RunEntry, details: Details): HTMLElement[] {
   const figures = ["ate_origin_rmse_m", "ate_rmse_m"].map((key) => {
     const value = details.metrics?.[key];
     return typeof value === "number" ? `${key === "ate_rmse_m" ? "ATE" : "ATE origin"} ` +
         `${(1000 * value).toFixed(1)} mm` : null;
   }).filter((text) => text !== null);
-  return html("header", {class: run.passed ? "verdict good" : "verdict bad"},
+  const failed = run.failed.map((text) => html("li", {}, text));
+  const head = html("header", {class: run.passed ? "verdict good" : "verdict bad"},
               html("h1", {}, run.scenario, run.seed === null ? "" : `, seed ${run.seed}`),
               html("p", {class: "result"}, [run.verdict, ...figures].join(" · ")),
               html("p", {class: "small"}, run.hash === "" ? null : "hash ",
                    run.hash === "" ? null : html("code", {}, run.hash),
                    ` ${run.folder}${run.version === "" ? "" : `, Vinebench ${run.version}`}` +
                    (details.step > 1 ? `; one frame of ${details.step} is drawn` : "")));
+  return failed.length > 0 ? [head, html("ul", {class: "failed"}, ...failed)] : [head];
 }
 
 function controls(cursor: Cursor): HTMLElement {
   const button = html("button", {type: "button", class: "play", click: () => cursor.toggle()},
                       "▶ Play");
   cursor.onPlay = (playing) => {
-    button.textContent = playing ? "⏸ Pause" : "▶ Play";
+    button.textContent = playing ? "❚❚ Pause" : "▶ Play";
   };
   const speed = html("select", {"aria-label": "Speed", change: () => {
     cursor.speed = Number(speed.value);
   }}, ...["0.25", "0.5", "1", "2", "4", "8"].map((value) =>
       html("option", {value, selected: value === "1"}, `× ${value}`)));
-  const range = html("input", {type: "range", min: 0, max: cursor.times.length - 1, value: 0,
-                               "aria-label": "Time", input: () => {
-                                 cursor.stop();
-                                 cursor.move(Number(range.value));
-                               }});
+  const range = html("input", {type: "range", min: 0, value: 0, "aria-label": "Time", input: () => {
+    cursor.stop();
+    cursor.move(Number(range.value));
+  }});
   const time = html("output", {});
+  cursor.draw(() => {
+    range.max = String(cursor.times.length - 1);
+    range.value = String(cursor.index);
+  });
   cursor.listen((index) => {
     range.value = String(index);
     range.setAttribute("aria-valuetext", `${cursor.time.toFixed(2)} s`);
@@ -233,16 +257,17 @@ export class RunView {
   readonly element: HTMLElement;
   readonly cursor: Cursor;
 
-  constructor(run: RunEntry, details: Details, pictures: Pictures | null) {
-    this.cursor = new Cursor(details.t.length > 0 ? details.t : [0]);
+  /** Below `head`. A run that goes on is expected to end at `end`, s; who sees it is told which
+      camera is chosen. */
+  constructor(head: HTMLElement[], details: Details, pictures: Pictures | null, end?: number,
+              chosen?: (camera: number) => void) {
+    this.cursor = new Cursor(details.t.length > 0 ? details.t : [0], end);
     const checks = details.metrics?.expectations ?? [];
-    const failed = run.failed.map((text) => html("li", {}, text));
-    const seen = pictures !== null ? player(pictures, this.cursor, details.frame)
+    const seen = pictures !== null ? player(pictures, this.cursor, details.frame, chosen)
         : html("section", {class: "panel missing"},
                "No pictures: run with --report, or give the report more room with --report-size.");
     this.element = html("main", {class: "run"},
-        header(run, details),
-        failed.length > 0 ? html("ul", {class: "failed"}, ...failed) : null,
+        ...head,
         html("pre", {class: "summary", tabindex: 0}, details.summary.trim()),
         controls(this.cursor),
         html("div", {class: "sight"}, view3d(details, this.cursor), seen),

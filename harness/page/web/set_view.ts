@@ -114,7 +114,7 @@ function strip(report: Report, scenario: string, column: Column, k: number): HTM
   return html("figure", {class: "distribution"}, html("figcaption", {}, column.title), drawing as unknown as Node,
               html("div", {class: "ends"}, html("span", {}, fixed(low + margin, column.decimals)),
                    html("span", {}, fixed(high - margin, column.decimals))),
-              openedTable(`Table: ${column.title}`, ["run", ...(sets.length > 1 ? ["set"] : []), column.title],
+              openedTable(`Table: ${column.title}`, () => ["run", ...(sets.length > 1 ? ["set"] : []), column.title],
                           () => rows.flatMap((row, s) => row.map(({run}) => [
                             nameOf(run), ...(sets.length > 1 ? [sets[s]] : []),
                             fixed(run.values[k], column.decimals)]))));
@@ -168,7 +168,7 @@ function historyChart(versions: string[], series: Series): HTMLElement {
               html("figcaption", {}, `${series.title} `, html("b", {}, fixed(series.values[series.values.length - 1], series.decimals)),
                    series.change === "worse" ? " left the band, worse" : series.change === "better" ? " left the band, better" : ""),
               drawing as unknown as Node,
-              openedTable(`Table: ${series.title}`, ["version", series.title],
+              openedTable(`Table: ${series.title}`, () => ["version", series.title],
                           () => versions.map((version, i) => [version, fixed(series.values[i], series.decimals)])));
 }
 

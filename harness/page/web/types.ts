@@ -43,6 +43,7 @@ export interface Series {
 
 export interface Report {
   title: string;
+  live?: boolean;
   version: string;
   columns: Column[];
   runs: RunEntry[];
@@ -119,13 +120,59 @@ export interface Details {
   explanation: unknown;
 }
 
-export interface Film {
+export interface Layout {
   width: number;
   height: number;
   cells: { camera: string; x: number; width: number }[];
-  pictures: {
-    frame: number;
-    features?: number[][];
-    tags?: { camera: number; id: number; corners: number[] }[];
-  }[];
+}
+
+export interface Picture {
+  frame: number;
+  features?: number[][];
+  tags?: { camera: number; id: number; corners: number[] }[];
+  layout?: Layout;  // its own, if not the film's
+}
+
+export interface Film extends Layout {
+  pictures: Picture[];
+}
+
+// What live_view.cpp and tick_json.cpp send.
+
+export interface LiveRun {
+  title: string;
+  total: number;
+  rate_hz: number;
+  site: Site;
+  film: Layout;
+}
+
+export interface LiveTick {
+  t: number;
+  frame: number;
+  truth: Values | null;
+  live: Values | null;
+  error: number | null;
+  status: string;
+  keyframe: boolean;
+  covariance: Values | null;
+  features: Values;
+  inliers: Values;
+  occluded: Values;
+  events: RunEvent[];
+}
+
+export interface LivePicture extends Picture {
+  jpeg: string;
+}
+
+export interface LiveState {
+  paused: boolean;
+  speed: number;
+  camera: number;  // -1: all
+}
+
+export interface LiveEnd {
+  verdict: string;
+  report: string;
 }

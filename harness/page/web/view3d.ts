@@ -9,38 +9,105 @@ import {Details} from "./types";
 
 const kViews = ["overview", "from above", "follow"];
 
-/** Parts of the scene that can be hidden. */
-function partsOf(details: Details, cursor: Cursor, ground: number): Map<string, any> {
-  const parts = new Map<string, any>();
+/** A part of the scene that can be hidden. */
+interface Part {
+  name: string;
+  object: any;
+}
+
+/** What does not change. */
+function fixedParts(details: Details, ground: number): Part[] {
+  const parts: Part[] = [];
   if (details.site !== null && details.site.rows.length > 0) {
-    parts.set("vineyard", scene.vineyard(details.site, ground));
+    parts.push({name: "vineyard", object: scene.vineyard(details.site, ground)});
   }
   if (details.site !== null && details.site.tags.length > 0) {
-    parts.set("tags", scene.tags(details.site));
+    parts.push({name: "tags", object: scene.tags(details.site)});
   }
-  if (details.landmarks !== undefined) parts.set("landmarks", scene.landmarks(details.landmarks));
+  if (details.landmarks !== undefined) {
+    parts.push({name: "landmarks", object: scene.landmarks(details.landmarks)});
+  }
+  return parts;
+}
+
+/** What grows with the run. */
+function grownParts(details: Details, cursor: Cursor): Part[] {
+  const parts: Part[] = [];
   if (details.truth !== null) {
-    parts.set("truth", scene.pathLine(details.truth, () => scene.colour("--truth"), 0));
+    parts.push({name: "truth",
+                object: scene.pathLine(details.truth, () => scene.colour("--truth"), 0)});
   }
-  if (details.estimate !== null) {
-    const errors = details.error ?? [];
-    const worst = Math.max(1e-9, ...errors.map((e) => e ?? 0));
-    parts.set("estimate", scene.pathDots(
-        details.estimate,
-        (i) => details.error === null ? scene.colour("--estimate")
-                                      : scene.errorColour((errors[i] ?? 0) / worst), 0.025));
+  const path = details.estimate ?? details.live, errors = details.error ?? details.live_error;
+  if (path !== null) {
+    const worst = (errors ?? []).reduce((most: number, e) => Math.max(most, e ?? 0), 1e-9);
+    const colour = (i: number) => errors === null ? scene.colour("--estimate")
+                                                  : scene.errorColour((errors[i] ?? 0) / worst);
+    parts.push({name: "estimate", object: scene.pathDots(path, colour, 0.025)});
   }
   const sigma = scene.largestSigma(details.covariance);
   if (sigma > 0) {
     const factor = Math.pow(10, Math.max(0, Math.floor(Math.log10(0.1 / (3 * sigma)))));
-    parts.set(factor > 1 ? `3σ × ${factor}` : "3σ", scene.ellipsoids(details, factor));
+    parts.push({name: factor > 1 ? `3σ × ${factor}` : "3σ",
+                object: scene.ellipsoids(details, factor)});
   }
   const loops = scene.loops(details, (t) => cursor.nearest(t));
-  if (loops.children.length > 0) parts.set("loops", loops);
+  if (loops.children.length > 0) parts.push({name: "loops", object: loops});
   return parts;
 }
 
-function boundsOf(details: Details): any {
+function dispose(object: any): void {
+  object.traverse((part: any) => {
+    part.geometry?.dispose();
+    part.material?.dispose();
+  });
+}
+
+/** A part's name without its factor. */
+function kindOf(name: string): string {
+  return name.split(" ")[0];
+}
+
+/** Adds the parts to the world, with a box for each that hides it; the grown ones anew whenever the
+    run has grown. */
+function partBoxes(details: Details, cursor: Cursor, world: any, ground: number,
+                   draw: () => void): HTMLElement {
+  const hidden = new Set<string>(), boxes = html("span", {class: "boxes"});
+  const fixed = fixedParts(details, ground);
+  let grown: Part[] = [];
+  for (const {object} of fixed) world.add(object);
+  const boxOf = ({name, object}: Part) => {
+    object.visible = !hidden.has(kindOf(name));
+    const input = html("input", {type: "checkbox", checked: object.visible, change: () => {
+      object.visible = input.checked;
+      if (input.checked) hidden.delete(kindOf(name));
+      else hidden.add(kindOf(name));
+      draw();
+    }});
+    return html("label", {}, input, ` ${name}`);
+  };
+  let names = "";
+  cursor.draw(() => {
+    for (const {object} of grown) {
+      world.remove(object);
+      dispose(object);
+    }
+    grown = grownParts(details, cursor);
+    for (const {name, object} of grown) {
+      world.add(object);
+      object.visible = !hidden.has(kindOf(name));
+    }
+    const list = [...fixed, ...grown];
+    // A box that is replaced while a finger is on it would lose its click.
+    const now = list.map(({name}) => name).join();
+    if (now !== names || !cursor.growing) boxes.replaceChildren(...list.map(boxOf));
+    names = now;
+    draw();
+  });
+  return boxes;
+}
+
+/** Of the paths; of the vineyard before there are any. */
+function boundsOf(details: Details, growing: boolean): any {
   const box = new THREE.Box3();
   for (const path of [details.truth, details.estimate]) {
     path?.[0].forEach((x, i) => {
@@ -48,6 +115,12 @@ function boundsOf(details: Details): any {
         box.expandByPoint(new THREE.Vector3(x, path[1][i] as number, path[2][i] as number));
       }
     });
+  }
+  if (growing && details.site !== null && !box.isEmpty()) {
+    const z = box.min.z;
+    for (const [x1, y1, x2, y2] of details.site.rows) {
+      box.expandByPoint(new THREE.Vector3(x1, y1, z)).expandByPoint(new THREE.Vector3(x2, y2, z));
+    }
   }
   return box.isEmpty() ? new THREE.Box3(new THREE.Vector3(-1, -1, 0), new THREE.Vector3(1, 1, 1))
                        : box;
@@ -66,11 +139,9 @@ export function view3d(details: Details, cursor: Cursor): HTMLElement {
   }
   const world = new THREE.Scene();
   world.add(new THREE.HemisphereLight(0xffffff, 0x777766, 1.1));
-  const bounds = boundsOf(details), centre = bounds.getCenter(new THREE.Vector3());
+  const bounds = boundsOf(details, cursor.growing), centre = bounds.getCenter(new THREE.Vector3());
   const size = Math.max(4.5, 1.15 * bounds.getSize(new THREE.Vector3()).length());
   const ground = bounds.min.z - 0.12;
-  const parts = partsOf(details, cursor, ground);
-  for (const part of parts.values()) world.add(part);
   const cameras = details.site?.cameras ?? [];
   const trueRover = scene.rover(cameras, "--truth"), rover = scene.rover(cameras, "--estimate");
   world.add(trueRover, rover);
@@ -133,16 +204,10 @@ export function view3d(details: Details, cursor: Cursor): HTMLElement {
     camera.updateProjectionMatrix();
     draw();
   }).observe(box);
-  look(kViews[0]);
+  const boxes = partBoxes(details, cursor, world, ground, draw);
+  look(cursor.growing ? "follow" : kViews[0]);
   const buttons = kViews.map((name) => html("button", {type: "button", click: () => look(name)},
                                             name));
-  const boxes = [...parts].map(([name, part]) => {
-    const input = html("input", {type: "checkbox", checked: true, change: () => {
-      part.visible = input.checked;
-      draw();
-    }});
-    return html("label", {}, input, ` ${name}`);
-  });
   return html("section", {class: "panel", "aria-label": "3D view"},
-              html("div", {class: "bar"}, ...buttons, ...boxes), box);
+              html("div", {class: "bar"}, ...buttons, boxes), box);
 }
