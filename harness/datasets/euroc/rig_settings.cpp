@@ -107,6 +107,26 @@ std::vector<RigCamera> pairs_first(const Rig& rig) {
   return cameras;
 }
 
+/// Brown's model is k1, k2, k3, p1, p2 there.
+Json edex_intrinsics(const PinholeCamera& c) {
+  const auto& [k1, k2, p1, p2] = c.distortion;
+  const Json brown{k1, k2, 0.0, p1, p2};
+  return {{"distortion_model", c.has_distortion() ? "brown" : "pinhole"},
+          {"distortion_params", c.has_distortion() ? brown : Json::array()},
+          {"focal", {c.fx, c.fy}},
+          {"principal", {c.cx, c.cy}},
+          {"size", {c.width, c.height}}};
+}
+
+/// The upper three rows.
+Json edex_transform(const Pose& T_rig_cam) {
+  const Eigen::Vector4d flip(1, -1, -1, 1);
+  const Eigen::Matrix4d m = flip.asDiagonal() * T_rig_cam.matrix() * flip.asDiagonal();
+  Json rows = Json::array();
+  for (int i = 0; i < 3; ++i) rows.push_back({m(i, 0), m(i, 1), m(i, 2), m(i, 3)});
+  return rows;
+}
+
 /// Beside Kalibr's files; what is not named keeps OpenVINS' own values.
 std::string openvins_settings(const Rig& rig) {
   return fmt::format(
@@ -183,12 +203,24 @@ std::string basalt_settings(const std::vector<RigCamera>& cameras, const Recordi
   return json_text(Json{{"value0", value}}, 2) + "\n";
 }
 
+std::string edex_settings(const Rig& rig) {
+  Json cameras = Json::array();
+  const std::vector<RigCamera> ordered = pairs_first(rig);
+  for (std::size_t i = 0; i < 2 * rig.stereo_pairs.size(); ++i) {
+    const Pose T_rig_cam = ordered.front().T_body_cam.inverse() * ordered[i].T_body_cam;
+    cameras.push_back({{"intrinsics", edex_intrinsics(ordered[i].model)},
+                       {"transform", edex_transform(T_rig_cam)}});
+  }
+  return json_text(Json::array({{{"cameras", cameras}}}), 2) + "\n";
+}
+
 std::vector<SettingsFile> rig_settings(const Rig& rig, const RecordingNotes& notes) {
   return {{"kalibr_imucam_chain_rig.yaml", kalibr_chain(rig.cameras)},
           {"basalt_calib_rig.json", basalt_settings(rig.cameras, notes)},
           {"okvis2.yaml", okvis_settings(rig.cameras, notes)},
           {"openvins.yaml", openvins_settings(rig)},
-          {"openvins_imucam_chain.yaml", kalibr_chain(pairs_first(rig))}};
+          {"openvins_imucam_chain.yaml", kalibr_chain(pairs_first(rig))},
+          {"stereo.edex", edex_settings(rig)}};
 }
 
 }  // namespace vinebench::harness

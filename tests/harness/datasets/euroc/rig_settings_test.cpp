@@ -53,6 +53,45 @@ TEST_F(RigSettingsTest, Okvis2HasEveryCamera) {
   EXPECT_GT(settings["imu_parameters"]["sigma_aw_c"].as<double>(), 0);
 }
 
+TEST_F(RigSettingsTest, EdexHasThePairsInOpenGlsAxes) {
+  const auto edex = nlohmann::json::parse(files_.at("stereo.edex"));
+  const auto& cameras = edex[0]["cameras"];
+  ASSERT_EQ(cameras.size(), 4u);
+  // The left camera is the frame; the right one stands a baseline to its right.
+  const double baseline =
+      (rig_.cameras[1].T_body_cam.translation - rig_.cameras[0].T_body_cam.translation).norm();
+  const Eigen::Matrix<double, 3, 4> identity = Eigen::Matrix<double, 3, 4>::Identity();
+  const auto matrix = [&](std::size_t camera) {
+    Eigen::Matrix<double, 3, 4> m;
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 4; ++column) {
+        m(row, column) = cameras[camera]["transform"][row][column].get<double>();
+      }
+    }
+    return m;
+  };
+  EXPECT_LT((matrix(0) - identity).norm(), 1e-12);
+  Eigen::Matrix<double, 3, 4> right = identity;
+  right(0, 3) = baseline;
+  EXPECT_LT((matrix(1) - right).norm(), 1e-9);
+  // As its readers turn it: x right, y down, z ahead. The back pair looks the other way.
+  const Eigen::DiagonalMatrix<double, 3> flip(1, -1, -1);
+  const Pose expected = rig_.cameras[0].T_body_cam.inverse() * rig_.cameras[2].T_body_cam;
+  const Eigen::Matrix3d R = flip * matrix(2).leftCols<3>() * flip;
+  EXPECT_LT((R - expected.rotation.toRotationMatrix()).norm(), 1e-12);
+  EXPECT_LT((flip * matrix(2).col(3) - expected.translation).norm(), 1e-12);
+  EXPECT_EQ(cameras[0]["intrinsics"]["focal"][0], rig_.cameras[0].model.fx);
+  EXPECT_EQ(cameras[0]["intrinsics"]["size"], nlohmann::json({752, 480}));
+}
+
+TEST_F(RigSettingsTest, EdexWritesBrownsCoefficientsInItsOwnOrder) {
+  rig_.cameras[0].model.distortion = {0.1, 0.2, 0.3, 0.4};
+  const auto edex = nlohmann::json::parse(edex_settings(rig_));
+  const auto& intrinsics = edex[0]["cameras"][0]["intrinsics"];
+  EXPECT_EQ(intrinsics["distortion_model"], "brown");
+  EXPECT_EQ(intrinsics["distortion_params"], nlohmann::json({0.1, 0.2, 0.0, 0.3, 0.4}));
+}
+
 TEST_F(RigSettingsTest, KalibrsChainJoinsEachCameraToTheOneBefore) {
   const cv::FileStorage chain(files_.at("kalibr_imucam_chain_rig.yaml"),
                               cv::FileStorage::READ | cv::FileStorage::MEMORY);
