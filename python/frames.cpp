@@ -113,7 +113,14 @@ void define_camera(py::module_& module) {
           },
           "3 x 3, px")
       .def_property_readonly(
-          "distortion", [](const RigCamera& c) { return c.model.distortion; }, "k1, k2, p1, p2")
+          "lens",
+          [](const RigCamera& c) {
+            return yaml_names(c.model.lens)[static_cast<std::size_t>(c.model.lens)];
+          },
+          "'radial_tangential', 'equidistant' or 'double_sphere'.")
+      .def_property_readonly(
+          "distortion", [](const RigCamera& c) { return c.model.coefficients(); },
+          "k1, k2, p1, p2 and, if it has one, k3; of a fisheye its lens' coefficients.")
       .def_property_readonly(
           "T_body_camera", [](const RigCamera& c) { return c.T_body_cam.matrix(); },
           "4 x 4, m: transforms points of the camera frame (x right, y down, z ahead) to "

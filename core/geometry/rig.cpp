@@ -45,7 +45,8 @@ Rig RigConfig::make() const {
       fail("rig '{}': camera '{}': expected a name without '/' that begins with no '.'", name,
            c.name);  // files and folders are named after it
     }
-    PinholeCamera model{c.width, c.height, c.fx, c.fy, 0, 0, c.distortion};
+    PinholeCamera model{c.width, c.height, c.fx, c.fy, 0, 0};
+    model.set_lens(c.lens, c.distortion);
     model.cx = c.cx.value_or((c.width - 1) / 2.0);
     model.cy = c.cy.value_or((c.height - 1) / 2.0);
     rig.cameras.push_back(

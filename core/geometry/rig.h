@@ -59,13 +59,14 @@ struct Rig {
 struct RigConfig {
   struct Camera {
     std::string name;
-    int width = 752;                     ///< px
-    int height = 480;                    ///< px
-    double fx = 263.2786;                ///< px
-    double fy = 263.2786;                ///< px
-    std::optional<double> cx;            ///< px; default: the centre, (width - 1) / 2
-    std::optional<double> cy;            ///< px; default: the centre, (height - 1) / 2
-    std::array<double, 4> distortion{};  ///< k1, k2, p1, p2
+    int width = 752;           ///< px
+    int height = 480;          ///< px
+    double fx = 263.2786;      ///< px
+    double fy = 263.2786;      ///< px
+    std::optional<double> cx;  ///< px; default: the centre, (width - 1) / 2
+    std::optional<double> cy;  ///< px; default: the centre, (height - 1) / 2
+    LensModel lens = LensModel::kRadialTangential;
+    std::vector<double> distortion = {0, 0, 0, 0};       ///< the lens model's coefficients
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, in the body frame
     Eigen::Vector3d rpy_deg = Eigen::Vector3d::Zero();   ///< view direction against the body
 
@@ -78,7 +79,10 @@ struct RigConfig {
       archive("fy", fy, Range::positive());
       archive("cx", cx);
       archive("cy", cy);
+      archive("lens", lens);
       archive("distortion", distortion);
+      archive.require(has_coefficients(lens, distortion.size()), "distortion",
+                      expected_coefficients(lens));
       archive("position", position);
       archive("rpy_deg", rpy_deg, Range::between(-360, 360));
     }

@@ -133,7 +133,9 @@ void add_timing(std::vector<Factor>& list) {
 
 bool has_distortion(const Rig& rig) {
   return std::ranges::any_of(rig.cameras, [](const RigCamera& camera) {
-    return std::ranges::any_of(camera.model.distortion, [](double k) { return k != 0; });
+    // An error of the lens is one of these four coefficients.
+    return camera.model.lens == LensModel::kRadialTangential && camera.model.distortion[4] == 0 &&
+           camera.model.has_distortion();
   });
 }
 

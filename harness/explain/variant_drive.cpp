@@ -31,7 +31,7 @@ void erase_until(Stamp stamp, std::vector<Reading>& readings) {
 Rig told_rig(const Variant& variant) {
   Rig rig = load_rig(variant.scenario.simulation.rover.rig);
   if (!variant.ideal_lenses) return rig;
-  for (RigCamera& camera : rig.cameras) camera.model.distortion = {};
+  for (RigCamera& camera : rig.cameras) camera.model = camera.model.without_distortion();
   return rig;
 }
 

@@ -43,6 +43,12 @@ class Setup {
                          lens.cy,
                          {},
                          to_plugin(camera.T_body_cam)};
+      if (lens.lens != LensModel::kRadialTangential || lens.distortion[4] != 0) {
+        fail(
+            "plug-in: camera '{}': its interface has radial-tangential lenses of k1, k2, p1, p2 "
+            "alone",
+            camera.name);
+      }
       copy_into(c.distortion, lens.distortion);
       cameras_.push_back(c);
     }

@@ -36,6 +36,8 @@ class Camera:
     def K(self) -> _Array:
         """(3, 3), px; pixel (0, 0) is the centre of the top left pixel."""
     @property
+    def lens(self) -> str: ...
+    @property
     def distortion(self) -> list[float]:
         """k1, k2, p1, p2"""
     @property

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <vector>
 
 #include "core/util/error.h"
@@ -19,6 +20,8 @@ constexpr double kMinAlignment = 0.5;      // cosine of an axis's turn into the 
 constexpr int kBorderSamples = 33;         // on a side
 constexpr double kLensTolerance = 0.01;    // px of a pixel through the lens and back
 constexpr double kRadiusTolerance = 1.02;  // of the squared radius of the image's corners
+constexpr double kWidestView = 1.43;       // tangent of 55 degrees: a plane wastes what is farther
+                                           // aside, where fisheyes see too
 constexpr float kNowhere = -1000;          // px
 constexpr double kPatchRadius = 17;        // px of a feature's level, what ORB looks at
 
@@ -30,9 +33,16 @@ struct View {
   double bottom = right;
 };
 
-Eigen::Vector2d through(const PinholeCamera& model, const Eigen::Matrix3d& R_common_cam,
-                        const Eigen::Vector2d& pixel, const std::string& what) {
+bool is_fisheye(const PinholeCamera& model) {
+  return model.lens != LensModel::kRadialTangential;
+}
+
+/// Where the common view has a pixel of a camera; nothing for one that a fisheye sees far aside.
+std::optional<Eigen::Vector2d> through(const PinholeCamera& model,
+                                       const Eigen::Matrix3d& R_common_cam,
+                                       const Eigen::Vector2d& pixel, const std::string& what) {
   const Eigen::Vector3d ray = model.unproject(pixel);
+  if (is_fisheye(model) && ray.head<2>().norm() > 2 * kWidestView) return std::nullopt;
   if (!((model.project(ray) - pixel).norm() < kLensTolerance)) {
     fail("{}: expected a distortion that is monotonic in the image", what);
   }
@@ -40,7 +50,7 @@ Eigen::Vector2d through(const PinholeCamera& model, const Eigen::Matrix3d& R_com
   if (turned.z() < 0.1 * turned.norm()) {
     fail("{}: expected cameras that look roughly the same way", what);
   }
-  return turned.head<2>() / turned.z();
+  return Eigen::Vector2d(turned.head<2>() / turned.z());
 }
 
 /// Narrows a view to what lies within the camera's image.
@@ -51,19 +61,27 @@ void narrow(View& view, const PinholeCamera& model, const Eigen::Matrix3d& R_com
   for (int i = 0; i < kBorderSamples; ++i) {
     const double share = static_cast<double>(i) / (kBorderSamples - 1);
     const auto at = [&](double x, double y) { return through(model, R_common_cam, {x, y}, what); };
-    view.left = std::max(view.left, at(0, share * height).x());
-    view.right = std::min(view.right, at(width, share * height).x());
-    view.top = std::max(view.top, at(share * width, 0).y());
-    view.bottom = std::min(view.bottom, at(share * width, height).y());
+    if (const auto p = at(0, share * height)) view.left = std::max(view.left, p->x());
+    if (const auto p = at(width, share * height)) view.right = std::min(view.right, p->x());
+    if (const auto p = at(share * width, 0)) view.top = std::max(view.top, p->y());
+    if (const auto p = at(share * width, height)) view.bottom = std::min(view.bottom, p->y());
   }
 }
 
-/// Squared distance from the axis, on the plane z = 1, of the farthest corner.
+void limit(View& view, double most) {
+  view.left = std::max(view.left, -most);
+  view.right = std::min(view.right, most);
+  view.top = std::max(view.top, -most);
+  view.bottom = std::min(view.bottom, most);
+}
+
+/// Squared distance from the axis, on the plane z = 1, of the farthest corner that is used.
 double corner_radius(const PinholeCamera& model) {
   double most = 0;
   for (const double x : {0.0, model.width - 1.0}) {
     for (const double y : {0.0, model.height - 1.0}) {
       most = std::max(most, model.unproject({x, y}).head<2>().squaredNorm());
+      if (is_fisheye(model)) most = std::min(most, 4 * kWidestView * kWidestView);
     }
   }
   return most;
@@ -112,8 +130,10 @@ void Rectification::choose_lens(const std::string& what) {
   View view;
   double focal = 0;
   for (const Camera& camera : cameras_) {
+    if (is_fisheye(camera.model)) limit(view, kWidestView);
     narrow(view, camera.model, camera.R_cam_common.transpose(), what);
-    focal += (camera.model.fx + camera.model.fy) / 4;
+    const PinholeCamera pinhole = camera.model.without_distortion();
+    focal += (pinhole.fx + pinhole.fy) / 4;
   }
   lens_.width = cameras_[0].model.width;
   lens_.height = cameras_[0].model.height;

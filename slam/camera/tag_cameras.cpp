@@ -6,8 +6,7 @@ namespace vinebench::slam {
 
 TagCameras::TagCameras(const std::vector<RigCamera>& rig_cameras) : cameras(rig_cameras) {
   for (const RigCamera& camera : cameras) {
-    undistorted.push_back({camera.model, camera.T_body_cam.inverse(), 0});
-    undistorted.back().lens.distortion = {};
+    undistorted.push_back({camera.model.without_distortion(), camera.T_body_cam.inverse(), 0});
   }
 }
 

@@ -15,7 +15,7 @@ namespace vinebench::slam {
 namespace {
 
 constexpr std::string_view kMagic("vinemap\0", 8);
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 constexpr std::uint32_t kOldestVersion = 3;  // without inertial states
 constexpr std::size_t kHeaderSize = 20;      // magic, version, size of the content
 constexpr std::size_t kChecksumSize = 8;

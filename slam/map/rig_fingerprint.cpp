@@ -14,7 +14,7 @@ bool alike(double a, double b) {
 }
 bool alike(const PinholeCamera& a, const PinholeCamera& b) {
   return a.width == b.width && a.height == b.height && alike(a.fx, b.fx) && alike(a.fy, b.fy) &&
-         alike(a.cx, b.cx) && alike(a.cy, b.cy) &&
+         alike(a.cx, b.cx) && alike(a.cy, b.cy) && a.lens == b.lens &&
          std::equal(a.distortion.begin(), a.distortion.end(), b.distortion.begin(),
                     [](double x, double y) { return alike(x, y); });
 }

@@ -37,7 +37,13 @@ std::string difference(const RigFingerprint& map, const RigFingerprint& rig);
 
 template <class Archive>
 void fields(Archive& archive, PinholeCamera& c) {
-  archive(c.width, c.height, c.fx, c.fy, c.cx, c.cy, c.distortion);
+  archive(c.width, c.height, c.fx, c.fy, c.cx, c.cy);
+  constexpr std::size_t kBefore5 = 4;  // coefficients; version 5 has a lens model
+  for (std::size_t i = 0; i < kBefore5; ++i) archive(c.distortion[i]);
+  if (archive.version() < 5) return;
+  auto lens = static_cast<std::int32_t>(c.lens);
+  archive(c.distortion[kBefore5], lens);
+  c.lens = static_cast<LensModel>(lens);
 }
 template <class Archive>
 void fields(Archive& archive, RigFingerprint::Camera& c) {

@@ -6,6 +6,7 @@
 
 #include "core/files/files.h"
 #include "harness/datasets/euroc/our_files.h"
+#include "harness/datasets/euroc/sensor_file.h"
 #include "harness/datasets/euroc/slam_settings.h"
 #include "harness/datasets/files/image_codec.h"
 
@@ -38,12 +39,9 @@ std::string format_transform(const Pose& T_BS) {
 
 std::string describe_camera(const RigCamera& camera, double rate_hz) {
   const PinholeCamera& lens = camera.model;
-  return fmt::format(
-      "sensor_type: camera\ncomment: {}\n{}rate_hz: {}\nresolution: [{}, {}]\n"
-      "camera_model: pinhole\nintrinsics: [{}, {}, {}, {}]\n"
-      "distortion_model: radial-tangential\ndistortion_coefficients: [{}]\n",
-      camera.name, format_transform(camera.T_body_cam), rate_hz, lens.width, lens.height, lens.fx,
-      lens.fy, lens.cx, lens.cy, fmt::join(lens.distortion, ", "));
+  return fmt::format("sensor_type: camera\ncomment: {}\n{}rate_hz: {}\nresolution: [{}, {}]\n{}",
+                     camera.name, format_transform(camera.T_body_cam), rate_hz, lens.width,
+                     lens.height, sensor_lens(lens));
 }
 
 std::string describe_imu(const RecordingNotes& notes) {

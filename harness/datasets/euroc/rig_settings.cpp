@@ -56,9 +56,8 @@ std::string okvis_camera(const RigCamera& camera) {
       "  - T_SC: [{}]\n    image_dimension: [{}, {}]\n    distortion_coefficients: [{}]\n"
       "    distortion_type: radialtangential\n    focal_length: [{}, {}]\n"
       "    principal_point: [{}, {}]\n    camera_type: gray\n    slam_use: okvis\n",
-      reals(row_major(camera.T_body_cam.matrix())), c.width, c.height,
-      reals({c.distortion.begin(), c.distortion.end()}), real(c.fx), real(c.fy), real(c.cx),
-      real(c.cy));
+      reals(row_major(camera.T_body_cam.matrix())), c.width, c.height, reals(c.coefficients()),
+      real(c.fx), real(c.fy), real(c.cx), real(c.cy));
 }
 
 /// "0, 1, 2": all cameras expose at the same instant.
@@ -109,8 +108,8 @@ std::vector<RigCamera> pairs_first(const Rig& rig) {
 
 /// Brown's model is k1, k2, k3, p1, p2 there.
 Json edex_intrinsics(const PinholeCamera& c) {
-  const auto& [k1, k2, p1, p2] = c.distortion;
-  const Json brown{k1, k2, 0.0, p1, p2};
+  const auto& [k1, k2, p1, p2, k3] = c.distortion;
+  const Json brown{k1, k2, k3, p1, p2};
   return {{"distortion_model", c.has_distortion() ? "brown" : "pinhole"},
           {"distortion_params", c.has_distortion() ? brown : Json::array()},
           {"focal", {c.fx, c.fy}},
@@ -153,7 +152,7 @@ std::string kalibr_chain(const std::vector<RigCamera>& cameras) {
         "  cam_overlaps: [{}]\n  camera_model: pinhole\n  distortion_coeffs: [{}]\n"
         "  distortion_model: radtan\n  intrinsics: [{}]\n  resolution: [{}, {}]\n"
         "  rostopic: /cam{}/image_raw\n  timeshift_cam_imu: 0.0\n",
-        fmt::join(overlaps(cameras, i), ", "), reals({c.distortion.begin(), c.distortion.end()}),
+        fmt::join(overlaps(cameras, i), ", "), reals(c.coefficients()),
         reals({c.fx, c.fy, c.cx, c.cy}), c.width, c.height, i);
   }
   return text;

@@ -26,6 +26,20 @@ constexpr double kRotationTolerance = 1e-3;  // of an entry of R R^T
 
 }  // namespace
 
+std::string sensor_lens(const PinholeCamera& c) {
+  const std::string coefficients = fmt::format("{}", fmt::join(c.coefficients(), ", "));
+  const std::string pinhole = fmt::format("{}, {}, {}, {}", c.fx, c.fy, c.cx, c.cy);
+  if (c.lens == LensModel::kDoubleSphere) {
+    return fmt::format("camera_model: ds\nintrinsics: [{}, {}]\ndistortion_model: none\n",
+                       coefficients, pinhole);
+  }
+  return fmt::format(
+      "camera_model: pinhole\nintrinsics: [{}]\ndistortion_model: {}\n"
+      "distortion_coefficients: [{}]\n",
+      pinhole, c.lens == LensModel::kEquidistant ? "equidistant" : "radial-tangential",
+      coefficients);
+}
+
 SensorFile::SensorFile(std::filesystem::path file) : file_(std::move(file)) {
   const std::string text = without_directive(read_file(file_, FileKind::kYaml));
   try {
@@ -85,11 +99,24 @@ Pose SensorFile::T_BS() const {
   return {Eigen::Quaterniond(R).normalized(), T.topRightCorner<3, 1>()};
 }
 
+LensModel SensorFile::lens_model() const {
+  const YAML::Node camera = root_["camera_model"], distortion = root_["distortion_model"];
+  expect_word("camera_model", {"pinhole", "ds"});
+  expect_word("distortion_model",
+              {"radial-tangential", "radtan", "plumb_bob", "equidistant", "equi", "none"});
+  const auto is = [](const YAML::Node& node, const char* word) {
+    return node.IsDefined() && node.Scalar() == word;
+  };
+  if (is(camera, "ds")) return LensModel::kDoubleSphere;
+  return is(distortion, "equidistant") || is(distortion, "equi") ? LensModel::kEquidistant
+                                                                 : LensModel::kRadialTangential;
+}
+
 PinholeCamera SensorFile::camera() const {
-  expect_word("camera_model", {"pinhole"});
-  expect_word("distortion_model", {"radial-tangential", "radtan", "plumb_bob", "none"});
+  const LensModel lens = lens_model();
+  const bool double_sphere = lens == LensModel::kDoubleSphere;
   const std::vector<double> size = numbers(root_["resolution"], "resolution", 2);
-  const std::vector<double> k = numbers(root_["intrinsics"], "intrinsics", 4);
+  std::vector<double> k = numbers(root_["intrinsics"], "intrinsics", double_sphere ? 6 : 4);
   for (const double side : size) {
     if (side < kSmallestSide || side > kLargestSide || side != std::floor(side)) {
       fault(root_["resolution"],
@@ -97,20 +124,26 @@ PinholeCamera SensorFile::camera() const {
                         kLargestSide, side));
     }
   }
+  std::vector<double> coefficients;
+  if (double_sphere) {
+    coefficients = {k[0], k[1]};
+    k.erase(k.begin(), k.begin() + 2);
+  }
   PinholeCamera camera{
-      static_cast<int>(size[0]), static_cast<int>(size[1]), k[0], k[1], k[2], k[3], {}};
+      static_cast<int>(size[0]), static_cast<int>(size[1]), k[0], k[1], k[2], k[3]};
   if (camera.fx <= 0 || camera.fy <= 0) {
     fault(root_["intrinsics"], "intrinsics: expected focal lengths above 0");
   }
-  const YAML::Node distortion = root_["distortion_coefficients"];
-  if (!distortion.IsDefined() || (distortion.IsSequence() && distortion.size() == 0)) return camera;
-  const bool five = distortion.IsSequence() && distortion.size() == 5;
-  const std::vector<double> d =
-      numbers(distortion, "distortion_coefficients", five ? 5 : camera.distortion.size());
-  if (five && d[4] != 0) {
-    fault(distortion, "distortion_coefficients: expected k1, k2, p1, p2; a k3 is not supported");
+  const YAML::Node node = root_["distortion_coefficients"];
+  const bool some = node.IsDefined() && !(node.IsSequence() && node.size() == 0);
+  if (!double_sphere && some) {
+    const std::size_t count = node.IsSequence() ? node.size() : 0;
+    if (!has_coefficients(lens, count)) {
+      fault(node, "distortion_coefficients: " + expected_coefficients(lens));
+    }
+    coefficients = numbers(node, "distortion_coefficients", count);
   }
-  std::copy_n(d.begin(), camera.distortion.size(), camera.distortion.begin());
+  camera.set_lens(lens, coefficients);
   return camera;
 }
 

@@ -14,6 +14,10 @@
 
 namespace vinebench::harness {
 
+/// Lines of a lens: EuRoC's own names, and Kalibr's for fisheyes ("equidistant"; the camera model
+/// "ds", with xi and alpha before its other intrinsics).
+std::string sensor_lens(const PinholeCamera& camera);
+
 /// A sensor.yaml of an EuRoC/ASL folder. Unknown keys are ignored, because files of others have
 /// additional ones; the keys that are read are validated. Throws Error with file and line.
 class SensorFile {
@@ -21,10 +25,11 @@ class SensorFile {
   explicit SensorFile(std::filesystem::path file);
 
   Pose T_BS() const;             ///< sensor to body
-  PinholeCamera camera() const;  ///< pinhole, radial-tangential or without distortion
+  PinholeCamera camera() const;  ///< with any lens of LensModel, by the names of sensor_lens()
   std::optional<double> rate_hz() const;
 
  private:
+  LensModel lens_model() const;
   [[noreturn]] void fault(const YAML::Node& node, const std::string& message) const;
   std::vector<double> numbers(const YAML::Node& node, const std::string& key,
                               std::size_t count) const;

@@ -90,7 +90,7 @@ std::string stella_camera(const char* camera, const PinholeCamera& c) {
   const std::vector<double> K{c.fx, 0, c.cx, 0, c.fy, c.cy, 0, 0, 1};
   const auto& d = c.distortion;
   return fmt::format("  K_{0}: [{1}]\n  D_{0}: [{2}]\n", camera, reals(K),
-                     reals({d[0], d[1], d[2], d[3], 0}));
+                     reals({d.begin(), d.end()}));
 }
 
 /// For a pair that is not rectified, stella_vslam needs rotations to a common plane.
@@ -119,11 +119,17 @@ std::string stella(const Setup& setup) {
          "  num_levels: 8\n  ini_fast_threshold: 20\n  min_fast_threshold: 7\n";
 }
 
+/// The lens that all of these systems have.
+bool has_four_coefficients(const PinholeCamera& c) {
+  return c.lens == LensModel::kRadialTangential && c.coefficients().size() == 4;
+}
+
 }  // namespace
 
 std::vector<SettingsFile> slam_settings(const RecordingNotes& notes) {
   const Rig rig = notes.rig.make();
   if (rig.stereo_pairs.empty()) fail("settings: rig '{}' has no stereo pair", rig.name);
+  if (!std::ranges::all_of(rig.cameras, has_four_coefficients, &RigCamera::model)) return {};
   const Setup setup = setup_of(rig, rig.stereo_pairs.front(), notes);
   std::vector<SettingsFile> files{{"orbslam3_raw.yaml", orbslam(setup, true)},
                                   {"basalt_calib.json", basalt_settings(setup.pair(), notes)},

@@ -14,13 +14,14 @@ namespace {
 struct CalibrationConfig {
   struct Camera {
     std::string name;
-    int width = 0;                                       ///< px
-    int height = 0;                                      ///< px
-    double fx = 1;                                       ///< px
-    double fy = 1;                                       ///< px
-    double cx = 0;                                       ///< px
-    double cy = 0;                                       ///< px
-    std::array<double, 4> distortion{};                  ///< k1, k2, p1, p2
+    int width = 0;   ///< px
+    int height = 0;  ///< px
+    double fx = 1;   ///< px
+    double fy = 1;   ///< px
+    double cx = 0;   ///< px
+    double cy = 0;   ///< px
+    LensModel lens = LensModel::kRadialTangential;
+    std::vector<double> distortion;                      ///< the lens model's coefficients
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
     Eigen::Vector4d rotation{0, 0, 0, 1};                ///< x, y, z, w
     template <class Archive>
@@ -32,7 +33,10 @@ struct CalibrationConfig {
       archive("fy", fy, Range::positive());
       archive("cx", cx);
       archive("cy", cy);
+      archive("lens", lens);
       archive("distortion", distortion);
+      archive.require(has_coefficients(lens, distortion.size()), "distortion",
+                      expected_coefficients(lens));
       archive("position", position);
       archive("rotation", rotation);
       archive.require(std::abs(rotation.norm() - 1) < 1e-6, "rotation",
@@ -54,8 +58,9 @@ std::string format_calibration(const Rig& rig) {
   CalibrationConfig config;
   for (const RigCamera& camera : rig.cameras) {
     const PinholeCamera& c = camera.model;
-    config.cameras.push_back({camera.name, c.width, c.height, c.fx, c.fy, c.cx, c.cy, c.distortion,
-                              camera.T_body_cam.translation, camera.T_body_cam.rotation.coeffs()});
+    config.cameras.push_back({camera.name, c.width, c.height, c.fx, c.fy, c.cx, c.cy, c.lens,
+                              c.coefficients(), camera.T_body_cam.translation,
+                              camera.T_body_cam.rotation.coeffs()});
   }
   for (const StereoPair& pair : rig.stereo_pairs) {
     config.stereo_pairs.push_back({pair.name, rig.cameras[static_cast<std::size_t>(pair.left)].name,
@@ -68,9 +73,9 @@ Rig read_calibration(const std::filesystem::path& file) {
   const auto config = YamlDocument::load(file).read<CalibrationConfig>();
   Rig rig;
   for (const CalibrationConfig::Camera& c : config.cameras) {
-    rig.cameras.push_back({c.name,
-                           {c.width, c.height, c.fx, c.fy, c.cx, c.cy, c.distortion},
-                           Pose{Eigen::Quaterniond(c.rotation), c.position}});
+    PinholeCamera model{c.width, c.height, c.fx, c.fy, c.cx, c.cy};
+    model.set_lens(c.lens, c.distortion);
+    rig.cameras.push_back({c.name, model, Pose{Eigen::Quaterniond(c.rotation), c.position}});
   }
   for (const RigConfig::Pair& pair : config.stereo_pairs) {
     rig.stereo_pairs.push_back(

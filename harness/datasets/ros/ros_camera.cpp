@@ -37,10 +37,21 @@ std::array<double, 9> rows_of(const Eigen::Matrix3d& m) {
   return rows;
 }
 
+std::string distortion_model(const RigCamera& camera) {
+  switch (camera.model.lens) {
+    case LensModel::kRadialTangential:
+      return "plumb_bob";
+    case LensModel::kEquidistant:
+      return "equidistant";
+    case LensModel::kDoubleSphere:
+      break;
+  }
+  fail("ros: camera '{}': ROS has no double-sphere lenses", camera.name);
+}
+
 RosCamera alone(const RigCamera& camera) {
   expect_ros_name(camera.name);
   const PinholeCamera& c = camera.model;
-  const auto& d = c.distortion;
   RosCamera ros;
   ros.frame = camera.name + "_optical_frame";
   ros.images = fmt::format("/{}/image_{}", camera.name, c.has_distortion() ? "raw" : "rect");
@@ -48,7 +59,9 @@ RosCamera alone(const RigCamera& camera) {
   ros.calibration.header.frame = ros.frame;
   ros.calibration.width = c.width;
   ros.calibration.height = c.height;
-  ros.calibration.D = {d[0], d[1], d[2], d[3], 0};
+  ros.calibration.model = distortion_model(camera);
+  ros.calibration.D = c.coefficients();
+  if (c.lens == LensModel::kRadialTangential) ros.calibration.D.resize(5);  // k3
   ros.calibration.K = {c.fx, 0, c.cx, 0, c.fy, c.cy, 0, 0, 1};
   ros.calibration.R = rows_of(Eigen::Matrix3d::Identity());
   ros.calibration.P = projection(c, 0);

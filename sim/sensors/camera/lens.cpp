@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/sensors/camera/lens.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -25,10 +27,10 @@ cv::Mat seen_points(const PinholeCamera& camera) {
       // Written so that NaN is an error.
       if (!((camera.project(ray) - Eigen::Vector2d(x, y)).norm() < 1e-6)) {
         fail(
-            "lens: the distortion ({}, {}, {}, {}) folds over at pixel ({}, {}), expected one that "
-            "grows steadily to the image's corners",
-            camera.distortion[0], camera.distortion[1], camera.distortion[2], camera.distortion[3],
-            x, y);
+            "lens: the distortion ({}) folds over at pixel ({}, {}), expected one that grows "
+            "steadily "
+            "to the image's corners, less than 89.5 degrees from the axis",
+            fmt::join(camera.coefficients(), ", "), x, y);
       }
       row[x] = {ray.x(), ray.y()};
     }

@@ -55,6 +55,24 @@ TEST(RigTest, BaselinesAreTwelveCentimetresAlongTheLeftCamerasXAxis) {
   }
 }
 
+TEST(RigTest, ALensHasItsOwnCoefficients) {
+  const test::TestFolder folder;
+  const auto rig_with = [&](const std::string& lens) {
+    std::ofstream(folder / "rig.yaml") << "cameras:\n  - {name: eye, " << lens << "}\n";
+    return load_rig(folder / "rig.yaml").cameras[0].model;
+  };
+  EXPECT_FALSE(rig_with("fx: 300").has_distortion());
+  EXPECT_EQ(rig_with("distortion: [0.1, 0.2, 0, 0, 0.3]").distortion[4], 0.3);
+  const PinholeCamera fisheye = rig_with("lens: equidistant, distortion: [0.1, 0.2, 0.3, 0.4]");
+  EXPECT_EQ(fisheye.lens, LensModel::kEquidistant);
+  EXPECT_EQ(fisheye.distortion[3], 0.4);
+  EXPECT_EQ(rig_with("lens: double_sphere, distortion: [-0.2, 0.6]").lens,
+            LensModel::kDoubleSphere);
+  EXPECT_THROW(rig_with("lens: double_sphere"), Error);  // four zeros are none of its
+  EXPECT_THROW(rig_with("distortion: [0.1, 0.2, 0]"), Error);
+  EXPECT_THROW(rig_with("lens: equidistant, distortion: [0, 0, 0, 0, 0]"), Error);
+}
+
 TEST(RigTest, TheBackPairLooksTheOppositeWay) {
   // Back-left is 0.30 m behind front-left and 0.12 m to its right; the left and right cameras of
   // the back pair swap sides of the rover.

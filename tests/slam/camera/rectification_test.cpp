@@ -100,6 +100,37 @@ TEST(RectificationTest, ARawPairMeasuresAsAnIdealOneDoes) {
   EXPECT_LT(raw[raw.size() * 9 / 10], ideal[ideal.size() * 9 / 10] + 0.3 * 0.089);
 }
 
+/// Fisheyes like TUM-VI's at half size, whose corners look behind them.
+Rig fisheye_rig(LensModel model, const std::vector<double>& coefficients, double focal) {
+  Rig rig = raw_rig();
+  for (RigCamera& camera : rig.cameras) {
+    camera.model = {.width = 256, .height = 256, .fx = focal, .fy = focal, .cx = 127, .cy = 128};
+    camera.model.set_lens(model, coefficients);
+  }
+  return rig;
+}
+
+TEST(RectificationTest, FisheyesMeasureAsAnIdealPairDoes) {
+  const double degrees_55 = 1.428;  // tangent
+  const std::vector<double> ideal = wall_errors(ideal_rig());
+  for (const Rig& rig :
+       {fisheye_rig(LensModel::kEquidistant, {0.0035, 0.0007, -0.002, 0.0002}, 95.5),
+        fisheye_rig(LensModel::kDoubleSphere, {-0.18, 0.59}, 79)}) {
+    const StereoRig used = make_stereo_rig(rig, {});
+    const PinholeCamera& plane = used.pairs[0].lens;
+    EXPECT_FALSE(plane.has_distortion());
+    // The view is narrower than the lenses, and not coarser than they are near their axes.
+    EXPECT_NEAR((plane.cx + 0.5) / plane.fx, degrees_55, 0.1);
+    EXPECT_NEAR(plane.fx, rig.cameras[0].model.without_distortion().fx, 10);
+    const std::vector<double> errors = wall_errors(rig);
+    ASSERT_GT(errors.size(), 100u);
+    // 1.5^2 / (90 * 0.11) = 0.23 m a pixel of disparity; the ideal pair's is 0.089 m. The same
+    // share of a pixel as of the raw pair is allowed.
+    const double coarser = 0.23 / 0.089;
+    EXPECT_LT(errors[errors.size() / 2], coarser * ideal[ideal.size() / 2] + 0.1 * 0.23);
+  }
+}
+
 TEST(RectificationTest, PointsFallOnOneRowAtTheirDisparity) {
   const Rig rig = raw_rig();
   const Rectification pair(rig.cameras[0], rig.cameras[1], "test");

@@ -9,6 +9,8 @@
 
 #include "core/files/files.h"
 #include "core/util/error.h"
+#include "slam/map/binary_archive.h"
+#include "slam/map/rig_fingerprint.h"
 #include "tests/support/aisle_map.h"
 #include "tests/support/special_files.h"
 #include "tests/support/test_folder.h"
@@ -188,16 +190,24 @@ TEST_F(MapFileTest, AnotherVersionIsSaidSo) {
   std::string other = bytes_;
   other[8] = 1;  // version, low byte
   EXPECT_THAT(error_of(sealed(other)),
-              AllOf(HasSubstr("version 1"), HasSubstr("expected version 3 to 4")));
+              AllOf(HasSubstr("version 1"), HasSubstr("expected version 3 to 5")));
 }
 
-// Version 3 lacks the flag behind each keyframe that says whether it has an inertial state; of a
-// map of one keyframe that is the content's last byte.
+std::string rig_bytes(const EstimatorRig& rig, std::uint32_t version) {
+  BinaryWriter writer(version);
+  writer(rig_fingerprint(rig));
+  return writer.take();
+}
+
+// Versions 3 and 4 lack the lens models of the rig, with which the content begins. Version 3 also
+// lacks the flag behind each keyframe that says whether it has an inertial state; of a map of one
+// keyframe that is the content's last byte.
 TEST_F(MapFileTest, MapsOfVersion3AreRead) {
   AisleMap one(aisle_, {Pose{}});
   std::string older = format_map(one.map, one.rig);
   ASSERT_EQ(older[older.size() - 9], 0);
   older.erase(older.size() - 9, 1);
+  older.replace(20, rig_bytes(one.rig, 5).size(), rig_bytes(one.rig, 3));
   older[8] = 3;
   const std::uint64_t content = older.size() - 28;
   for (std::size_t i = 0; i < 8; ++i) older[12 + i] = static_cast<char>(content >> (8 * i) & 0xffU);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "slam/map/binary_archive.h"
+
 namespace vinebench::slam {
 namespace {
 
@@ -51,6 +53,28 @@ TEST_F(RigFingerprintTest, OtherCamerasAreSaidSo) {
   print_ = rover();
   print_.cameras.pop_back();
   EXPECT_EQ(found(), "it has 4 cameras, this one 5");
+}
+
+TEST_F(RigFingerprintTest, AFisheyesLensIsKept) {
+  print_.cameras[0].model.set_lens(LensModel::kEquidistant, {0.1, 0.2, 0.3, 0.4});
+  print_.cameras[1].model.distortion[4] = 0.5;
+  for (const std::uint32_t version : {4U, 5U}) {
+    BinaryWriter writer(version);
+    writer(print_);
+    BinaryReader reader(writer.bytes(), "test", version);
+    RigFingerprint back;
+    reader(back);
+    EXPECT_TRUE(reader.at_end());
+    // A map of version 4 is of a rig without such lenses.
+    const RigFingerprint& expected = version == 5 ? print_ : rover();
+    EXPECT_EQ(difference(back, expected) == "", version == 5) << difference(back, expected);
+  }
+  BinaryWriter writer(4);
+  writer(rover());
+  BinaryReader reader(writer.bytes(), "test", 4);
+  RigFingerprint back;
+  reader(back);
+  EXPECT_EQ(difference(back, rover()), "");
 }
 
 TEST_F(RigFingerprintTest, OtherPairsAreSaidSo) {

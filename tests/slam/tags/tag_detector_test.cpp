@@ -16,7 +16,7 @@ using test::SyntheticTag;
 
 constexpr double kSize = 0.161;  // m
 
-PinholeCamera camera(const std::array<double, 4>& distortion = {}) {
+PinholeCamera camera(const std::array<double, 5>& distortion = {}) {
   return {640, 480, 400, 400, 319.5, 239.5, distortion};
 }
 

@@ -10,7 +10,7 @@
 namespace vinebench::slam {
 namespace {
 
-PinholeCamera wide_camera(const std::array<double, 4>& distortion = {}) {
+PinholeCamera wide_camera(const std::array<double, 5>& distortion = {}) {
   return {1920, 1080, 733, 733, 959.5, 539.5, distortion};
 }
 

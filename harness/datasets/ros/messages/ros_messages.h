@@ -53,7 +53,7 @@ struct RosCameraInfo {
   int width = 0;
   int height = 0;
   std::string model = "plumb_bob";
-  std::vector<double> D;  ///< plumb_bob: k1, k2, p1, p2, k3
+  std::vector<double> D;  ///< plumb_bob: k1, k2, p1, p2, k3; equidistant: k1, k2, k3, k4
   std::array<double, 9> K{};
   std::array<double, 9> R{};
   std::array<double, 12> P{};

@@ -52,10 +52,23 @@ void expect_size_and_lens(const Told& told, const PinholeCamera& lens) {
   }
 }
 
+/// By ROS's names, and image_pipeline's for fisheyes.
+LensModel lens_model_of(const Told& told) {
+  const std::string& name = told.info.model;
+  if (name == "equidistant" || name == "fisheye") return LensModel::kEquidistant;
+  const bool none = std::ranges::all_of(told.info.D, [](double d) { return d == 0; });
+  if (!none && !name.empty() && name != "plumb_bob" && name != "radtan" &&
+      name != "rational_polynomial") {
+    told.fault("expected the lens plumb_bob or equidistant, found {}: rectify the images, or --rig",
+               name);
+  }
+  return LensModel::kRadialTangential;
+}
+
 /// A rectified image has the lens of P; a raw one that of K and D.
 PinholeCamera lens_of(const Told& told, bool rectified) {
   const RosCameraInfo& info = told.info;
-  PinholeCamera lens{info.width, info.height, info.K[0], info.K[4], info.K[2], info.K[5], {}};
+  PinholeCamera lens{info.width, info.height, info.K[0], info.K[4], info.K[2], info.K[5]};
   if (rectified) {
     lens.fx = info.P[0];
     lens.fy = info.P[5];
@@ -63,20 +76,18 @@ PinholeCamera lens_of(const Told& told, bool rectified) {
     lens.cy = info.P[6];
   }
   expect_size_and_lens(told, lens);
-  if (rectified || std::ranges::all_of(info.D, [](double d) { return d == 0; })) return lens;
-  const bool radial = info.model.empty() || info.model == "plumb_bob" || info.model == "radtan" ||
-                      info.model == "rational_polynomial";
-  if (!radial) {
-    told.fault("expected the lens plumb_bob, found {}: rectify the images, or --rig", info.model);
+  if (rectified) return lens;
+  const LensModel model = lens_model_of(told);
+  for (const double d : info.D) {
+    if (!std::isfinite(d)) told.fault("expected finite coefficients of the lens");
   }
-  for (std::size_t i = 0; i < info.D.size(); ++i) {
-    if (!std::isfinite(info.D[i])) told.fault("expected finite coefficients of the lens");
-    if (i < lens.distortion.size()) {
-      lens.distortion[i] = info.D[i];
-    } else if (info.D[i] != 0) {
-      told.fault("expected k1, k2, p1, p2; k3 and more are not supported: rectify the images");
-    }
+  std::vector<double> d(info.D.begin(), info.D.end());
+  while (!d.empty() && d.back() == 0) d.pop_back();  // of a rational_polynomial that is none
+  const std::size_t most = model == LensModel::kEquidistant ? 4 : 5;
+  if (d.size() > most) {
+    told.fault("{}, found more: rectify the images", expected_coefficients(model));
   }
+  lens.set_lens(model, d);
   return lens;
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/config/yaml_writer.h"
+#include "harness/datasets/euroc/sensor_file.h"
 #include "tests/support/broken_png.h"
 #include "tests/support/recorded_folders.h"
 #include "tests/support/special_files.h"
@@ -151,6 +152,41 @@ TEST_F(EurocReaderTest, MissingAndDamagedImagesAreBlindCameras) {
             (Counts{{"picture_missing", 1}, {"picture_unreadable", 2}}));
 }
 
+TEST_F(EurocReaderTest, ReadsTheLensesOfFisheyesAndOfKitti) {
+  const auto lens_of = [this](const std::string& text) {
+    set_sensor("cam0", text);
+    return SensorFile(root_ / "mav0/cam0/sensor.yaml").camera();
+  };
+  // As TUM-VI's.
+  const PinholeCamera equidistant = lens_of(
+      "T_BS: []\nresolution: [512, 512]\ncamera_model: pinhole\n"
+      "intrinsics: [190.97, 190.98, 254.93, 256.9]\ndistortion_model: equidistant\n"
+      "distortion_coefficients: [0.0035, 0.0007, -0.002, 0.0002]\n");
+  EXPECT_EQ(equidistant.lens, LensModel::kEquidistant);
+  EXPECT_EQ(equidistant.coefficients(), (std::vector<double>{0.0035, 0.0007, -0.002, 0.0002}));
+  // As Kalibr writes double spheres: xi and alpha first.
+  const PinholeCamera spheres = lens_of(
+      "resolution: [512, 512]\ncamera_model: ds\n"
+      "intrinsics: [-0.18, 0.59, 157.9, 158, 254.9, 256.9]\ndistortion_model: none\n");
+  EXPECT_EQ(spheres.lens, LensModel::kDoubleSphere);
+  EXPECT_EQ(spheres.coefficients(), (std::vector<double>{-0.18, 0.59}));
+  EXPECT_EQ(spheres.fx, 157.9);
+  EXPECT_EQ(spheres.cy, 256.9);
+  const PinholeCamera five = lens_of(
+      "resolution: [1392, 512]\nintrinsics: [984, 981, 690, 233]\n"
+      "distortion_model: plumb_bob\n"
+      "distortion_coefficients: [-0.37, 0.2, 0.001, 0.002, -0.07]\n");
+  EXPECT_EQ(five.coefficients(), (std::vector<double>{-0.37, 0.2, 0.001, 0.002, -0.07}));
+  // What is written is read.
+  for (const PinholeCamera& camera : {equidistant, spheres, five}) {
+    const PinholeCamera back = lens_of(
+        fmt::format("resolution: [{}, {}]\n{}", camera.width, camera.height, sensor_lens(camera)));
+    EXPECT_EQ(back.lens, camera.lens);
+    EXPECT_EQ(back.distortion, camera.distortion);
+    EXPECT_EQ(back.fx, camera.fx);
+  }
+}
+
 TEST_F(EurocReaderTest, FaultyCalibrationsAreErrors) {
   set_sensor("cam1", edited("0, 0, 0, 1]", "0, 0, 1]"));
   expect_error("cam1/sensor.yaml:5: T_BS: expected 16 numbers, found 15");
@@ -159,9 +195,11 @@ TEST_F(EurocReaderTest, FaultyCalibrationsAreErrors) {
   set_sensor("cam1", edited("[20, 20, 15, 11]", "[20, 20, 15]"));
   expect_error("intrinsics: expected 4 numbers, found 3");
   set_sensor("cam1", edited("[0, 0, 0, 0]\n", "[0, 0, 0]\n"));
-  expect_error("distortion_coefficients: expected 4 numbers, found 3");
-  set_sensor("cam1", edited("radial-tangential", "equidistant"));
+  expect_error("distortion_coefficients: expected k1, k2, p1, p2, or these and k3");
+  set_sensor("cam1", edited("radial-tangential", "fov"));
   expect_error("distortion_model: expected radial-tangential");
+  set_sensor("cam1", edited("camera_model: pinhole", "camera_model: ds"));
+  expect_error("intrinsics: expected 6 numbers, found 4");
   set_sensor("cam1", edited("resolution: [32", "resolution: [64"));
   expect_error("camera 'cam1': its calibration is for 64 x 24 pixels, its first image has 32 x 24");
   for (const char* side : {"15", "16385", "32.5", "-32", "7e54"}) {

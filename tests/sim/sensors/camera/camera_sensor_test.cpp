@@ -289,8 +289,8 @@ class CameraLensTest : public testing::Test {
 /// influence.
 TEST_F(CameraLensTest, PointsAreWhereTheCameraProjectsThem) {
   const Pose near = look_at({0.02, -0.24, 0.03}, {0.01, 0, 0}, 0.05);
-  for (const std::array<double, 4>& distortion :
-       {std::array<double, 4>{-0.05, 0, 0, 0}, {-0.12, 0.02, 0.001, -0.002}, {0.03, 0, 0, 0}}) {
+  for (const std::array<double, 5>& distortion :
+       {std::array<double, 5>{-0.05, 0, 0, 0}, {-0.12, 0.02, 0.001, -0.002}, {0.03, 0, 0, 0}}) {
     PinholeCamera camera = large_camera();
     camera.distortion = distortion;
     EXPECT_LT(Chessboard::worst_corner(capture(camera, near).rgb, camera, near), 0.1)

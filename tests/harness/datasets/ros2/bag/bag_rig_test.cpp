@@ -140,8 +140,12 @@ TEST(BagRigTest, LensesThatAreNotSupportedAreErrors) {
   EXPECT_EQ(error_with("plumb_bob", {-0.1, 0.01, 0, 0, 0}), "");
   EXPECT_EQ(error_with("rational_polynomial", {-0.1, 0.01, 0, 0, 0, 0, 0, 0}), "");
   EXPECT_EQ(error_with("", {}), "");
-  EXPECT_THAT(error_with("plumb_bob", {-0.1, 0.01, 0, 0, 0.1}), HasSubstr("k3 and more"));
-  EXPECT_THAT(error_with("equidistant", {-0.1, 0.01, 0, 0}), HasSubstr("found equidistant"));
+  EXPECT_EQ(error_with("plumb_bob", {-0.1, 0.01, 0, 0, 0.1}), "");  // k3
+  EXPECT_EQ(error_with("equidistant", {-0.1, 0.01, 0.002, -0.001}), "");
+  EXPECT_THAT(error_with("rational_polynomial", {-0.1, 0.01, 0, 0, 0.1, 0.2, 0, 0}),
+              HasSubstr("or these and k3, found more"));
+  EXPECT_THAT(error_with("equidistant", {-0.1, 0.01, 0, 0, 0.1}), HasSubstr("found more"));
+  EXPECT_THAT(error_with("omni", {-0.1, 0.01, 0, 0}), HasSubstr("found omni"));
 }
 
 TEST(BagRigTest, WithoutAPairItIsAnError) {
