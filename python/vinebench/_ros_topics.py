@@ -17,7 +17,10 @@ INSTALL = ("source the setup.bash of ROS 2, or install python/ros2-requirements.
            "(docs/ros2.md)")
 _SETTLED = 0.5  # s without a new subscription, before the first frame
 _SLICE = 0.05  # s, after which a wait looks at the interruption
-_DEPTH = 1000  # messages that wait for a slow subscriber; some seconds of inertial readings
+# Messages that wait for a slow subscriber: readings since the frame before come at once.
+_DEPTH = {"sensor_msgs/msg/Imu": 1000, "sensor_msgs/msg/JointState": 1000,
+          "rosgraph_msgs/msg/Clock": 1000}
+_USUAL_DEPTH = 10
 
 
 def _rclpy() -> Any:
@@ -78,7 +81,7 @@ class Topics:
         """Topic, type, whether it is latched."""
         from rclpy.qos import DurabilityPolicy, QoSProfile
         for topic, kind, latched in topics:
-            quality = QoSProfile(depth=_DEPTH)
+            quality = QoSProfile(depth=_DEPTH.get(kind, _USUAL_DEPTH))
             if latched:
                 self._latched.add(topic)
                 quality = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -120,11 +123,11 @@ class Topics:
             raise core.Error(f"{topic}: expected {' or '.join(kinds)}, found "
                              f"{' and '.join(found)}")
         from rclpy.qos import QoSProfile, ReliabilityPolicy
-        quality = QoSProfile(depth=_DEPTH)
+        quality = QoSProfile(depth=_USUAL_DEPTH)
         if any(info.qos_profile.reliability == ReliabilityPolicy.BEST_EFFORT for info in infos):
             quality.reliability = ReliabilityPolicy.BEST_EFFORT
         self._node.create_subscription(_required_type(found[0]), topic, take, quality)
-        return found[0]
+        return str(found[0])
 
     def expect_subscribers(self, seconds: float) -> None:
         """Waits until somebody subscribes to our topics, and for a while nobody more does. Raises

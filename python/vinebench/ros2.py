@@ -105,6 +105,8 @@ class _Bridge:
 
     def __init__(self, options: argparse.Namespace) -> None:
         self._options = options
+        self._given = {"seed": options.seed, "set": dict(options.set),
+                       "randomise": options.randomise}
         self._signal = 0
         self._system: Optional[Ros2System] = None
 
@@ -117,20 +119,20 @@ class _Bridge:
 
     def run(self) -> int:
         """Returns the exit code."""
+        options = self._options
+        transforms = has_transforms()
+        messages = core.RosMessages(options.scenario, colour=options.colour, images=options.images,
+                                    tags=transforms, **self._given)
         topics = Topics(lambda: self._signal != 0)
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, self.interrupt)
         try:
-            return self._run(topics)
+            return self._run(topics, messages, transforms)
         finally:
             topics.close()
 
-    def _run(self, topics: Topics) -> int:
+    def _run(self, topics: Topics, messages: Any, transforms: bool) -> int:
         options = self._options
-        transforms = has_transforms()
-        given = {"seed": options.seed, "set": dict(options.set), "randomise": options.randomise}
-        messages = core.RosMessages(options.scenario, colour=options.colour, images=options.images,
-                                    tags=transforms, **given)
         pace = Pace(options.rate, options.lag, options.timeout, options.give_up)
         self._system = Ros2System(topics, messages, options.pose_topic,
                                   pose_frames(options, messages.rig), pace)
@@ -145,7 +147,7 @@ class _Bridge:
 
         report = run(options.scenario, out=options.out, threads=options.threads,
                      slam=self._system, progress=True, on_truth=on_truth if options.truth else None,
-                     **given)
+                     **self._given)
         return self._tell(report)
 
     def _connect(self, topics: Topics, messages: Any, transforms: bool) -> None:
