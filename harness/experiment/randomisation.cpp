@@ -202,4 +202,8 @@ ScenarioConfig load_drawn_scenario(const std::filesystem::path& file,
   return scenario;
 }
 
+std::vector<ConfigField> randomisation_fields() {
+  return list_fields<RandomisationConfig>();
+}
+
 }  // namespace vinebench::harness
