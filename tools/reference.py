@@ -21,6 +21,10 @@ TRAILING = re.compile(r"^.*;\s*///< (.*)$")
 COMMENT = re.compile(r"^\s*///<? ?(.*)$")
 FIELD = re.compile(r'archive\("(\w+)", ([\w.]+)')
 PART = re.compile(r"([\w:]+)(?:\.|::)serialize\(archive\)")
+# Parts whose own parts have tables of their own.
+DEEP = ("world", "sensors", "slam")
+# What the program reads before the rest.
+WITHOUT_STRUCT = {"base": "another scenario, whose keys are inherited"}
 UNNAMED = "(anonymous namespace)"
 
 
@@ -113,6 +117,9 @@ class Sources:
 
     def comment(self, owner, key):
         """What is written beside a key, "" if nothing is."""
+        if not owner:
+            return WITHOUT_STRUCT[key]
+        key = re.sub(r"\.(N|NAME)$", "", key)  # an entry is what its list has
         struct = self.structs.get(owner)
         if struct is None:
             return ""
@@ -138,6 +145,18 @@ def code(text):
     return f"`{text}`" if text else ""
 
 
+def sections_of(keys):
+    """Keys by the part of the file that they belong to; those without a part under ""."""
+    parts = {key["key"] for key in keys if key["type"].startswith(("map", "list of maps"))}
+    sections = {"": []}
+    for key in keys:
+        names = key["key"].split(".")
+        depth = 2 if names[0] in DEEP and ".".join(names[:2]) in parts else 1
+        title = ".".join(names[:depth])
+        sections.setdefault(title if title in parts else "", []).append(key)
+    return sections
+
+
 def key_page(files, sources):
     lines = ["# Keys of files", "",
              "Made from the program and the comments in its source; `vinebench reference` prints "
@@ -147,21 +166,16 @@ def key_page(files, sources):
              "[data sets](../datasets.md#randomisation).", ""]
     for file in files:
         lines += [f"## {file['name'].capitalize()}", "", file["description"], ""]
-        section = None
-        for field in file["keys"]:
-            top = field["key"].split(".")
-            title = top[0] if len(top) == 1 or top[0] not in ("world", "sensors", "slam") else \
-                ".".join(top[:2])
-            if title != section and (field["type"].startswith(("map", "list of maps"))
-                                     or section is None or section not in field["key"]):
-                if section is None or field["type"].startswith(("map", "list")):
-                    lines += ["", f"### {file['name']}: {title}", ""] if section else []
-                    lines += ["| key | type | default | range | meaning |", "|---|---|---|---|---|"]
-                section = title
-            meaning = sources.comment(field["owner"], field["own_key"])
-            lines.append(f"| `{field['key']}` | {cell(field['type'])} | {code(field['value'])} | "
-                         f"{field['range']} | {cell(meaning)} |")
-        lines.append("")
+        for title, keys in sections_of(file["keys"]).items():
+            if not keys:
+                continue
+            lines += [f"### {file['name']}: {title}", ""] if title else []
+            lines += ["| key | type | default | range | meaning |", "|---|---|---|---|---|"]
+            for key in keys:
+                meaning = sources.comment(key["owner"], key["own_key"])
+                lines.append(f"| `{key['key']}` | {cell(key['type'])} | {code(key['value'])} | "
+                             f"{key['range']} | {cell(meaning)} |")
+            lines.append("")
     return "\n".join(lines)
 
 

@@ -16,7 +16,7 @@ namespace {
 
 struct RandomisationConfig {
   struct Draw {
-    std::string key;
+    std::string key;  ///< dotted, of the scenario: world.sun.elevation_deg
     std::optional<std::array<double, 2>> uniform;        ///< least, most
     std::optional<std::array<double, 2>> log_uniform;    ///< likewise, both above 0
     std::optional<std::array<double, 2>> normal;         ///< mean, standard deviation
