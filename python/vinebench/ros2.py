@@ -128,6 +128,10 @@ class _Bridge:
             signal.signal(number, self.interrupt)
         try:
             return self._run(topics, messages, transforms)
+        except core.Error:
+            if self._signal:  # while it waited for nodes
+                return self._stopped_early()
+            raise
         finally:
             topics.close()
 
@@ -138,8 +142,7 @@ class _Bridge:
                                   pose_frames(options, messages.rig), pace)
         self._connect(topics, messages, transforms)
         if self._signal:
-            tell("stopped before the first frame")
-            return _SIGNAL + self._signal
+            return self._stopped_early()
 
         def on_truth(stamp: int, T_world_body: Any) -> None:
             for topic, _, message in messages.of_truth(stamp, T_world_body):
@@ -149,6 +152,10 @@ class _Bridge:
                      slam=self._system, progress=True, on_truth=on_truth if options.truth else None,
                      **self._given)
         return self._tell(report)
+
+    def _stopped_early(self) -> int:
+        tell("stopped before the first frame")
+        return _SIGNAL + self._signal
 
     def _connect(self, topics: Topics, messages: Any, transforms: bool) -> None:
         """Waits for the system under test."""
