@@ -60,6 +60,7 @@ PYBIND11_MODULE(_core, module) {
   python::define_scenario(module);
   python::define_drive(module);
   python::define_slam(module);
+  python::define_ros_messages(module);
   python::define_runs(module);
   python::define_evaluation(module);
   python::define_data(module);

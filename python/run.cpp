@@ -23,12 +23,19 @@ namespace {
 using Overrides = std::map<std::string, py::object>;
 using FilePath = std::filesystem::path;
 
-/// The trajectories of a run, which its report does not have.
+/// The trajectories of a run, which its report does not have. Tells `on_truth`, unless it is None,
+/// the true pose of each frame once that is answered.
 class Trajectories : public harness::Sink {
  public:
+  explicit Trajectories(py::object on_truth) : on_truth_(std::move(on_truth)) {}
+
   void on_tick(const Sample& sample, const Estimate& estimate) override {
     stamps_.push_back(sample.frame.stamp);
     if (sample.truth.known) truth_.push_back({sample.frame.stamp, sample.truth.T_world_body});
+    if (!on_truth_.is_none()) {
+      const py::gil_scoped_acquire acquired;
+      on_truth_(sample.frame.stamp, sample.truth.T_world_body.matrix());
+    }
     if (estimate.T_map_body) live_.push_back({sample.frame.stamp, *estimate.T_map_body});
   }
   void on_finish(const SlamSummary& summary) override { summary_ = summary; }
@@ -42,19 +49,25 @@ class Trajectories : public harness::Sink {
   }
 
  private:
+  py::object on_truth_;
   std::vector<Stamp> stamps_;
   Trajectory truth_;
   Trajectory live_;
   SlamSummary summary_;
 };
 
-/// ^C, and whatever else a signal's handler in Python raises, ends the run after its frame.
+/// ^C, and whatever else a signal's handler in Python raises, ends the run after its frame; so does
+/// a system that wants to.
 class Interruption {
  public:
+  explicit Interruption(py::object adapter) : adapter_(std::move(adapter)) {}
+
   bool stopped() {
     if (raised_) return true;
     const py::gil_scoped_acquire acquired;
-    if (PyErr_CheckSignals() == 0) return false;
+    if (PyErr_CheckSignals() == 0) {
+      return !adapter_.is_none() && adapter_.attr("stopped")().cast<bool>();
+    }
     raised_.emplace();
     return true;
   }
@@ -64,6 +77,7 @@ class Interruption {
   }
 
  private:
+  py::object adapter_;
   std::optional<py::error_already_set> raised_;
 };
 
@@ -96,7 +110,8 @@ struct Run {
   std::optional<FilePath> out;
   int threads = 1;
   bool progress = false;
-  py::object adapter;  ///< None: the scenario's own system
+  py::object adapter;   ///< None: the scenario's own system
+  py::object on_truth;  ///< or None
 };
 
 harness::RunOutcome run_judged(const Run& run, harness::RunOptions options) {
@@ -115,8 +130,8 @@ harness::RunOutcome run_judged(const Run& run, harness::RunOptions options) {
 }
 
 py::dict outcome_of(const Run& run) {
-  Trajectories trajectories;
-  Interruption interruption;
+  Trajectories trajectories(run.on_truth);
+  Interruption interruption(run.adapter);
   harness::RunOptions options;
   options.title = run.scenario.name;
   options.sinks = {&trajectories};
@@ -145,7 +160,7 @@ py::dict outcome_of(const Run& run) {
 
 py::dict run(const FilePath& scenario, std::optional<std::int64_t> seed, const Overrides& set,
              const std::optional<FilePath>& randomise, const std::optional<FilePath>& out,
-             int threads, bool progress, const py::object& adapter) {
+             int threads, bool progress, const py::object& adapter, const py::object& on_truth) {
   const harness::FramesRequest request =
       frames_request(scenario, seed, set, randomise, {}, {}, threads);
   Run run;
@@ -154,6 +169,7 @@ py::dict run(const FilePath& scenario, std::optional<std::int64_t> seed, const O
   run.threads = std::max(1, threads);
   run.progress = progress;
   run.adapter = adapter;
+  run.on_truth = on_truth;
   {
     const py::gil_scoped_release others_may_run;
     run.scenario = scenario_of(request);
@@ -166,7 +182,7 @@ py::dict run(const FilePath& scenario, std::optional<std::int64_t> seed, const O
 void define_runs(py::module_& module) {
   module.def("run", &run, py::arg("scenario"), py::kw_only(), py::arg("seed"), py::arg("set"),
              py::arg("randomise"), py::arg("out"), py::arg("threads"), py::arg("progress"),
-             py::arg("adapter"));
+             py::arg("adapter"), py::arg("on_truth"));
 }
 
 }  // namespace vinebench::python

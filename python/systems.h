@@ -21,6 +21,9 @@ py::dict dict_of(const SlamSummary& summary);
 /// vinebench._core.Slam, the built-in core.
 void define_slam(py::module_& module);
 
+/// vinebench._core.RosMessages, for vinebench/ros2.py.
+void define_ros_messages(py::module_& module);
+
 /// `run`, and the evaluation of trajectories.
 void define_runs(py::module_& module);
 void define_evaluation(py::module_& module);

@@ -41,7 +41,7 @@ bool has_paper_setting(const SlamConfig& config);
 
 /// All settings of the SLAM core; each stage is given its own part.
 struct SlamConfig {
-  Preset preset = Preset::kDefault;
+  Preset preset = Preset::kDefault;  ///< settings of the paper where the file has none
   /// Names of the stereo pairs and tag cameras in use; all of the rig where empty.
   std::vector<std::string> cameras;
   OrbConfig features;
@@ -53,7 +53,7 @@ struct SlamConfig {
   DeadReckoningConfig dead_reckoning;
   TagDetectorConfig tags;
   LoopConfig loop;
-  ResidualLoss loss = ResidualLoss::kCauchy;
+  ResidualLoss loss = ResidualLoss::kCauchy;  ///< of reprojection errors in adjustments
 
   template <class Archive>
   void serialize(Archive& archive) {

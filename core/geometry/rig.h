@@ -35,7 +35,7 @@ struct StereoPair {
 /// N rigidly mounted cameras exposed at the same instant. A camera is data: its index.
 struct Rig {
   std::string name;
-  double rate_hz = 15;
+  double rate_hz = 15;  ///< frames a second
   std::vector<RigCamera> cameras;
   std::vector<StereoPair> stereo_pairs;  ///< used for tracking
   std::vector<int> tag_cameras;          ///< in which AprilTags are detected
@@ -58,15 +58,15 @@ struct Rig {
 /// The YAML form of a rig, with angles in degrees.
 struct RigConfig {
   struct Camera {
-    std::string name;
-    int width = 752;           ///< px
-    int height = 480;          ///< px
-    double fx = 263.2786;      ///< px
-    double fy = 263.2786;      ///< px
-    std::optional<double> cx;  ///< px; default: the centre, (width - 1) / 2
-    std::optional<double> cy;  ///< px; default: the centre, (height - 1) / 2
-    LensModel lens = LensModel::kRadialTangential;
-    std::vector<double> distortion = {0, 0, 0, 0};       ///< the lens model's coefficients
+    std::string name;                               ///< of its topics and files
+    int width = 752;                                ///< px
+    int height = 480;                               ///< px
+    double fx = 263.2786;                           ///< px
+    double fy = 263.2786;                           ///< px
+    std::optional<double> cx;                       ///< px; default: the centre, (width - 1) / 2
+    std::optional<double> cy;                       ///< px; default: the centre, (height - 1) / 2
+    LensModel lens = LensModel::kRadialTangential;  ///< how it bends what a pinhole would see
+    std::vector<double> distortion = {0, 0, 0, 0};  ///< the lens model's coefficients
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, in the body frame
     Eigen::Vector3d rpy_deg = Eigen::Vector3d::Zero();   ///< view direction against the body
 
@@ -88,9 +88,9 @@ struct RigConfig {
     }
   };
   struct Pair {
-    std::string name;
-    std::string left;
-    std::string right;
+    std::string name;   ///< of the pair
+    std::string left;   ///< name of its left camera
+    std::string right;  ///< name of its right camera
 
     template <class Archive>
     void serialize(Archive& archive) {
@@ -100,11 +100,11 @@ struct RigConfig {
     }
   };
 
-  std::string name = "rig";
-  double rate_hz = 15;
+  std::string name = "rig";  ///< of the rig
+  double rate_hz = 15;       ///< frames a second
   std::vector<Camera> cameras;
   std::vector<Pair> stereo_pairs;
-  std::vector<std::string> tag_cameras;
+  std::vector<std::string> tag_cameras;  ///< names of those that search for tags
 
   template <class Archive>
   void serialize(Archive& archive) {

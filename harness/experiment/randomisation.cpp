@@ -16,7 +16,7 @@ namespace {
 
 struct RandomisationConfig {
   struct Draw {
-    std::string key;
+    std::string key;  ///< dotted, of the scenario: world.sun.elevation_deg
     std::optional<std::array<double, 2>> uniform;        ///< least, most
     std::optional<std::array<double, 2>> log_uniform;    ///< likewise, both above 0
     std::optional<std::array<double, 2>> normal;         ///< mean, standard deviation
@@ -200,6 +200,10 @@ ScenarioConfig load_drawn_scenario(const std::filesystem::path& file,
   ScenarioConfig scenario = load_scenario(file, overrides);
   if (seed) scenario.seed = *seed;
   return scenario;
+}
+
+std::vector<ConfigField> randomisation_fields() {
+  return list_fields<RandomisationConfig>();
 }
 
 }  // namespace vinebench::harness

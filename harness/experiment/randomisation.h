@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/config/field_list.h"
 #include "harness/experiment/scenario.h"
 
 namespace vinebench::harness {
@@ -38,5 +39,8 @@ ScenarioConfig load_drawn_scenario(const std::filesystem::path& file,
                                    std::vector<Override> overrides,
                                    const std::filesystem::path& randomisation,
                                    std::optional<std::int64_t> seed);
+
+/// The keys of a file of distributions.
+std::vector<ConfigField> randomisation_fields();
 
 }  // namespace vinebench::harness

@@ -37,10 +37,10 @@ struct Guard {
 
 /// One experiment: a world, a rover, its route, a SLAM system and what is expected of the run.
 struct ScenarioConfig {
-  std::string name;
-  std::string description;
-  std::int64_t seed = 1;
-  sim::SimulationConfig simulation;         ///< its fields are at the top level of the file
+  std::string name;                  ///< of the scenario and its results
+  std::string description;           ///< a line, for lists
+  std::int64_t seed = 1;             ///< of the vineyard, of noise and of all else that is drawn
+  sim::SimulationConfig simulation;  ///< its fields are at the top level of the file
   std::vector<sim::Occluder> occluders;     ///< added to those of the world
   std::vector<sim::WorldConfig::Tag> tags;  ///< likewise
   std::optional<EarlierVisit> earlier_visit;

@@ -41,12 +41,12 @@ struct Expectations {
       archive("ate_origin_rmse_max", ate_origin_rmse_max, Range::positive());
     }
   };
-  std::optional<double> coverage_min;         ///< share of frames with a pose, 0 to 1
-  std::optional<int> losses_max;              ///< number of tracking losses
-  std::optional<double> ate_rmse_max;         ///< m, SE(3)-aligned
-  std::optional<double> ate_origin_rmse_max;  ///< m, aligned by the first pose
-  std::optional<double> ate_world_rmse_max;   ///< m, in the world, not aligned
-  std::optional<double> rpe_trans_percent_max;
+  std::optional<double> coverage_min;                ///< share of frames with a pose, 0 to 1
+  std::optional<int> losses_max;                     ///< number of tracking losses
+  std::optional<double> ate_rmse_max;                ///< m, SE(3)-aligned
+  std::optional<double> ate_origin_rmse_max;         ///< m, aligned by the first pose
+  std::optional<double> ate_world_rmse_max;          ///< m, in the world, not aligned
+  std::optional<double> rpe_trans_percent_max;       ///< relative error of the translation over 1 m
   std::optional<double> worst_frame_max;             ///< m, aligned by the first pose
   std::optional<double> drift_max;                   ///< m, before the first loop closure
   std::optional<double> heading_rmse_max_deg;        ///< aligned by the first pose
@@ -55,12 +55,12 @@ struct Expectations {
   std::optional<double> tilt_error_max_deg;          ///< likewise, of any frame
   std::optional<double> heading_world_rmse_max_deg;  ///< in the world, not aligned
   std::optional<double> tilt_world_rmse_max_deg;     ///< likewise
-  std::optional<double> nees_mean_min;
-  std::optional<double> nees_mean_max;
+  std::optional<double> nees_mean_min;  ///< normalised estimation error squared; 6 is consistent
+  std::optional<double> nees_mean_max;  ///< likewise
   std::optional<double> end_error_max;  ///< m, from the route's end to the true position
-  std::optional<int> loop_closures_correct_min;
-  std::optional<int> loop_closures_wrong_max;
-  std::optional<int> loop_closures_missed_max;
+  std::optional<int> loop_closures_correct_min;  ///< that agree with the truth
+  std::optional<int> loop_closures_wrong_max;    ///< that do not
+  std::optional<int> loop_closures_missed_max;   ///< returns to a tag without a closure
   std::optional<Blind> blind;
   std::optional<Median> median;
   template <class Archive>

@@ -13,14 +13,14 @@ namespace vinebench::harness {
 
 /// A SLAM system that is a program: it gets a recording of the run and writes a trajectory.
 struct ExternalSlamConfig {
-  std::filesystem::path program;
+  std::filesystem::path program;  ///< executable, relative to the file
   /// "{recording}" and "{output}" in them stand for the folders.
   std::vector<std::string> arguments{"{recording}", "{output}"};
   std::string trajectory = "trajectory.txt";  ///< file that it writes, in its output folder
   std::string poses_of = "body";              ///< frame of its poses: "body", or a camera
   double timeout = 3600;                      ///< s, of wall time
   double memory_mib = 8192;                   ///< resident memory of all its processes, MiB
-  bool keep_recording = false;
+  bool keep_recording = false;                ///< do not remove the recording after the run
   template <class Archive>
   void serialize(Archive& archive) {
     archive("program", program);
@@ -47,7 +47,7 @@ struct ExternalSlamConfig {
 
 /// A SLAM system in a shared object, as of core/slam_plugin.h.
 struct PluginSlamConfig {
-  std::filesystem::path library;
+  std::filesystem::path library;                    ///< shared object, relative to the file
   std::optional<std::filesystem::path> settings{};  ///< passed on to it
   bool in_process = false;    ///< in the bench's process, without limits, instead of its own
   double frame_timeout = 60;  ///< s, of wall time, for each frame

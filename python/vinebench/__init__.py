@@ -16,7 +16,7 @@ estimator's own world; body: x forward, y left, z up; camera: x right, y down, z
 stamps are integer nanoseconds.
 """
 from vinebench._load import core as _core  # first: it decides how libraries compute
-from vinebench._adapter import RegisteredTag, SlamSystem, SystemSetup, Wheels
+from vinebench._adapter import RegisteredTag, SlamSystem, SystemFailed, SystemSetup, Wheels
 from vinebench._core import (Camera, Error, Frame, Rig, Scenario, SensorFrame, __version__,
                              label_names)
 from vinebench.evaluation import ErrorStatistics, Evaluation, evaluate
@@ -45,7 +45,7 @@ __all__ = [
     "Blind", "Camera", "CameraCounts", "Check", "DegradedSegment", "Error", "ErrorStatistics",
     "Estimate", "Evaluation", "Failure", "Frame", "LoopClosure", "LoopClosures", "Metrics",
     "Observation", "RegisteredTag", "Report", "Rig", "Scenario", "SensorFrame", "Simulation", "Slam",
-    "SlamSummary", "SlamSystem", "SystemSetup", "TagSighting", "TrackingStatus", "Trajectories",
-    "VectorSimulation", "Wheels", "__version__", "arithmetic", "evaluate", "label_names",
+    "SlamSummary", "SlamSystem", "SystemFailed", "SystemSetup", "TagSighting", "TrackingStatus",
+    "Trajectories", "VectorSimulation", "Wheels", "__version__", "arithmetic", "evaluate", "label_names",
     "progress_reward", "read_tum", "run", "scenario_names", "to_matrices", "write_tum",
 ]

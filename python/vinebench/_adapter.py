@@ -20,10 +20,16 @@ if TYPE_CHECKING:
 _Answer = TypeVar("_Answer")
 
 
+class SystemFailed(Exception):
+    """A system under test has failed, as it says itself: the message is the failure's cause, without
+    the place in the code."""
+
+
 class SlamSystem(Protocol):
     """A SLAM system written in Python. Only `process` is required; `start(setup)`, called before
     the first frame with a SystemSetup, and `finish()`, which returns a SlamSummary, a trajectory
-    (N, 8) or None, are called if they are there."""
+    (N, 8) or None, are called if they are there. If `stopped` is true after a frame, the run ends
+    with it."""
 
     def process(self, frame: "SensorFrame", /) -> Union[Estimate, Array, None]:
         """The estimate at a frame: an Estimate, a pose T_map_body (4, 4) in m, or None."""
@@ -82,6 +88,10 @@ class SystemAdapter:
         self.exception: Optional[BaseException] = None
         self._live: list[Array] = []
 
+    def stopped(self) -> bool:
+        """Whether the system wants the run to end."""
+        return bool(getattr(self._system, "stopped", False))
+
     def start(self, setup: dict[str, Any]) -> None:
         """Passes the setup on."""
         start = getattr(self._system, "start", None)
@@ -109,6 +119,8 @@ class SystemAdapter:
             return call()
         except Exception as error:
             self.exception = error
+            if isinstance(error, SystemFailed):
+                raise RuntimeError(f"{self.name}: {error}") from error
             place = traceback.extract_tb(error.__traceback__)[-1]
             raise RuntimeError(f"{self.name}.{method}: {type(error).__name__}: {error} "
                                f"({place.filename}:{place.lineno})") from error

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Iterator, Optional, TypedDict, Union
 
 import numpy as np
@@ -200,8 +200,25 @@ class Slam:
     def save_map(self, file: _Path) -> None: ...
     def save_cloud(self, file: _Path) -> None: ...
 
+class RosMessages:
+    """The messages of ROS 2 of a scenario's frames, as in its bag: (topic, time in ns, CDR)."""
+
+    start: int
+    """ns that times are ahead of stamps."""
+    def __init__(self, scenario: _Path, *, seed: Optional[int], set: _Settings,
+                 randomise: Optional[_Path], colour: bool, images: str, tags: bool) -> None: ...
+    @property
+    def rig(self) -> Rig: ...
+    @property
+    def topics(self) -> list[tuple[str, str, bool]]:
+        """Topic, type, whether it is latched; those of the truth too."""
+    def of_frame(self, frame: SensorFrame) -> list[tuple[str, int, bytes]]:
+        """In order of time; without truth."""
+    def of_truth(self, stamp: int, T_world_body: _Array) -> list[tuple[str, int, bytes]]: ...
+
 def run(scenario: _Path, *, seed: Optional[int], set: _Settings, randomise: Optional[_Path],
-        out: Optional[_Path], threads: int, progress: bool, adapter: Any) -> dict[str, Any]: ...
+        out: Optional[_Path], threads: int, progress: bool, adapter: Any,
+        on_truth: Optional[Callable[[int, _Array], None]]) -> dict[str, Any]: ...
 def evaluate(truth: Union[_Array, _Path], estimate: Union[_Array, _Path]) -> dict[str, Any]: ...
 def read_tum(file: _Path) -> _Array: ...
 def write_tum(file: _Path, trajectory: npt.NDArray[Any]) -> None: ...

@@ -229,7 +229,7 @@ def report_of(outcome: Mapping[str, Any], out: Optional[os.PathLike[str]],
         checks=tuple(Check(**check) for check in raw["expectations"]),
         degraded=tuple(DegradedSegment(**segment) for segment in outcome["degraded"]),
         failure=Failure(failure["cause"], failure["frame"], exception) if failure else None,
-        hash=raw["hash"], hash_environment=raw["hash_environment"],
+        hash=raw["hash"], hash_environment=raw.get("hash_environment", {}),
         trajectories=Trajectories(truth=arrays["truth"], estimate=arrays["trajectory"],
                                   live=arrays["live"], keyframes=arrays["keyframes"]),
         summary=outcome["summary"], folder=pathlib.Path(out) if out is not None else None, raw=raw)

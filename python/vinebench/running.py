@@ -5,19 +5,20 @@ from __future__ import annotations
 
 import os
 import pathlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, Optional
 
 from vinebench._adapter import SystemAdapter, SlamSystem
 from vinebench._load import core
 from vinebench.results import Report, report_of
-from vinebench.trajectories import PathLike
+from vinebench.trajectories import Array, PathLike
 
 
 def run(scenario: PathLike, *, seed: Optional[int] = None, set: Optional[Mapping[str, Any]] = None,
         randomise: Optional[PathLike] = None, out: Optional[PathLike] = None,
         threads: Optional[int] = None, slam: Optional[SlamSystem] = None,
-        progress: bool = False) -> Report:
+        progress: bool = False,
+        on_truth: Optional[Callable[[int, Array], None]] = None) -> Report:
     """Runs a scenario in lockstep and judges it, as `vinebench run` does.
 
     scenario: a scenario's file, or its name, such as "occluded-camera".
@@ -30,6 +31,8 @@ def run(scenario: PathLike, *, seed: Optional[int] = None, set: Optional[Mapping
         judged as the built-in core is, but for the guard, which was measured with that. What it
         raises is a failure of the run (Report.failure), not of this call.
     progress: tells the progress on standard error.
+    on_truth: called with the stamp (ns) and the true pose T_world_body (4, 4) of each frame, once
+        the system has answered it; for displays.
 
     Raises vinebench.Error for bad input. ^C ends the run after its frame with KeyboardInterrupt.
     """
@@ -37,6 +40,7 @@ def run(scenario: PathLike, *, seed: Optional[int] = None, set: Optional[Mapping
     outcome = core.run(os.fspath(scenario), seed=seed, set=dict(set or {}),
                        randomise=None if randomise is None else os.fspath(randomise),
                        out=None if out is None else os.fspath(out),
-                       threads=threads or os.cpu_count() or 1, progress=progress, adapter=adapter)
+                       threads=threads or os.cpu_count() or 1, progress=progress, adapter=adapter,
+                       on_truth=on_truth)
     return report_of(outcome, None if out is None else pathlib.Path(out),
                      None if adapter is None else adapter.exception)

@@ -18,9 +18,9 @@ struct Cultivar {
     double variation = 0.18;  ///< standard deviation of the area, as a share of it
     double lobes = 0.5;       ///< depth of the sinuses: 0 an entire leaf, 1 cut to the veins
     double teeth = 0.5;       ///< height of the teeth: 0 smooth, 1 long and sharp
-    Eigen::Vector3d dark{0.16, 0.25, 0.10};
-    Eigen::Vector3d light{0.37, 0.49, 0.21};
-    Eigen::Vector3d autumn{0.74, 0.52, 0.18};
+    Eigen::Vector3d dark{0.16, 0.25, 0.10};    ///< sRGB, 0 to 1, of blades: the darkest
+    Eigen::Vector3d light{0.37, 0.49, 0.21};   ///< likewise: the lightest
+    Eigen::Vector3d autumn{0.74, 0.52, 0.18};  ///< likewise: in autumn
     template <class Archive>
     void serialize(Archive& archive) {
       archive("area", area, Range::between(0.002, 0.04));
@@ -46,9 +46,9 @@ struct Cultivar {
     }
   };
   struct Berry {
-    double diameter = 0.015;  ///< m, mean at harvest
-    Eigen::Vector3d green{0.42, 0.54, 0.19};
-    Eigen::Vector3d ripe{0.17, 0.13, 0.20};
+    double diameter = 0.015;                  ///< m, mean at harvest
+    Eigen::Vector3d green{0.42, 0.54, 0.19};  ///< sRGB, 0 to 1, of a berry before veraison
+    Eigen::Vector3d ripe{0.17, 0.13, 0.20};   ///< likewise: at harvest
     template <class Archive>
     void serialize(Archive& archive) {
       archive("diameter", diameter, Range::between(0.005, 0.035));
@@ -57,7 +57,7 @@ struct Cultivar {
     }
   };
 
-  std::string name = "red";
+  std::string name = "red";  ///< of the cultivar
   Leaf leaf;
   Bunch bunch;
   Berry berry;

@@ -20,8 +20,8 @@ inline std::vector<std::string> yaml_names(RenderEngineKind) {
 inline constexpr int kMostSupersampling = 4;
 
 struct RendererConfig {
-  RenderEngineKind engine = RenderEngineKind::kGl;
-  GlBackend backend = GlBackend::kAuto;  ///< of `gl`
+  RenderEngineKind engine = RenderEngineKind::kGl;  ///< what draws the images
+  GlBackend backend = GlBackend::kAuto;             ///< of `gl`
   double lod_scale = 1.0;  ///< of `gl`: distances of the levels of detail are multiplied by this
   int shadow_map_size = 2048;  ///< of `gl`: pixels a side; 0 draws no shadows
   int supersampling = 1;       ///< samples a pixel's side that colours are the mean of

@@ -42,12 +42,12 @@ struct RouteConfig {
       archive("lift", lift, Range::between(0, 2));
     }
   };
-  double speed = 0.3;                  ///< m/s
-  double turn_rate_deg = 45;           ///< deg/s
-  double acceleration = 0.5;           ///< m/s^2
-  double turn_acceleration_deg = 120;  ///< deg/s^2
-  Steering steering = Steering::kTruth;
-  std::vector<Waypoint> waypoints;  ///< the first is the start pose
+  double speed = 0.3;                    ///< m/s
+  double turn_rate_deg = 45;             ///< deg/s
+  double acceleration = 0.5;             ///< m/s^2
+  double turn_acceleration_deg = 120;    ///< deg/s^2
+  Steering steering = Steering::kTruth;  ///< the pose that the position loop is given
+  std::vector<Waypoint> waypoints;       ///< the first is the start pose
   template <class Archive>
   void serialize(Archive& archive) {
     archive("speed", speed, Range::positive());

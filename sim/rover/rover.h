@@ -25,8 +25,8 @@ struct RoverConfig {
   double half_track = 0.19;      ///< m, body centre to wheel centre along y
   double half_wheelbase = 0.15;  ///< m, along x
   double max_torque = 5.0;       ///< Nm at the wheel
-  double imu_rate_hz = 200;
-  double wheel_rate_hz = 100;
+  double imu_rate_hz = 200;      ///< inertial readings a second
+  double wheel_rate_hz = 100;    ///< wheel readings a second
   template <class Archive>
   void serialize(Archive& archive) {
     archive("model", model);

@@ -17,11 +17,11 @@ namespace vinebench::sim {
 struct CalibrationErrorConfig {
   /// A fixed error of one camera, added to the drawn one.
   struct Camera {
-    std::string name;
+    std::string name;                                        ///< of the camera in the rig
     Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< m, along the camera's x, y, z
     Eigen::Vector3d rotation_deg = Eigen::Vector3d::Zero();  ///< rotation vector in its own axes
-    Eigen::Vector2d focal_px = Eigen::Vector2d::Zero();
-    Eigen::Vector2d principal_point_px = Eigen::Vector2d::Zero();
+    Eigen::Vector2d focal_px = Eigen::Vector2d::Zero();      ///< error of fx, fy
+    Eigen::Vector2d principal_point_px = Eigen::Vector2d::Zero();  ///< error of cx, cy
     std::array<double, 4> distortion{};  ///< k1, k2, p1, p2 added to the nominal ones
     template <class Archive>
     void serialize(Archive& archive) {

@@ -18,8 +18,8 @@ namespace vinebench::sim {
 /// stamped, by default.
 struct FrameTimingConfig {
   struct Trigger {
-    std::string camera;
-    double delay = 0;  ///< s, that it exposes later than the frame's instant
+    std::string camera;  ///< name in the rig
+    double delay = 0;    ///< s, that it exposes later than the frame's instant
     template <class Archive>
     void serialize(Archive& archive) {
       archive("camera", camera);

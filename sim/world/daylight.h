@@ -14,10 +14,10 @@ namespace vinebench::sim {
 /// The sun's position: explicit, or by place and time.
 struct SunConfig {
   struct At {
-    double latitude_deg = 45;   ///< north
-    double longitude_deg = 10;  ///< east
-    std::string date = "2026-09-15";
-    std::string time = "12:00";  ///< UTC
+    double latitude_deg = 45;         ///< north
+    double longitude_deg = 10;        ///< east
+    std::string date = "2026-09-15";  ///< YYYY-MM-DD
+    std::string time = "12:00";       ///< UTC
     template <class Archive>
     void serialize(Archive& archive) {
       archive("latitude_deg", latitude_deg, Range::between(-90, 90));

@@ -12,7 +12,7 @@ namespace vinebench::sim {
 
 /// The ground's shape: a slope with bumps on it, and ruts where wheels run.
 struct TerrainConfig {
-  std::int64_t seed = 1;
+  std::int64_t seed = 1;         ///< of the unevenness
   double amplitude = 0;          ///< m, of the largest bumps up or down; 0 is even ground
   double wavelength = 3;         ///< m, from bump to bump
   double rut_depth = 0;          ///< m, of the wheel tracks
@@ -37,10 +37,10 @@ struct TerrainConfig {
 /// What covers the ground.
 struct GroundConfig {
   enum class Aisles { kSoil, kGrass };
-  Aisles aisles = Aisles::kSoil;
-  double bare_strip = 0.8;    ///< m, width of the strip without grass under the vines
-  double track_gauge = 1.25;  ///< m between the middles of the wheel tracks
-  double track_width = 0.28;  ///< m
+  Aisles aisles = Aisles::kSoil;  ///< what is between the rows
+  double bare_strip = 0.8;        ///< m, width of the strip without grass under the vines
+  double track_gauge = 1.25;      ///< m between the middles of the wheel tracks
+  double track_width = 0.28;      ///< m
   friend std::vector<std::string> yaml_names(Aisles) { return {"soil", "grass"}; }
   template <class Archive>
   void serialize(Archive& archive) {

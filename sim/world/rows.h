@@ -25,7 +25,7 @@ struct RowConfig {
 
 /// Rows side by side, each `spacing` to the left of the one before.
 struct BlockConfig {
-  int rows = 1;
+  int rows = 1;                                      ///< number of them
   double length = 30;                                ///< m
   double spacing = 2.5;                              ///< m between rows
   double heading_deg = 0;                            ///< from east over north, along the rows

@@ -24,21 +24,21 @@ std::string bbch_problem(int bbch);
 
 /// The vines of a vineyard. docs/plants.md has common values and sources.
 struct VinesConfig {
-  std::filesystem::path cultivar;  ///< YAML file; empty: the built-in red cultivar
-  Training training = Training::kBilateralCordon;
-  int bbch = 89;               ///< growth stage: 0, 9, 65, 75, 79, 83, 89 or 95
-  double spacing = 1.0;        ///< m between plants
-  double lowest_bunch = 0.60;  ///< m above ground
-  double canopy_top = 1.5;     ///< m above ground
-  double canopy_depth = 0.30;  ///< m across the row
-  double shoots = 13;          ///< of this year, a metre of row
-  double bunches = 1.0;        ///< a shoot, on average
-  double leaf_area = 2.0;      ///< m^2, one side of every blade of a metre of row in full leaf
-  double leaf_removal = 0.5;   ///< share of the leaves removed in the fruit zone
-  double pruned = 0;           ///< share of dormant vines whose canes are cut already
-  double missing = 0;          ///< share of missing vines
-  double young = 0;            ///< share of second-year vines
-  int templates = 6;           ///< number of different plants
+  std::filesystem::path cultivar;                  ///< YAML file; empty: the built-in red cultivar
+  Training training = Training::kBilateralCordon;  ///< of the old wood along the wire
+  int bbch = 89;                                   ///< growth stage: 0, 9, 65, 75, 79, 83, 89 or 95
+  double spacing = 1.0;                            ///< m between plants
+  double lowest_bunch = 0.60;                      ///< m above ground
+  double canopy_top = 1.5;                         ///< m above ground
+  double canopy_depth = 0.30;                      ///< m across the row
+  double shoots = 13;                              ///< of this year, a metre of row
+  double bunches = 1.0;                            ///< a shoot, on average
+  double leaf_area = 2.0;     ///< m^2, one side of every blade of a metre of row in full leaf
+  double leaf_removal = 0.5;  ///< share of the leaves removed in the fruit zone
+  double pruned = 0;          ///< share of dormant vines whose canes are cut already
+  double missing = 0;         ///< share of missing vines
+  double young = 0;           ///< share of second-year vines
+  int templates = 6;          ///< number of different plants
   /// Meshes to use instead of generated plants (.glb .gltf .stl .obj .dae), z up (glTF: y up), m.
   std::vector<std::filesystem::path> meshes;
   std::optional<MeshImport> mesh_import{};  ///< of all `meshes`

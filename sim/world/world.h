@@ -64,7 +64,7 @@ struct WorldConfig {
   /// A place on a post.
   struct PostSide {
     enum class Side { kLeft, kRight, kStart, kEnd };
-    int row = 0;
+    int row = 0;               ///< number of the row, from 0
     int index = 0;             ///< along the row; -1 is the last, -2 the one before
     Side side = Side::kRight;  ///< seen along the row from its start
     double height = 0.5;       ///< m above the ground
@@ -88,8 +88,8 @@ struct WorldConfig {
     }
   };
   struct Tag {
-    std::string family = "tag36h11";
-    int id = 0;
+    std::string family = "tag36h11";                     ///< of AprilTag
+    int id = 0;                                          ///< number in the family
     double size = 0.161;                                 ///< m, side of the black square
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, its centre; z above the ground
     double facing_deg = 0;                               ///< heading of the printed face
@@ -110,7 +110,7 @@ struct WorldConfig {
       archive.require(problem.empty(), "id", problem);
     }
   };
-  std::string name = "world";
+  std::string name = "world";  ///< of the world
   double ground_size = 40;     ///< m, side of the square of ground around the rows' middle
   std::optional<Block> block;  ///< rows in regular order, beside `rows`
   std::vector<Row> rows;

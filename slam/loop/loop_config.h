@@ -8,7 +8,7 @@ namespace vinebench::slam {
 
 /// When a tag closes a loop, and what is believed of it.
 struct LoopConfig {
-  bool enabled = true;
+  bool enabled = true;         ///< whether tags close loops
   double away_seconds = 3;     ///< a tag unseen for this long was left
   double away_distance = 1.0;  ///< m, the way driven meanwhile
   double corner_sigma =
@@ -16,9 +16,9 @@ struct LoopConfig {
   /// A tag that is farther from its place in the map than this is not believed: a share of the way
   /// driven since a tag was seen, m, and degrees with degrees a metre.
   double max_drift = 0.02;
-  double max_offset = 0.05;
-  double max_turn_deg = 3;
-  double max_turn_deg_per_metre = 0.3;
+  double max_offset = 0.05;             ///< m, as max_drift
+  double max_turn_deg = 3;              ///< as max_drift
+  double max_turn_deg_per_metre = 0.3;  ///< as max_drift
 
   template <class Archive>
   void serialize(Archive& archive) {

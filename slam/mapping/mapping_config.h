@@ -19,7 +19,7 @@ inline std::vector<std::string> yaml_names(MappingSchedule) {
 }
 
 struct MappingConfig {
-  MappingSchedule schedule = MappingSchedule::kLockstep;
+  MappingSchedule schedule = MappingSchedule::kLockstep;  ///< when results of mapping join
   int delay = 4;       ///< frames after which a local adjustment joins in lockstep; 0 is at once
   int window = 10;     ///< keyframes that a local adjustment moves
   int iterations = 6;  ///< of a local adjustment

@@ -9,7 +9,7 @@ namespace vinebench::slam {
 
 /// Fine placement of matches on the landmark's patch.
 struct RefinementConfig {
-  bool enabled = true;
+  bool enabled = true;         ///< whether matches are placed finely
   double max_residual = 0.35;  ///< mean difference to the patch as a share of its contrast, at most
   double noise = 2.0;          ///< grey levels, difference that the sensor's noise alone explains
   double sigma = 0.15;         ///< px of the feature's level, standard deviation once placed

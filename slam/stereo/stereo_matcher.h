@@ -23,14 +23,14 @@ inline std::vector<std::string> yaml_names(StereoSearch) {
 }
 
 struct StereoConfig {
-  StereoSearch search = StereoSearch::kWindows;
+  StereoSearch search = StereoSearch::kWindows;  ///< in the right image itself, or its features
   double max_depth_baselines = 40;  ///< farther depths are not used (paper, Sect. III-A)
   /// Where a map begins and fewer than this are near enough, on a road say, those beyond take part
   /// too, up to far_depth_baselines.
   int few = 200;
-  double far_depth_baselines = 150;
-  double min_depth = 0.15;   ///< m; nothing is nearer
-  double uniqueness = 1.15;  ///< the next best place must differ by this factor more
+  double far_depth_baselines = 150;  ///< likewise, of points far away
+  double min_depth = 0.15;           ///< m; nothing is nearer
+  double uniqueness = 1.15;          ///< the next best place must differ by this factor more
   /// Mean difference of the aligned windows, as a share of their contrast, that is still a match.
   /// Windows that show two depths, a stem before the ground, differ more: they would be biased
   /// towards the nearer one.

@@ -14,7 +14,7 @@
 namespace vinebench::slam {
 
 struct TagDetectorConfig {
-  std::vector<std::string> families{"tag36h11"};
+  std::vector<std::string> families{"tag36h11"};  ///< of AprilTag, that are searched for
   double size = 0.161;    ///< m, side of the black square, for tags that are not registered
   double decimate = 2.0;  ///< the search runs on an image smaller by this; corners are refined on
                           ///< the full one

@@ -143,6 +143,31 @@ class SystemTest(CourtTest):
             self.assertRegex(failure.cause, words)
             self.assertEqual(failure.frame, 2)
 
+    def test_a_system_may_say_that_it_failed(self):
+        failure = self.failure_of(raising(vb.SystemFailed("no licence")))
+        self.assertEqual(failure.cause, "Answers: no licence")
+
+    def test_it_may_end_the_run(self):
+        class Brief(Standing):
+            @property
+            def stopped(self):
+                return len(self.frames) == 3
+
+        report = vb.run(self.court, slam=Brief())
+        self.assertEqual(report.frames, 3)
+        self.assertIsNone(report.failure)
+
+    # After the answer, so that no system can use it.
+    def test_the_truth_is_told_after_each_answer(self):
+        system, told = Standing(), []
+
+        def on_truth(stamp, T_world_body):
+            self.assertEqual(system.frames[-1].stamp, stamp)
+            told.append(T_world_body[:3, 3])
+
+        report = vb.run(self.court, slam=system, on_truth=on_truth)
+        np.testing.assert_allclose(told, report.trajectories.truth[:, 1:4], rtol=0, atol=1e-12)
+
     def test_start_and_finish_may_fail_too(self):
         class NoStart(Standing):
             def start(self, setup):

@@ -222,6 +222,11 @@ expect 0 "list" "scenarios" "  occluded-camera " "  csl-vineyard " "  csl-rover 
 expect 0 "list of worlds" "Three short rows" -- list worlds
 grep -q "occluded-camera" "$work/stdout" && report "list of worlds: lists scenarios too"
 expect 2 "list of something else" "expected one of scenarios, worlds" -- list tractors
+expect 0 "reference" "world.sun.elevation_deg " "number, default 50; -12 to 90" -- reference
+expect 0 "reference of a rig" "cameras.N.distortion " "4 numbers" -- reference rig cameras
+grep -q "stereo_pairs" "$work/stdout" && report "reference of a rig: has other keys too"
+expect 0 "reference as JSON" '"own_key": "elevation_deg"' '"--verify-determinism"' -- reference --json
+expect 2 "reference of no key" "scenario: has no key world.son" -- reference scenario world.son
 expect 2 "scenario by name" "output folder" -- run quick-loop --out "$work/file/out"
 expect 0 "new world" "new.yaml" -- world new --rows 2 --length 3 --terrain even
 expect 0 "a rover in a world" -- render world.yaml --pose -2,0,1,0 --camera 64x48@50 --rover 0,0,0,0 \

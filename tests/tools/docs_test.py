@@ -7,7 +7,8 @@ Usage: docs_test.py VINEBENCH ROOT
 
 Prints every link of README.md, the other documents at the root and docs/ that leads to no file or
 no heading, every picture that is absent, every page of docs/ that the site's navigation lacks, and
-every `vinebench` command line in a block of code that names a command, option, scenario or file of
+every key of a file that the generated reference has no
+meaning for (tools/reference.py takes it from the source), and every `vinebench` command line in a block of code that names a command, option, scenario or file of
 the repository that does not exist.
 """
 
@@ -16,6 +17,7 @@ import re
 import shlex
 import subprocess
 import sys
+import tempfile
 
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 HEADING = re.compile(r"^#+ (.+?)\s*$", re.M)
@@ -129,9 +131,58 @@ def check_navigation(root, problems):
     for page in sorted((root / "docs").glob("*.md")):
         if not re.search(rf"\b{re.escape(page.name)}\b", site):
             problems.append(f"mkdocs.yml: docs/{page.name} is not in its navigation")
-    for name in re.findall(r"[\w-]+\.md", site):
-        if not (root / "docs" / name).exists():
+    for name in re.findall(r"[\w/-]+\.md", site):
+        if not (root / "docs" / name).exists() and not name.startswith("reference/"):
             problems.append(f"mkdocs.yml: docs/{name} does not exist")
+
+
+def check_reference(vinebench, root, problems):
+    """The generated pages: all keys of a resolved scenario, each with a meaning."""
+    sys.path.insert(0, str(root / "tools"))
+    import reference
+    told = reference.reference_of(vinebench)
+    sources = reference.Sources(root)
+    for file in told["files"]:
+        for key in file["keys"]:
+            if "map" not in key["type"] and not sources.comment(key["owner"], key["own_key"]):
+                problems.append(f"reference: {file['name']}: {key['key']}: no comment beside it in "
+                                f"{key['owner']}")
+    keys = reference.key_page(told["files"], sources)
+    site = (root / "mkdocs.yml").read_text()
+    for page, text in {"keys": keys, "commands": reference.command_page(told["program"])}.items():
+        if f"reference/{page}.md" not in site:
+            problems.append(f"mkdocs.yml: reference/{page}.md is not in its navigation")
+        for link in LINK.findall(without_code(text)):
+            path, _, anchor = link.partition("#")
+            target = root / "docs/reference" / path
+            if not (root / "docs" / target.name).exists() or (
+                    anchor and anchor not in anchors_of(root / "docs" / target.name)):
+                problems.append(f"reference/{page}.md: {link}: no such file or heading")
+    return keys
+
+
+def resolved_keys(vinebench):
+    """Those that a run writes out, dotted, with N for numbers of entries."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([vinebench, "run", "quick-loop", "--out", folder, "--set", "duration=0.01",
+                        "--set", "renderer.engine=fake"],
+                       capture_output=True)
+        text = (pathlib.Path(folder) / "scenario.resolved.yaml").read_text()
+    keys, open_keys = [], []  # (indentation, name)
+    for line in text.splitlines():
+        indent, content = len(line) - len(line.lstrip()), line.strip()
+        name = "N" if content == "-" else content.partition(":")[0]
+        while open_keys and open_keys[-1][0] >= indent:
+            open_keys.pop()
+        open_keys.append((indent, name))
+        keys.append(".".join(name for _, name in open_keys))
+    return keys
+
+
+def check_resolved(vinebench, page, problems):
+    for key in resolved_keys(vinebench):
+        if not key.endswith(".N") and f"| `{key}` |" not in page:
+            problems.append(f"reference: scenario: {key}: a run writes this key, the page lacks it")
 
 
 def main():
@@ -142,6 +193,9 @@ def main():
         check_links(file, root, problems)
         check_commands(file, root, program, problems)
     check_navigation(root, problems)
+    if program.options("reference"):  # a build without the simulation has none
+        page = check_reference(sys.argv[1], root, problems)
+        check_resolved(sys.argv[1], page, problems)
     print("\n".join(problems))
     print(f"{len(files)} documents, {len(problems)} problems")
     return 1 if problems else 0

@@ -22,6 +22,7 @@ Command render_command(const Surroundings& surroundings);
 Command realism_command(const Surroundings& surroundings);
 Command world_command();
 Command list_command(const Surroundings& surroundings);
+Command reference_command(const Surroundings& surroundings);
 
 Command bench_render_command(const Surroundings& surroundings);
 Command bench_slam_command(const Surroundings& surroundings);

@@ -49,6 +49,10 @@ Command world_command() {
   return refusal("world");
 }
 
+Command reference_command(const Surroundings&) {
+  return refusal("reference");
+}
+
 Command bench_render_command(const Surroundings&) {
   return refusal("render");
 }

@@ -22,12 +22,12 @@ struct ExposureConfig {
   std::optional<double> time;       ///< s, of the first image; metered on it where absent
   double gain_db = 0;               ///< dB, beside what is metered; 20 dB are ten times the signal
   double reference_time = 0.00065;  ///< s
-  bool automatic = false;
-  double target = 110;         ///< grey levels, mean brightness that is metered and steered to
-  double time_constant = 0.3;  ///< s, in which it makes up for most (1 - 1/e) of an error
-  double min_time = 0.00002;   ///< s
-  double max_time = 0.016;     ///< s; beyond it the gain grows
-  double max_gain_db = 24;     ///< dB
+  bool automatic = false;           ///< set by the brightness of earlier frames
+  double target = 110;              ///< grey levels, mean brightness that is metered and steered to
+  double time_constant = 0.3;       ///< s, in which it makes up for most (1 - 1/e) of an error
+  double min_time = 0.00002;        ///< s
+  double max_time = 0.016;          ///< s; beyond it the gain grows
+  double max_gain_db = 24;          ///< dB
   template <class Archive>
   void serialize(Archive& archive) {
     archive("time", time, Range{0, 0.2, true});

@@ -24,7 +24,7 @@ struct EffectsConfig {
   std::vector<LensLeafConfig> leaves;
   VignettingConfig vignetting;
   FixedPatternConfig fixed_pattern;
-  BayerPattern bayer = BayerPattern::kNone;
+  BayerPattern bayer = BayerPattern::kNone;  ///< colour filters, by the first two rows
   PhotonTransferConfig noise;
   double gamma = 2.2;  ///< code / 255 = signal^(1 / gamma); 1 is linear
   WhiteBalanceConfig white_balance;

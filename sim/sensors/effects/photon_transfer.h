@@ -17,7 +17,7 @@ namespace vinebench::sim {
 /// Shot and read noise. The defaults are those of a pixel of about 3 um and give 1.5 grey levels at
 /// mid grey.
 struct PhotonTransferConfig {
-  bool enabled = true;
+  bool enabled = true;                    ///< whether there is noise
   double full_well = 6900;                ///< electrons that make white at a gain of 0 dB
   double read_noise = 2.5;                ///< electrons, standard deviation
   std::optional<std::int64_t> pattern{};  ///< another number, another noise of the same kind

@@ -24,15 +24,15 @@ struct Occluder {
   /// Which list of its file it stands in; also the order in which occluders are drawn and counted.
   enum class List { kBoxes, kObstacles, kOccluders };
 
-  std::string name{};  ///< for people; that of its class where empty
-  Shape shape = Shape::kBox;
+  std::string name{};                     ///< for people; that of its class where empty
+  Shape shape = Shape::kBox;              ///< how it is drawn and what the rover bumps into
   std::optional<OccluderClass> kind{};    ///< `class` in YAML; the shape's usual one if absent
   std::optional<Eigen::Vector3d> size{};  ///< m, along its x, y, z; the shape's usual if absent
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m, middle of its foot
   double lift = 0;                                     ///< m, of its foot above the ground
-  double yaw_deg = 0;
-  double height = 1.75;                         ///< m, of a person, who has no `size`
-  std::optional<Eigen::Vector3d> colour{};      ///< sRGB, 0 to 1; a person's is the shirt's
+  double yaw_deg = 0;                                  ///< to the left
+  double height = 1.75;                                ///< m, of a person, who has no `size`
+  std::optional<Eigen::Vector3d> colour{};             ///< sRGB, 0 to 1; a person's is the shirt's
   bool printed = false;                         ///< a box with a maker's mark, text and symbols
   std::int64_t print_seed = 0;                  ///< which print
   std::optional<std::filesystem::path> mesh{};  ///< .glb, .gltf, .dae, .obj or .stl; fills `size`

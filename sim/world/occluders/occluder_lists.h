@@ -12,13 +12,13 @@ namespace vinebench::sim {
 
 /// An entry of the list `boxes`, the older form of an occluder of the shape box.
 struct BoxEntry {
-  std::string name = "carton";
+  std::string name = "carton";                         ///< for messages
   Eigen::Vector3d size{0.6, 0.4, 0.4};                 ///< m, along its own x, y, z
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m, middle of its foot
-  double yaw_deg = 0;
-  Eigen::Vector3d colour{0.42, 0.29, 0.18};  ///< sRGB, 0 to 1
-  bool printed = false;
-  std::int64_t print_seed = 0;
+  double yaw_deg = 0;                                  ///< to the left
+  Eigen::Vector3d colour{0.42, 0.29, 0.18};            ///< sRGB, 0 to 1
+  bool printed = false;                                ///< with a print on its sides
+  std::int64_t print_seed = 0;                         ///< of the print
   template <class Archive>
   void serialize(Archive& archive) {
     archive("name", name);
@@ -34,11 +34,11 @@ struct BoxEntry {
 /// An entry of the list `obstacles`, the older form of an occluder of the shape person or crate.
 struct ObstacleEntry {
   enum class Kind { kPerson, kCrate };
-  Kind kind = Kind::kPerson;
+  Kind kind = Kind::kPerson;                           ///< which shape
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m, middle of its foot
-  double yaw_deg = 0;
-  double height = 1.75;                      ///< m, of a person
-  Eigen::Vector3d colour{0.16, 0.30, 0.55};  ///< sRGB, 0 to 1
+  double yaw_deg = 0;                                  ///< to the left
+  double height = 1.75;                                ///< m, of a person
+  Eigen::Vector3d colour{0.16, 0.30, 0.55};            ///< sRGB, 0 to 1
   friend std::vector<std::string> yaml_names(Kind) { return {"person", "crate"}; }
   template <class Archive>
   void serialize(Archive& archive) {

@@ -7,7 +7,6 @@
 #include "core/files/files.h"
 #include "core/util/error.h"
 #include "harness/datasets/ros2/bag/bag_metadata.h"
-#include "harness/datasets/ros2/cdr/ros2_messages.h"
 #include "harness/datasets/ros2/cdr/ros2_schemas.h"
 #include "vinebench/version.h"
 
@@ -25,56 +24,16 @@ McapOutput::~McapOutput() {
   }
 }
 
-void McapOutput::put(const std::string& topic, const char* type, std::int64_t time,
-                     const std::string& message, bool latched) {
-  const auto [channel, first] = channels_.try_emplace(topic, 0);
+void McapOutput::put(Ros2Message message) {
+  const auto [channel, first] = channels_.try_emplace(message.topic, 0);
   if (first) {
-    channel->second = out_.add_channel({.topic = topic,
-                                        .schema = type,
-                                        .schema_text = ros2_schema(type),
-                                        .metadata = {{kQualityKey, quality_of_service(latched)}}});
+    channel->second =
+        out_.add_channel({.topic = message.topic,
+                          .schema = message.type,
+                          .schema_text = ros2_schema(message.type),
+                          .metadata = {{kQualityKey, quality_of_service(message.latched)}}});
   }
-  out_.write(channel->second, static_cast<std::uint64_t>(time), message);
-}
-
-void McapOutput::write_clock(const std::string& topic, std::int64_t time) {
-  put(topic, ros2::kClock, time, encode_clock(time));
-}
-
-void McapOutput::write_transforms(const std::string& topic,
-                                  const std::vector<RosTransform>& transforms) {
-  if (transforms.empty()) return;
-  put(topic, ros2::kTransforms, transforms.front().header.time, encode(transforms));
-}
-
-void McapOutput::write_latched(const std::string& topic,
-                               const std::vector<RosTransform>& transforms) {
-  if (transforms.empty()) return;
-  put(topic, ros2::kTransforms, transforms.front().header.time, encode(transforms), true);
-}
-
-void McapOutput::write(const std::string& topic, const RosImage& image) {
-  put(topic, ros2::kImage, image.header.time, encode(image));
-}
-
-void McapOutput::write(const std::string& topic, const RosCompressedImage& image) {
-  put(topic, ros2::kCompressedImage, image.header.time, encode(image));
-}
-
-void McapOutput::write(const std::string& topic, const RosCameraInfo& info) {
-  put(topic, ros2::kCameraInfo, info.header.time, encode(info));
-}
-
-void McapOutput::write(const std::string& topic, const RosImu& reading) {
-  put(topic, ros2::kImu, reading.header.time, encode(reading));
-}
-
-void McapOutput::write(const std::string& topic, const RosJointState& reading) {
-  put(topic, ros2::kJointState, reading.header.time, encode(reading));
-}
-
-void McapOutput::write(const std::string& topic, const RosOdometry& odometry) {
-  put(topic, ros2::kOdometry, odometry.header.time, encode(odometry));
+  out_.write(channel->second, static_cast<std::uint64_t>(message.time), message.bytes);
 }
 
 void McapOutput::end_chunk() {

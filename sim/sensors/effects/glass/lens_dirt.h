@@ -17,7 +17,7 @@ namespace vinebench::sim {
 /// camera.
 struct LensDirtConfig {
   FaultScope scope;
-  int count = 40;
+  int count = 40;                          ///< number of spots
   std::array<double, 2> radius_px{8, 45};  ///< least and greatest, px; small ones are many
   double opacity = 0.8;                    ///< greatest share of the light that a speck takes
   double blur_px = 7;                      ///< standard deviation of its edge, px

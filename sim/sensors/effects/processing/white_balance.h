@@ -14,8 +14,8 @@ namespace vinebench::sim {
 /// A camera's fixed setting of its white: what it amplifies red and blue by, against green. With
 /// both 1 a grey wall in the renderer's midday sun is grey.
 struct WhiteBalanceConfig {
-  double red = 1;
-  double blue = 1;
+  double red = 1;   ///< amplification of red against green
+  double blue = 1;  ///< likewise of blue
   template <class Archive>
   void serialize(Archive& archive) {
     archive("red", red, Range::between(0.25, 4));
