@@ -33,8 +33,9 @@ if(NOT VINEBENCH_DEB_DATE)
   string(TIMESTAMP VINEBENCH_DEB_DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)
 endif()
 
-# vinebench_package(COMPONENT NAME): what every Debian package holds.
-function(vinebench_package component package)
+# vinebench_package(GROUP COMPONENT NAME): what every Debian package holds, installed with a component. The
+# group is the component itself or, of several, their group.
+function(vinebench_package group component package)
   set(folder ${debian_generated}/${package})
   configure_file(${debian}/changelog.in ${folder}/changelog @ONLY)
   vinebench_gzip(${folder}/changelog ${folder}/changelog.gz)
@@ -44,14 +45,14 @@ function(vinebench_package component package)
     install(FILES ${debian}/${package}.lintian-overrides COMPONENT ${component} RENAME ${package}
             DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides)
   endif()
-  string(TOUPPER ${component} upper)
+  string(TOUPPER ${group} upper)
   set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${package} PARENT_SCOPE)
   file(READ ${debian}/${package}.description description)
   set(CPACK_DEBIAN_${upper}_DESCRIPTION "${description}" PARENT_SCOPE)
 endfunction()
 
 set(components program slam)
-vinebench_package(program vinebench)
+vinebench_package(program program vinebench)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 vinebench_gzip(${PROJECT_SOURCE_DIR}/CHANGELOG.md ${debian_generated}/CHANGELOG.md.gz)
 install(FILES ${debian_generated}/CHANGELOG.md.gz COMPONENT program
@@ -67,7 +68,7 @@ if(EGL_FOUND)  # the driver, which no library names
 endif()
 
 list(APPEND components harness)
-vinebench_package(dev libvinebench-dev)
+vinebench_package(dev slam libvinebench-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 # As vinebenchConfig.cmake.in finds them.
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
@@ -85,7 +86,7 @@ endif()
 
 if(TARGET vinebench_python)
   list(APPEND components python)
-  vinebench_package(python python3-vinebench)
+  vinebench_package(python python python3-vinebench)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
   math(EXPR next "${Python3_VERSION_MINOR} + 1")
@@ -96,6 +97,7 @@ python3 (>= 3.${Python3_VERSION_MINOR}~), python3 (<< 3.${next})")
 endif()
 
 set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
 set(CPACK_PACKAGE_VERSION ${VINEBENCH_DEB_VERSION})
 set(CPACK_PACKAGE_CONTACT ${VINEBENCH_MAINTAINER})
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)

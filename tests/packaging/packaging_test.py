@@ -65,7 +65,7 @@ class PackagesTest(unittest.TestCase):
 
     def test_each_debian_package_is_described(self):
         text = (ROOT / "cmake/packages.cmake").read_text()
-        packages = re.findall(r"^ *vinebench_package\(\w+ ([\w-]+)\)", text, re.M)
+        packages = re.findall(r"^ *vinebench_package\(\w+ \w+ ([\w-]+)\)", text, re.M)
         described = {file.stem for file in (ROOT / "packaging/debian").glob("*.description")}
         self.assertEqual(set(packages), described)
 
