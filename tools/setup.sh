@@ -6,7 +6,7 @@
 # are installed. Usage: setup.sh [--ros] [--browser] [--fuzz] [--packages] [--cycles]; with --ros also
 # those for recording ROS 1 bags, and for the tests that read data sets with Python: 136 packages,
 # 323 MB; with --browser also Chromium, for the tests of reports; with --fuzz also clang and its
-# libFuzzer; with --packages also what makes Debian packages; with --cycles also Blender, for
+# libFuzzer; with --packages also what makes Debian packages and wheels; with --cycles also Blender, for
 # reference pictures: 414 MB.
 set -euo pipefail
 
@@ -47,7 +47,7 @@ for option in "$@"; do
       packages+=(clang libclang-rt-dev)
       ;;
     --packages)
-      packages+=(dpkg-dev file)
+      packages+=(dpkg-dev file python3-venv)
       ;;
     --cycles)
       packages+=(blender)

@@ -10,7 +10,6 @@ wheels=$1 out=$2
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-apt-get install -y -qq --no-install-recommends python3-venv >/dev/null 2>&1
 python3 -m venv "$work/venv"
 export PATH=$work/venv/bin:$PATH
 pip install -q --no-index --find-links "$wheels" -r packaging/wheel/requirements.txt
