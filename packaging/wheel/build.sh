@@ -11,7 +11,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 python3 -m venv "$work/venv"
-export PATH=$work/venv/bin:$PATH
+export PATH=$work/venv/bin:$PATH CC=cc CXX=c++
 pip install -q --no-index --find-links "$wheels" -r packaging/wheel/requirements.txt
 pip wheel -q --no-build-isolation --no-deps --no-index -w "$work/raw" .
 python packaging/wheel/stubs.py "$work/stubs"
