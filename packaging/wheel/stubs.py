@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Vinebench authors
 # SPDX-License-Identifier: Apache-2.0
-"""Stands in for libraries that Debian's OpenCV and LLVM link but Vinebench never calls.
+"""Stands in for libraries that are linked but never called in a wheel.
 
 Usage: stubs.py FOLDER
 
@@ -9,7 +9,9 @@ Writes into FOLDER one shared object for each library in STUBS, of the same name
 symbols that its users need; each function returns 0, each variable is 0. Bundled in a wheel in place of the real ones
 they leave out more than a hundred libraries: GDAL with database clients and video codecs (OpenCV
 reads maps with it, on request alone), GDCM (medical images), GLX (OpenCV's windows), Z3 (LLVM's static
-analyser) and libxml2 with ICU (LLVM's manifests of Windows programs).
+analyser) and libxml2 with ICU (LLVM's manifests of Windows programs). EGL finds no display in its stub,
+and the program says so: a driver of the system would give other pictures, and its libraries do not
+mix with those of the wheel.
 """
 
 import pathlib
@@ -17,11 +19,12 @@ import re
 import subprocess
 import sys
 
-# Library: those that need it.
+# Library: those that need it; none where all of its functions are.
 STUBS = {
     "libgdal.so.32": ["libopencv_imgcodecs.so.406"],
     "libgdcmMSFF.so.3.0": ["libopencv_imgcodecs.so.406"],
     "libgdcmDSED.so.3.0": ["libopencv_imgcodecs.so.406"],
+    "libEGL.so.1": [],
     "libGLX.so.0": ["libopencv_core.so.406"],
     "libz3.so.4": ["libLLVM-15.so.1"],
     "libxml2.so.2": ["libLLVM-15.so.1"],
@@ -51,6 +54,8 @@ def symbols(library, kind):
 def wanted(library, users):
     """{symbol: (version, size of a variable, 0 for a function)} of what the users need of a library."""
     defined = symbols(library, "defined")
+    if not users:
+        return {name: (version, 0) for name, (version, letter, _) in defined.items() if letter == "T"}
     needed = {}
     for user in users:
         for name, (version, letter, _) in symbols(user, "undefined").items():
