@@ -46,7 +46,8 @@ bool write_nothing(std::string* problem, const std::string&, const std::vector<u
   return false;
 }
 
-bool size_of(std::size_t* size, std::string* problem, const std::string& name, void*) {
+[[maybe_unused]] bool size_of(std::size_t* size, std::string* problem, const std::string& name,
+                              void*) {
   std::error_code error;
   *size = std::filesystem::file_size(name, error);
   if (error) *problem = error.message();
