@@ -4,12 +4,14 @@
 # `cmake --install`, in components:
 #   slam     the SLAM core as a library, vinebench::slam; headers are included as <slam/slam.h>
 #   harness  what runs, judges and reads recordings, vinebench::harness; <harness/harness.h>
-#   program  vinebench with its scenarios, worlds and models, and completion for shells
+#   program  vinebench with its scenarios, worlds and models, its manual page, completion for shells
 #   python   the Python module (python/CMakeLists.txt)
+# Packages of them: packages.cmake (Debian), pyproject.toml (a wheel).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 include(${CMAKE_CURRENT_LIST_DIR}/public_headers.cmake)
 
+set(VINEBENCH_ZSH_FOLDER site-functions CACHE STRING "Folder of zsh's completion below share/zsh")
 set(headers ${CMAKE_INSTALL_INCLUDEDIR}/vinebench)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/vinebench)
 
@@ -50,10 +52,20 @@ list(REMOVE_ITEM harness_headers ${slam_headers})
 vinebench_install_headers(harness ${harness_headers})
 
 install(TARGETS vinebench RUNTIME COMPONENT program)
-install(TARGETS vinebench_plugin_host RUNTIME DESTINATION libexec/vinebench COMPONENT program)
+install(TARGETS vinebench_plugin_host RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/vinebench
+        COMPONENT program)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios ${PROJECT_SOURCE_DIR}/worlds ${PROJECT_SOURCE_DIR}/models
         ${PROJECT_SOURCE_DIR}/cultivars COMPONENT program DESTINATION ${CMAKE_INSTALL_DATADIR}/vinebench)
 install(FILES ${PROJECT_SOURCE_DIR}/tools/completion/vinebench.bash COMPONENT program RENAME vinebench
         DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 install(FILES ${PROJECT_SOURCE_DIR}/tools/completion/_vinebench COMPONENT program
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${VINEBENCH_ZSH_FOLDER})
+configure_file(${PROJECT_SOURCE_DIR}/packaging/vinebench.1.in ${CMAKE_BINARY_DIR}/vinebench.1 @ONLY)
+if(SKBUILD)
+  install(PROGRAMS ${PROJECT_SOURCE_DIR}/packaging/wheel/vinebench COMPONENT program DESTINATION ${SKBUILD_SCRIPTS_DIR})
+endif()
+if(VINEBENCH_DEB)
+  include(${CMAKE_CURRENT_LIST_DIR}/packages.cmake)
+else()
+  install(FILES ${CMAKE_BINARY_DIR}/vinebench.1 COMPONENT program DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+endif()

@@ -12,13 +12,14 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Where the program is that this module came with: two folders up in a build tree, in the prefix's
-/// bin where it is installed among the packages of lib/python3.N.
+/// bin where it is installed among the packages of lib/python3.N, in the package itself in a wheel.
 std::vector<fs::path> programs() {
   Dl_info own{};
   if (dladdr(reinterpret_cast<const void*>(&programs), &own) == 0) return {};
   std::error_code error;
   const fs::path folder = fs::canonical(own.dli_fname, error).parent_path();
-  return {folder / "../../vinebench", folder / "../../../../bin/vinebench"};
+  return {folder / "bin/vinebench", folder / "../../vinebench",
+          folder / "../../../../bin/vinebench"};
 }
 
 const harness::Catalogue& catalogue() {

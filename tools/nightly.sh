@@ -5,8 +5,9 @@
 # All scenarios in full over the seeds 1 to 5: builds, makes the runs that this build has not made yet
 # (they are kept in out/nightly), and writes the table into docs/results.md between its two markers.
 # Then the program runs on damaged inputs (docs/robustness.md), others every day; those that end it
-# are kept in out/nightly/mutations. Last, recordings and runs are killed, and their file operations
-# fail, at each operation in turn (not where VINEBENCH names a program). Further arguments go to
+# are kept in out/nightly/mutations. Then recordings and runs are killed, and their file operations
+# fail, at each operation in turn, and the packages are built and tested (packages.sh, where it can:
+# as root with debootstrap); both not where VINEBENCH names a program. Further arguments go to
 # `vinebench run`, e.g. --jobs 4 or --force. Exit code 1 if an expectation fails or any of the rest
 # finds something; the table is written in any case.
 #   SEEDS=1..5  OUT=out/nightly  RESULTS=docs/results.md  SCENARIOS="scenarios/*.yaml"
@@ -64,5 +65,10 @@ fi
 if [[ -n ${endings:-} ]]; then
   python3 tests/tools/kill_test.py "${endings[@]}" --every 1 --times 100 || code=1
   python3 tests/tools/fault_test.py "${endings[@]}" --every 1 || code=1
+  if command -v debootstrap >/dev/null && unshare --mount true 2>/dev/null; then
+    tools/packages.sh deb wheel docker debian-13 || code=1
+  else
+    echo "nightly.sh: no packages: they need debootstrap, and root that may mount"
+  fi
 fi
 exit "$code"

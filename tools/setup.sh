@@ -3,17 +3,18 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Installs missing Debian packages for building Vinebench, as root or through sudo. No effect if all
-# are installed. Usage: setup.sh [--ros] [--browser] [--fuzz] [--cycles]; with --ros also those for
-# recording ROS 1 bags, and for the tests that read data sets with Python: 136 packages, 323 MB; with
-# --browser also Chromium, for the tests of reports; with --fuzz also clang and its libFuzzer; with
-# --cycles also Blender, for reference pictures: 414 MB.
+# are installed. Usage: setup.sh [--ros] [--browser] [--fuzz] [--packages] [--cycles]; with --ros also
+# those for recording ROS 1 bags, and for the tests that read data sets with Python: 136 packages,
+# 323 MB; with --browser also Chromium, for the tests of reports; with --fuzz also clang and its
+# libFuzzer; with --packages also what makes Debian packages and wheels; with --cycles also Blender, for
+# reference pictures: 414 MB.
 set -euo pipefail
 
 packages=(
   # tools
   g++ cmake ninja-build git pkg-config ccache clang-format
   # simulation (qhull: Debian's MuJoCo package names its headers)
-  libmujoco-dev libqhull-dev libosmesa6-dev libgl-dev libegl-dev libegl-mesa0 libgl1-mesa-dri libassimp-dev libtinygltf-dev
+  libmujoco-dev libqhull-dev libgl-dev libegl-dev libegl-mesa0 libgl1-mesa-dri libassimp-dev libtinygltf-dev
   # vision and optimisation
   libopencv-dev libeigen3-dev libceres-dev libapriltag-dev
   # statistics
@@ -28,6 +29,8 @@ packages=(
   # tests
   libgtest-dev libgmock-dev
 )
+# Where there is one: Mesa 25.1 and newer have none, and EGL is used alone.
+osmesa=libosmesa6-dev
 
 for option in "$@"; do
   case $option in
@@ -41,13 +44,16 @@ for option in "$@"; do
       packages+=(chromium chromium-driver python3-selenium node-typescript)
       ;;
     --fuzz)
-      packages+=(clang libclang-rt-14-dev)
+      packages+=(clang libclang-rt-dev)
+      ;;
+    --packages)
+      packages+=(dpkg-dev file python3-venv)
       ;;
     --cycles)
       packages+=(blender)
       ;;
     *)
-      echo "setup.sh: $option is no option; usage: setup.sh [--ros] [--browser] [--fuzz] [--cycles]" >&2
+      echo "setup.sh: $option is no option; usage: setup.sh [--ros] [--browser] [--fuzz] [--packages] [--cycles]" >&2
       exit 2
       ;;
   esac
@@ -55,15 +61,21 @@ done
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "setup.sh: this system has no apt; install by its own means what these Debian packages hold:" >&2
-  echo "  ${packages[*]}" >&2
+  echo "  ${packages[*]} $osmesa" >&2
   exit 1
 fi
 
+is_installed() { [[ $(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]; }
+is_known() { apt-cache show "$1" >/dev/null 2>&1; }
+
 missing=()
 for package in "${packages[@]}"; do
-  state=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
-  [[ $state == installed ]] || missing+=("$package")
+  is_installed "$package" || missing+=("$package")
 done
+if ! is_installed "$osmesa"; then
+  # A system that never had apt's lists knows no package.
+  if is_known "$osmesa" || ! is_known libegl-dev; then missing+=("$osmesa"); fi
+fi
 if [[ ${#missing[@]} -eq 0 ]]; then
   exit 0
 fi
@@ -77,7 +89,10 @@ if [[ $(id -u) -ne 0 ]]; then
   as_root=(sudo)
 fi
 
+apt_get=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get)
+"${apt_get[@]}" update -qq
+if [[ ${missing[-1]} == "$osmesa" ]] && ! is_known "$osmesa"; then
+  unset "missing[-1]"
+fi
 echo "setup.sh: installing ${missing[*]}"
-install=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get)
-"${install[@]}" update -qq
-"${install[@]}" install -y -qq --no-install-recommends "${missing[@]}"
+"${apt_get[@]}" install -y -qq --no-install-recommends "${missing[@]}"

@@ -28,8 +28,11 @@ def _loaded_before() -> list[str]:
     except OSError:
         return []
     fields = (line.split(maxsplit=5) for line in maps.splitlines())
-    names = {os.path.basename(field[5]) for field in fields if len(field) == 6}
-    return sorted(name for name in names if name.startswith(_COMPUTING))
+    files = {pathlib.Path(field[5].strip()) for field in fields if len(field) == 6}
+    bundled = pathlib.Path(__file__).resolve().parent.with_name("vinebench.libs")
+    if bundled.is_dir():  # in a wheel our libraries are no one else's
+        return sorted(file.name for file in files if file.parent == bundled)
+    return sorted({file.name for file in files if file.name.startswith(_COMPUTING)})
 
 
 def _load_arithmetic() -> bool:

@@ -40,6 +40,32 @@ bool read_whole(std::vector<unsigned char>* out, std::string* problem, const std
   }
 }
 
+bool write_nothing(std::string* problem, const std::string&, const std::vector<unsigned char>&,
+                   void*) {
+  *problem = "is read alone";
+  return false;
+}
+
+[[maybe_unused]] bool size_of(std::size_t* size, std::string* problem, const std::string& name,
+                              void*) {
+  std::error_code error;
+  *size = std::filesystem::file_size(name, error);
+  if (error) *problem = error.message();
+  return !error;
+}
+
+/// Newer versions of tinygltf ask for the size too, and refuse callbacks of which one is missing.
+template <class Callbacks>
+Callbacks file_callbacks() {
+  Callbacks callbacks{};
+  callbacks.FileExists = file_exists;
+  callbacks.ExpandFilePath = as_it_is;
+  callbacks.ReadWholeFile = read_whole;
+  callbacks.WriteWholeFile = write_nothing;
+  if constexpr (requires { callbacks.GetFileSizeInBytes; }) callbacks.GetFileSizeInBytes = size_of;
+  return callbacks;
+}
+
 std::uint32_t number_at(std::string_view bytes, std::size_t at) {
   std::uint32_t number = 0;
   std::memcpy(&number, bytes.data() + at, sizeof(number));
@@ -76,7 +102,7 @@ bool load(const std::string& bytes, const std::filesystem::path& file, tinygltf:
           std::string& problem) {
   tinygltf::TinyGLTF reader;
   reader.SetImageLoader(keep_bytes, nullptr);
-  reader.SetFsCallbacks({file_exists, as_it_is, read_whole, nullptr, nullptr});
+  reader.SetFsCallbacks(file_callbacks<tinygltf::FsCallbacks>());
   const std::string folder = file.parent_path().string();
   const auto size = static_cast<unsigned int>(bytes.size());
   std::string warning;

@@ -6,10 +6,11 @@
 Usage: docs_test.py VINEBENCH ROOT
 
 Prints every link of README.md, the other documents at the root and docs/ that leads to no file or
-no heading, every picture that is absent, every page of docs/ that the site's navigation lacks, and
-every key of a file that the generated reference has no
-meaning for (tools/reference.py takes it from the source), and every `vinebench` command line in a block of code that names a command, option, scenario or file of
-the repository that does not exist.
+no heading, every picture that is absent, every page of docs/ that the site's navigation lacks, every
+key of a file that the generated reference has no meaning for (tools/reference.py takes it from the
+source), every command of the program that its manual page lacks, and every `vinebench` command line
+in a block of code that names a command, option, scenario or file of the repository that does not
+exist.
 """
 
 import pathlib
@@ -185,6 +186,14 @@ def check_resolved(vinebench, page, problems):
             problems.append(f"reference: scenario: {key}: a run writes this key, the page lacks it")
 
 
+def check_manual(root, program, problems):
+    manual = (root / "packaging/vinebench.1.in").read_text()
+    described = set(re.findall(r"^\.TP\n\.B ([a-z]+)$", manual.partition(".SH COMMANDS")[2], re.M))
+    commands = set(re.findall(r"^  ([a-z]+) {2,}", program.ask("help").partition("Subcommands:")[2], re.M))
+    for command in sorted(described ^ commands):
+        problems.append(f"packaging/vinebench.1.in: {command}: the program and the page differ")
+
+
 def main():
     program, root = Program(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
     problems = []
@@ -196,6 +205,7 @@ def main():
     if program.options("reference"):  # a build without the simulation has none
         page = check_reference(sys.argv[1], root, problems)
         check_resolved(sys.argv[1], page, problems)
+    check_manual(root, program, problems)
     print("\n".join(problems))
     print(f"{len(files)} documents, {len(problems)} problems")
     return 1 if problems else 0

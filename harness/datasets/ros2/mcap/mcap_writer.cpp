@@ -226,7 +226,8 @@ std::string McapWriter::summary() const {
     records += group;
   }
   const std::uint64_t offsets_start = size_ + records.size();
-  const McapFields footer = std::move(McapFields().put(size_).put(offsets_start));
+  McapFields footer;
+  footer.put(size_).put(offsets_start);
   constexpr std::uint64_t kFooterSize = 20;
   McapFields checked;  // the checksum covers the summary and what is before it in the footer
   checked.put_bytes(records + offsets).put(static_cast<std::uint8_t>(McapRecord::kFooter));
