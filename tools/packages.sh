@@ -93,8 +93,9 @@ build_debs() {
 check_library() {
   install_debs "$1" "$2" libvinebench-dev
   CHROOT_FOLDER=/ chroot_run "$1" "$PWD/examples/feed_images:/example" -- sh -c \
-    'apt-get install -y -qq --no-install-recommends g++ cmake make >/dev/null 2>&1 && cmake -S /example -B /tmp/b >/dev/null &&
-     cmake --build /tmp/b >/dev/null && /tmp/b/feed_images /example 2>/dev/null' || give_up "libvinebench-dev: the example is not built"
+    'apt-get install -y -qq --no-install-recommends g++ cmake make >/dev/null 2>&1 && built=$(mktemp -d) &&
+     cmake -S /example -B "$built" >/dev/null && cmake --build "$built" >/dev/null &&
+     "$built/feed_images" /example 2>/dev/null' || give_up "libvinebench-dev: the example is not built"
   say "libvinebench-dev: the example feed_images is built and runs"
 }
 
