@@ -27,6 +27,8 @@ FrontEnd::FrontEnd(const FrontEndSettings& settings, const StereoRig& rig,
   }
   left_.resize(rig_.pairs.size());
   right_.resize(rig_.pairs.size());
+  right_images_.resize(rig_.pairs.size());
+  balances_.resize(rig_.pairs.size());
   sightings_.resize(rig_.tag_cameras.size());
 }
 
@@ -51,9 +53,9 @@ cv::Mat FrontEnd::grey(const Frame& frame, int camera) const {
   return converted;
 }
 
-Extraction FrontEnd::extract_right(const cv::Mat& image) const {
+Extraction FrontEnd::extract_right(const cv::Mat& image, double gain) const {
   if (stereo_.search == StereoSearch::kFeatures) return extractor_.extract(image);
-  return {{}, extractor_.pyramid(image)};
+  return {{}, extractor_.pyramid(EyeBalance::balanced(image, gain))};
 }
 
 void FrontEnd::extract(const Frame& frame, StageTimes& times) {
@@ -79,7 +81,8 @@ void FrontEnd::extract(const Frame& frame, StageTimes& times) {
       if (rectify != nullptr && !right.empty()) right = rectify->right(right);
       left_[p] = left.empty() ? Extraction{} : extractor_.extract(left);
       if (rectify != nullptr) rectify->drop_unseen(left_[p].features, extractor_);
-      right_[p] = right.empty() ? Extraction{} : extract_right(right);
+      right_[p] = right.empty() ? Extraction{} : extract_right(right, balances_[p].gain());
+      right_images_[p] = right;
     }
     spent[job] = milliseconds_since(start);
   });
@@ -92,6 +95,27 @@ void FrontEnd::extract(const Frame& frame, StageTimes& times) {
   if (tag_jobs > 0) times.add("tags", tags);
 }
 
+std::vector<StereoMatch> FrontEnd::match_pair(std::size_t p) {
+  const Extraction& left = left_[p];
+  const RectifiedPair& pair = rig_.pairs[p];
+  const auto search = [&](const Extraction& right) {
+    return match_stereo(left, right, pair.lens, pair.baseline, extractor_, stereo_);
+  };
+  std::vector<StereoMatch> matches = search(right_[p]);
+  if (stereo_.search == StereoSearch::kFeatures) return matches;  // compares no grey levels
+  EyeBalance& balance = balances_[p];
+  if (const auto gain = balance.suspect(left.pyramid.front(), right_images_[p], matches)) {
+    Extraction right = extract_right(right_images_[p], *gain);
+    std::vector<StereoMatch> with_gain = search(right);
+    if (balance.believe(*gain, matches, with_gain)) {
+      matches = std::move(with_gain);
+      right_[p] = std::move(right);
+    }
+  }
+  balance.measure(left, right_[p].pyramid, matches, extractor_);
+  return matches;
+}
+
 void FrontEnd::match(FrameFeatures& features, StageTimes& times) {
   std::vector<double> spent(rig_.pairs.size());
   pool_.for_each(rig_.pairs.size(), [&](std::size_t p) {
@@ -101,7 +125,7 @@ void FrontEnd::match(FrameFeatures& features, StageTimes& times) {
     const RectifiedPair& pair = rig_.pairs[p];
     view.stereo.assign(left.features.size(), StereoMatch{});
     if (!left.pyramid.empty() && !right_[p].pyramid.empty()) {
-      view.stereo = match_stereo(left, right_[p], pair.lens, pair.baseline, extractor_, stereo_);
+      view.stereo = match_pair(p);
     }
     view.features = std::move(left.features);
     features.pyramids[p] = std::move(left.pyramid);

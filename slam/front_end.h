@@ -12,6 +12,7 @@
 #include "slam/features/orb_extractor.h"
 #include "slam/frame/frame_features.h"
 #include "slam/odometry/wheel_odometry.h"
+#include "slam/stereo/eye_balance.h"
 #include "slam/stereo/stereo_matcher.h"
 #include "slam/tags/tag_detector.h"
 
@@ -25,7 +26,8 @@ struct FrontEndSettings {
   std::optional<MecanumWheels> wheels;
 };
 
-/// Boils a frame's images down to features with stereo matches, and tags.
+/// Boils a frame's images down to features with stereo matches, and tags. Frames are to come in the
+/// order of their time: what the eyes of a pair were found to differ in holds for the next one.
 class FrontEnd {
  public:
   FrontEnd(const FrontEndSettings& settings, const StereoRig& rig,
@@ -37,9 +39,10 @@ class FrontEnd {
 
  private:
   cv::Mat grey(const Frame& frame, int camera) const;
-  Extraction extract_right(const cv::Mat& image) const;
+  Extraction extract_right(const cv::Mat& image, double gain) const;
   void extract(const Frame& frame, StageTimes& times);
   void match(FrameFeatures& features, StageTimes& times);
+  std::vector<StereoMatch> match_pair(std::size_t pair);
 
   StereoRig rig_;
   StereoConfig stereo_;
@@ -47,8 +50,10 @@ class FrontEnd {
   std::optional<WheelOdometry> odometry_;
   std::vector<TagDetector> detectors_;  ///< one for each tag camera
   WorkerPool& pool_;
-  std::vector<Extraction> left_;   ///< of each pair
-  std::vector<Extraction> right_;  ///< of each pair; without features where none are needed
+  std::vector<Extraction> left_;       ///< of each pair
+  std::vector<Extraction> right_;      ///< of each pair; without features where none are needed
+  std::vector<cv::Mat> right_images_;  ///< of each pair, rectified, as bright as they were taken
+  std::vector<EyeBalance> balances_;   ///< of each pair
   std::vector<std::vector<TagSighting>> sightings_;  ///< of each tag camera
 };
 

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <opencv2/core.hpp>
 
@@ -116,6 +117,25 @@ TEST_F(FrontEndTest, GivesEachPairItsFeaturesAndEachTagItsSighting) {
   ASSERT_EQ(features->tags.size(), 1u);
   EXPECT_EQ(features->tags[0].id, 6);
   EXPECT_EQ(features->tags[0].camera, 4);
+}
+
+TEST_F(FrontEndTest, MatchesAPairWhoseEyesDifferInBrightness) {
+  const auto alike = process(frame_);
+  for (const auto& [camera, gain] : {std::pair{0U, 0.62}, std::pair{3U, 0.5}}) {
+    cv::Mat dimmed;
+    frame_.images[camera].convertTo(dimmed, -1, gain);
+    frame_.images[camera] = dimmed;
+  }
+  const auto unlike = process(frame_);
+  for (std::size_t v = 0; v < 2; ++v) {
+    const auto found = [&](const FrameFeatures& features) {
+      return std::ranges::count_if(features.views[v].stereo, [](const StereoMatch& m) {
+        return std::abs(m.depth - 1.5F) < 0.03F;
+      });
+    };
+    // What is dimmer by half has half the corners' contrast, and some fall below a threshold.
+    EXPECT_GT(found(*unlike), found(*alike) * 8 / 10);
+  }
 }
 
 TEST_F(FrontEndTest, ThreadsChangeNoByte) {
