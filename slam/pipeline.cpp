@@ -67,6 +67,7 @@ Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
                    rig_.tag_cameras, tags) {
   rig_.wheels = config.dead_reckoning.wheels;
   rig_.noise.loss = config.loss;
+  rig_.noise.disparity_offset_sigma = config.stereo.calibration_sigma;
 }
 
 void Pipeline::continue_from(Map map) {

@@ -19,8 +19,9 @@ bool calibration_due(const Map& map);
 /// pair in the adjustment of the latest keyframes resolves.
 ///
 /// Disparity offsets of the cameras (px), where one of them differs from the rig's by more than
-/// what the images' own errors bring about, and the residuals bear it out; otherwise none. The map
-/// is not touched.
+/// what the images' own errors bring about, the residuals bear it out, both halves of the latest
+/// keyframes show it, and none is larger than three times the calibration's accuracy
+/// (MeasurementNoise::disparity_offset_sigma); otherwise none. The map is not touched.
 std::optional<std::vector<double>> find_disparity_offsets(const Map& map, const EstimatorRig& rig,
                                                           const AdjustmentOptions& options);
 

@@ -36,7 +36,10 @@ struct StereoConfig {
   /// towards the nearer one.
   double max_residual = 0.1;
   bool self_calibration = true;  ///< corrects a pair's disparities where the map shows them off
-  double noise = 1.5;            ///< grey levels, difference that the sensor's noise alone explains
+  /// px, accuracy of the pairs' disparities as the rig's calibration has them: a correction of more
+  /// than three times this is not believed.
+  double calibration_sigma = 1;
+  double noise = 1.5;  ///< grey levels, difference that the sensor's noise alone explains
 
   /// Whether aligned windows show the same thing.
   bool accepts(const PatchAlignment& aligned) const {
@@ -52,6 +55,7 @@ struct StereoConfig {
     archive("uniqueness", uniqueness, Range::between(1, 10));
     archive("max_residual", max_residual, Range::between(0.01, 2));
     archive("self_calibration", self_calibration);
+    archive("calibration_sigma", calibration_sigma, Range::positive());
     archive("noise", noise, Range::between(0, 50));
   }
 };

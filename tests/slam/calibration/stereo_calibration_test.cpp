@@ -22,17 +22,19 @@ std::vector<Pose> drive() {
   return poses;
 }
 
-/// A map whose second pair measures disparities too small by `offset` px, with landmarks at the
-/// resulting positions.
-AisleMap map_with_offset(const SyntheticAisle& aisle, double offset) {
+/// A map whose second pair measures disparities too small by `offset` px, by `later` px from the
+/// middle of the drive on, with landmarks at the resulting positions.
+AisleMap map_with_offsets(const SyntheticAisle& aisle, double offset, double later) {
   AisleMap made(aisle, {});
   const StereoCameraModel& camera = made.rig.left_cameras[1];
   for (const Pose& pose : drive()) {
-    auto frame = aisle.frame(static_cast<std::int64_t>(made.map.keyframes().size()), pose);
+    const auto index = static_cast<std::int64_t>(made.map.keyframes().size());
+    auto frame = aisle.frame(index, pose);
+    const double wrong = index < 6 ? offset : later;
     StereoView& view = frame->views[1];
     for (std::size_t f = 0; f < view.stereo.size(); ++f) {
       StereoMatch& match = view.stereo[f];
-      match.x_right += static_cast<float>(offset);
+      match.x_right += static_cast<float>(wrong);
       match.depth = static_cast<float>(
           camera.depth_of(static_cast<double>(view.features.keypoints[f].x - match.x_right)));
     }
@@ -47,6 +49,10 @@ AisleMap map_with_offset(const SyntheticAisle& aisle, double offset) {
                      keyframe.T_map_body, made.rig.T_body_cams[static_cast<std::size_t>(o.view)]);
   }
   return made;
+}
+
+AisleMap map_with_offset(const SyntheticAisle& aisle, double offset) {
+  return map_with_offsets(aisle, offset, offset);
 }
 
 // Pixels are stored as floats, to 3e-5 px; the offset is tied to thousands of them.
@@ -73,6 +79,27 @@ TEST(StereoCalibrationTest, ARightCalibrationStays) {
   const SyntheticAisle aisle(0.5, 3, 800);
   const AisleMap made = map_with_offset(aisle, 0);
   EXPECT_FALSE(find_disparity_offsets(made.map, made.rig, {}));
+}
+
+// Twelve keyframes, of which the later six measure otherwise: on the whole drive that looks like an
+// offset of about a pixel, which no half of it has.
+TEST(StereoCalibrationTest, WhatChangesOnTheWayIsNoCalibration) {
+  const SyntheticAisle aisle(0.5, 2, 800);
+  const AisleMap changing = map_with_offsets(aisle, 2.4, 0);
+  EXPECT_FALSE(find_disparity_offsets(changing.map, changing.rig, {}));
+  const AisleMap steady = map_with_offset(aisle, 1.2);
+  EXPECT_TRUE(find_disparity_offsets(steady.map, steady.rig, {}));
+}
+
+// Three standard deviations of the calibration's accuracy are the limit: 3 px, 6 px.
+TEST(StereoCalibrationTest, MoreThanTheRigsAccuracyAllowsIsNotBelieved) {
+  const SyntheticAisle aisle(0.5, 2, 800);
+  AisleMap made = map_with_offset(aisle, 3.5);
+  EXPECT_FALSE(find_disparity_offsets(made.map, made.rig, {}));
+  made.rig.noise.disparity_offset_sigma = 2;
+  const auto offsets = find_disparity_offsets(made.map, made.rig, {});
+  ASSERT_TRUE(offsets);
+  EXPECT_NEAR((*offsets)[1], 3.5, 0.05);
 }
 
 // The search starts from the previous result and finds no further offset.
