@@ -102,8 +102,11 @@ void add_exposure_causes(std::vector<PlantedCause>& list) {
                   {Cause::kMotionBlur}});
   list.push_back({"rolling-shutter",
                   [](ScenarioConfig& scenario, RandomSequence& draw) {
-                    camera(scenario).readout_time = draw.uniform(0.044, 0.052);
-                    camera(scenario).readout_bands = 4;
+                    sim::CameraSensorConfig& sensor = camera(scenario);
+                    // Exposure and readout fit between two frames of rig.yaml.
+                    sensor.readout_time =
+                        std::min(draw.uniform(0.044, 0.052), 1.0 / 15 - sensor.exposure.longest());
+                    sensor.readout_bands = 4;
                   },
                   {},
                   {Cause::kRollingShutter}});
