@@ -240,12 +240,7 @@ TrackedFrame Pipeline::track(const std::shared_ptr<FrameFeatures>& frame) {
   const ScopedTimer timer(times_, "tracking");
   const Pose before = tracker_.T_map_body();
   TrackedFrame tracked = tracker_.track(frame, map_, rig_);
-  if (!tracked.tracked) {
-    if (const auto T_map_body = pose_from_outside(*frame)) {
-      tracker_.start(*T_map_body, frame->stamp);
-      tracked = tracker_.track(frame, map_, rig_);
-    }
-  }
+  if (!tracked.tracked) find_again(tracked);
   if (tracked.tracked) {
     seeing_frames_ = 0;
   } else {
@@ -255,14 +250,24 @@ TrackedFrame Pipeline::track(const std::shared_ptr<FrameFeatures>& frame) {
   return tracked;
 }
 
-/// Where the body is by a tag that the map knows or, once it is lost, by appearance of the place.
-std::optional<Pose> Pipeline::pose_from_outside(const FrameFeatures& frame) {
-  if (const auto by_tag = loop_closer_.map_pose(frame.tags, map_)) return by_tag;
-  if (!tracker_.dead_reckoning().is_lost()) return std::nullopt;
-  for (const StereoView& view : frame.views) {
-    if (view.followed > 0) return std::nullopt;  // would recognise what was put in
+/// Goes on where the body is by a tag that the map knows or, once it is lost, by the looks of the
+/// place. A tag is believed; a place must be borne out by tracking there.
+void Pipeline::find_again(TrackedFrame& tracked) {
+  const std::shared_ptr<FrameFeatures> frame = tracked.frame;
+  if (const auto by_tag = loop_closer_.map_pose(frame->tags, map_)) {
+    tracker_.start(*by_tag, frame->stamp);
+    tracked = tracker_.track(frame, map_, rig_);
+    return;
   }
-  return relocaliser_.find(map_, rig_, frame);
+  if (!tracker_.dead_reckoning().is_lost()) return;
+  const auto by_looks = relocaliser_.find(map_, rig_, *frame);
+  if (!by_looks) return;
+  Tracker there = tracker_;
+  there.start(*by_looks, frame->stamp, true);
+  TrackedFrame found = there.track(frame, map_, rig_);
+  if (!found.tracked) return;
+  tracker_ = std::move(there);
+  tracked = std::move(found);
 }
 
 /// Makes a frame that sees well, but nothing of the map, the map's next keyframe where dead

@@ -64,7 +64,7 @@ class Pipeline {
   TrackedFrame initialise(const std::shared_ptr<FrameFeatures>& frame);
   TrackedFrame relocalise(const std::shared_ptr<FrameFeatures>& frame);
   TrackedFrame track(const std::shared_ptr<FrameFeatures>& frame);
-  std::optional<Pose> pose_from_outside(const FrameFeatures& frame);
+  void find_again(TrackedFrame& tracked);
   bool restart_map(TrackedFrame& tracked);
   bool wants_new_keyframe(const TrackedFrame& tracked) const;
   void join_mapping(TrackedFrame* tracked = nullptr);

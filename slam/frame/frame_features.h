@@ -31,6 +31,15 @@ struct StereoView {
   std::size_t detected() const { return features.size() - followed; }
   bool is_placed(std::size_t feature) const { return !placed.empty() && placed[feature] != 0; }
 
+  /// Takes the followed features out again.
+  void drop_followed() {
+    features.keypoints.resize(detected());
+    features.descriptors.resize(features.keypoints.size());
+    stereo.resize(features.keypoints.size());
+    if (!placed.empty()) placed.resize(features.keypoints.size());
+    followed = 0;
+  }
+
   /// No more features will be added: gives back the room for them.
   void close() {
     features.keypoints.shrink_to_fit();

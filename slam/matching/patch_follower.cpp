@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/matching/landmark_view.h"
 #include "slam/matching/patch_projector.h"
 #include "slam/patches/patch_alignment.h"
 
 namespace vinebench::slam {
 namespace {
 
-constexpr int kCell = 48;           // px; of the image's cells that share the landmarks
-constexpr double kMargin = 6;       // px
-constexpr double kMinCosine = 0.5;  // a leaf looks different from farther around than this
+constexpr int kCell = 48;  // px; of the image's cells that share the landmarks
 
 struct Candidate {
   int id;
@@ -87,12 +86,8 @@ class Follower {
     for (const int id : landmarks) {
       const Landmark& landmark = map_.landmark(id);
       if (landmark.removed || tied[static_cast<std::size_t>(id)]) continue;
-      const Eigen::Vector3d p_cam = T_cam_map * landmark.position;
-      if (p_cam.z() < 0.05) continue;
-      const Eigen::Vector2d pixel = lens().project(p_cam);
-      if (!lens().contains(pixel, kMargin)) continue;
-      if (p_cam.dot(T_cam_map.rotation * landmark.normal) < kMinCosine * p_cam.norm()) continue;
-      result.push_back({id, count_keyframes(landmark), pixel, p_cam.z()});
+      const auto seen = view_landmark(landmark, T_cam_map, lens());
+      if (seen) result.push_back({id, count_keyframes(landmark), seen->pixel, seen->depth});
     }
     std::stable_sort(result.begin(), result.end(), [](const Candidate& a, const Candidate& b) {
       return a.keyframes > b.keyframes;

@@ -42,11 +42,13 @@ class Tracker {
         follow_{settings.refinement, settings.stereo},
         dead_reckoning_(settings.dead_reckoning) {}
 
-  /// Starts at a pose, standing still.
-  void start(const Pose& T_map_body, Stamp stamp);
+  /// Starts at a pose, standing still. A pose that is `guessed`, by the looks of the place, must be
+  /// borne out by most of what the map has there.
+  void start(const Pose& T_map_body, Stamp stamp, bool guessed = false);
 
   /// Tracks the next frame against the map. Where that fails the pose is dead-reckoned; sight that
-  /// comes back must agree with that within its uncertainty.
+  /// comes back must agree with that within its uncertainty, and where that spans several vines,
+  /// which look alike, with what else the map has in view.
   TrackedFrame track(std::shared_ptr<FrameFeatures> frame, const Map& map, const EstimatorRig& rig);
 
   /// Takes over a pose that something else knows better (loop closing, a tag), moving what the
@@ -70,7 +72,10 @@ class Tracker {
   /// Matches, places and follows the landmarks nearby, each round from a better pose.
   void refine_on_local_map(const Map& map, const EstimatorRig& rig, TrackedFrame& tracked) const;
   void adjust_motion(const Map& map, const EstimatorRig& rig, TrackedFrame& tracked) const;
-  bool is_credible(const TrackedFrame& tracked, const Pose& predicted) const;
+  bool may_be_elsewhere() const;
+  double share_found(const Map& map, const EstimatorRig& rig, const TrackedFrame& tracked) const;
+  bool is_credible(const Map& map, const EstimatorRig& rig, const TrackedFrame& tracked,
+                   const Pose& predicted) const;
   void accept(const TrackedFrame& tracked);
   void reckon(const FrameFeatures& frame);
 
@@ -81,6 +86,7 @@ class Tracker {
   Vector6d velocity_ = Vector6d::Zero();  ///< of the body in its own frame, m/s and rad/s
   std::vector<int> last_landmarks_;       ///< seen in the frame before, ascending
   DeadReckoning dead_reckoning_;          ///< the odometry gap, while there is one
+  bool guessed_ = false;                  ///< the pose, by the looks of the place alone
 };
 
 /// Ids of landmarks that a frame may see: those of the keyframes that share most of `seen`, and of

@@ -19,6 +19,23 @@ TEST(FrameFeaturesTest, AFrameBeginsWithoutAssociations) {
   EXPECT_THAT(none[1], testing::ElementsAre(-1, -1, -1));
 }
 
+TEST(FrameFeaturesTest, FollowedFeaturesCanBeTakenOutAgain) {
+  StereoView view;
+  view.features.keypoints.resize(5);
+  view.features.descriptors.resize(5);
+  view.stereo.resize(5);
+  view.placed.assign(5, 1);
+  view.features.keypoints[2].x = 7;
+  view.followed = 2;
+  view.drop_followed();
+  EXPECT_EQ(view.features.size(), 3u);
+  EXPECT_EQ(view.features.descriptors.size(), 3u);
+  EXPECT_EQ(view.stereo.size(), 3u);
+  EXPECT_EQ(view.placed.size(), 3u);
+  EXPECT_EQ(view.features.keypoints.back().x, 7);
+  EXPECT_EQ(view.detected(), 3u);
+}
+
 TEST(FrameFeaturesTest, LandmarksOfAllViewsOnceAscending) {
   EXPECT_THAT(landmark_ids({{7, -1, 2}, {2, 9, -1}}), testing::ElementsAre(2, 7, 9));
   EXPECT_TRUE(landmark_ids({{-1}, {}}).empty());

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "core/util/random.h"
 #include "tests/support/aisle_map.h"
 
 namespace vinebench::slam {
@@ -33,6 +34,19 @@ class TrackerTest : public testing::Test {
                      const std::optional<Pose>& wheels = std::nullopt) {
     auto frame = aisle_.frame(index, pose, blind);
     frame->wheels = wheels;
+    return tracker.track(frame, made_.map, made_.rig);
+  }
+  /// The same where only every n-th feature looks like a landmark of the map.
+  TrackedFrame track_every(std::size_t n, Tracker& tracker, std::int64_t index, const Pose& pose) {
+    auto frame = aisle_.frame(index, pose);
+    const RandomStream random(5, "foreign features");
+    std::uint64_t drawn = 0;
+    for (StereoView& view : frame->views) {
+      for (std::size_t f = 0; f < view.features.size(); ++f) {
+        if (f % n == 0) continue;
+        for (std::uint64_t& word : view.features.descriptors[f]) word = random.bits(drawn++);
+      }
+    }
     return tracker.track(frame, made_.map, made_.rig);
   }
   /// A tracker that has followed a few frames of 2 cm each.
@@ -126,6 +140,30 @@ TEST_F(TrackerTest, SightThatComesBackMustAgreeWithDeadReckoning) {
   // 2 cm by the wheels with 5 % of slip, four deviations of it and 5 cm of the pose's own: 5.4 cm.
   EXPECT_FALSE(track(tracker, 7, ahead(0.14 + 0.15), {}, step).tracked);
   EXPECT_TRUE(track(tracker, 8, ahead(0.16 + 0.02), {}, step).tracked);
+}
+
+// Twelve frames of 1/15 s with an unknown acceleration of 0.5 m/s^2: 0.16 m, and four times that
+// reaches the next vine. There every twelfth feature may look like one here.
+TEST_F(TrackerTest, AfterALongGapAFewFeaturesAreNotEnough) {
+  Tracker tracker = moving(5);
+  ASSERT_TRUE(track_every(12, tracker, 6, ahead(0.12)).tracked) << "without a gap they are";
+  for (int i = 7; i < 19; ++i) track(tracker, i, ahead(0.02 * i), all_blind());
+  const TrackedFrame few = track_every(12, tracker, 19, ahead(0.38));
+  EXPECT_FALSE(few.tracked);
+  EXPECT_GT(few.motion.inliers, settings_.tracking.min_inliers);
+  EXPECT_TRUE(track_every(2, tracker, 20, ahead(0.4)).tracked);
+  EXPECT_LT(distance(tracker.T_map_body(), ahead(0.4)), 2e-6);
+  EXPECT_TRUE(track_every(12, tracker, 21, ahead(0.42)).tracked);
+}
+
+TEST_F(TrackerTest, AGuessedPoseMustBeBorneOutByWhatIsThere) {
+  Tracker tracker(settings_);
+  tracker.start(ahead(0.1), stamp_of_frame(0, 15), true);
+  EXPECT_FALSE(track_every(12, tracker, 1, ahead(0.1)).tracked);
+  tracker.start(ahead(0.1), stamp_of_frame(1, 15), true);
+  EXPECT_TRUE(track_every(2, tracker, 2, ahead(0.1)).tracked);
+  tracker.start(ahead(0.1), stamp_of_frame(2, 15));
+  EXPECT_TRUE(track_every(12, tracker, 3, ahead(0.1)).tracked) << "what a tag says is no guess";
 }
 
 TEST_F(TrackerTest, ACorrectionMovesThePrediction) {
