@@ -22,7 +22,7 @@ _ORDERS = {"binary_little_endian": "<", "binary_big_endian": ">", "ascii": "="}
 class PointCloud:
     """Points, m, and their colours if they have any."""
 
-    points: npt.NDArray[np.float32]
+    points: npt.NDArray[np.float64]
     colours: Optional[npt.NDArray[np.uint8]]
 
 
@@ -69,7 +69,7 @@ def read_cloud(file: pathlib.Path) -> PointCloud:
         raise core.Error(f"{file}: {error.strerror}") from error
     except (ValueError, KeyError, IndexError, TypeError) as error:
         raise core.Error(f"{file}: not a point cloud in PLY format ({error})") from error
-    points = np.stack([vertices[axis].astype(np.float32) for axis in "xyz"], axis=1)
+    points = np.stack([vertices[axis].astype(np.float64) for axis in "xyz"], axis=1)
     channels = ("red", "green", "blue")
     names = vertices.dtype.names or ()
     if not set(channels) <= set(names):

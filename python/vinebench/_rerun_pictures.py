@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import importlib
 import io
 import pathlib
@@ -18,6 +19,8 @@ from vinebench._run_folder import RunFolder, Stamps, json_object, nearest, text_
 from vinebench.trajectories import Array, to_matrices
 
 _FURTHEST = 0.01  # m, between the true poses of a run and of its recording
+PIXEL_CORNER = np.array([[0, 0, 0.5], [0, 0, 0.5], [0, 0, 0]])
+"""What is added to K where pixel (0, 0) is the corner of the top left pixel, and not its centre."""
 _KEPT = re.compile(r"(\d{6,})_(.+)\.png")
 
 
@@ -70,22 +73,19 @@ def scaled(view: View, most: int) -> View:
         return view
     width, height = max(1, round(view.width * most / view.height)), most
     zoom = np.diag([width / view.width, height / view.height, 1])
-    K = zoom @ (view.K + [[0, 0, 0.5], [0, 0, 0.5], [0, 0, 0]]) - [[0, 0, 0.5], [0, 0, 0.5],
-                                                                     [0, 0, 0]]
+    K = zoom @ (view.K + PIXEL_CORNER) - PIXEL_CORNER
     return View(view.name, width, height, K, view.T_body_camera)
 
 
 def jpeg(image: Any, view: View, quality: int) -> bytes:
     """Of the view's size."""
     if image.size != (view.width, view.height):
-        image = image.resize((view.width, view.height),
-                             importlib.import_module("PIL.Image").BOX)
+        pillow = importlib.import_module("PIL.Image")
+        image = image.resize((view.width, view.height), pillow.BOX)
     stream = io.BytesIO()
     image.save(stream, "JPEG", quality=quality)
     return stream.getvalue()
 
-
-# Of a data set.
 
 def _euroc_folder(folder: pathlib.Path) -> pathlib.Path:
     """Of the data set, of its EuRoC folder, or of mav0."""
@@ -123,7 +123,7 @@ def _listed(camera: str, folder: pathlib.Path) -> Iterator[Picture]:
         file = folder / "data" / fields[1].strip()
         if not fields[0].strip().isdigit():
             raise core.Error(f"{where}: expected a stamp in ns, found '{fields[0]}'")
-        yield Picture(int(fields[0]), camera, lambda file=file: _open(file))  # type: ignore[misc]
+        yield Picture(int(fields[0]), camera, functools.partial(_open, file))
 
 
 def _check_same_run(folder: pathlib.Path, euroc: pathlib.Path, run: RunFolder,
@@ -154,8 +154,6 @@ def pictures_of_recording(folder: pathlib.Path, run: RunFolder) -> Pictures:
                     lambda: iter(pictures), np.column_stack([stamps, readings]))
 
 
-# Of a run's own folder.
-
 def site_views(run: RunFolder) -> list[View]:
     """The rig's cameras by site.json, which has no principal point: it is in the middle."""
     where = f"{run.folder / 'site.json'}: cameras"
@@ -179,7 +177,7 @@ def _of_film(run: RunFolder, index: dict[str, Any], stamps: dict[int, int]) -> I
         for cell in index["cells"]:
             x, width = int(cell["x"]), int(cell["width"])
             box = (x, 0, x + width, strip.size[1])
-            yield Picture(stamps[frame], cell["camera"], lambda box=box, strip=strip: strip.crop(box))  # type: ignore[misc]
+            yield Picture(stamps[frame], cell["camera"], functools.partial(strip.crop, box))
 
 
 def _film(run: RunFolder, views: list[View], stamps: dict[int, int]) -> Pictures:
@@ -199,7 +197,7 @@ def _film(run: RunFolder, views: list[View], stamps: dict[int, int]) -> Pictures
 def _kept(run: RunFolder, views: list[View], stamps: dict[int, int]) -> Pictures:
     found = [(match, file) for file in sorted((run.folder / "frames").glob("*.png"))
              if (match := _KEPT.fullmatch(file.name)) and int(match[1]) in stamps]
-    pictures = [Picture(stamps[int(match[1])], match[2], lambda file=file: _open(file))  # type: ignore[misc]
+    pictures = [Picture(stamps[int(match[1])], match[2], functools.partial(_open, file))
                 for match, file in found]
     return Pictures(views, lambda: iter(pictures), np.zeros((0, 7)))
 

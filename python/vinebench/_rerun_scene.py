@@ -12,7 +12,7 @@ import numpy as np
 from vinebench._load import core
 from vinebench._point_cloud import PointCloud
 from vinebench._rerun_writer import Colour, Writer
-from vinebench._run_folder import Path, RunFolder, Timeline, nearest
+from vinebench._run_folder import Path, RunFolder, Stamps, Timeline, nearest
 from vinebench.trajectories import Array
 
 TRUTH, MAP, LIVE = "world/truth", "world/map", "world/live_map"
@@ -37,7 +37,7 @@ def alignment(truth: Path, estimate: Path, how: str) -> Array:
     return np.asarray(T_world_body @ np.linalg.inv(T_map_body))
 
 
-def position_errors(truth: Path, estimate: Path, T_world_map: Array) -> tuple[Array, Array]:
+def position_errors(truth: Path, estimate: Path, T_world_map: Array) -> tuple[Stamps, Array]:
     """Stamps, and distances from the true positions there, m."""
     mine, theirs = nearest(truth.stamps, estimate.stamps)
     placed = estimate.rows[mine, 1:4] @ T_world_map[:3, :3].T + T_world_map[:3, 3]

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import importlib
-import os
 import pathlib
 from collections.abc import Iterable, Mapping, Sequence
 from types import TracebackType
@@ -13,7 +12,8 @@ from typing import Any, Optional
 import numpy as np
 
 from vinebench._load import core
-from vinebench._rerun_pictures import View
+from vinebench._piped_file import PipedFile
+from vinebench._rerun_pictures import PIXEL_CORNER, View
 from vinebench._run_folder import Stamps, Timeline
 from vinebench.trajectories import Array, row_of
 
@@ -37,40 +37,43 @@ def load_sdk() -> Any:
 
 
 class Writer:
-    """A file that has its name once it is whole: a context."""
+    """A file that has its name once it is whole: a context. Raises Error if it cannot be written."""
 
-    def __init__(self, sdk: Any, file: pathlib.Path, timeline: Timeline) -> None:
+    def __init__(self, sdk: Any, file: pathlib.Path, timeline: Timeline, name: str) -> None:
         self.sdk = sdk
         sdk.set_strict_mode(True)  # else what cannot be written is left out with a warning
         self._file = file
-        self._partial = file.with_name(f".{file.name}.{os.getpid()}")
         self._timeline = timeline
-        self._stream = sdk.RecordingStream("vinebench")
+        self._name = name
 
     def __enter__(self) -> Writer:
-        return self
-
-    def open(self, name: str) -> None:
-        """Raises Error if the file cannot be written."""
         try:
-            self._partial.touch()
-            self._stream.save(str(self._partial))
-        except (OSError, RuntimeError) as error:
-            raise core.Error(f"{self._file}: cannot be written ({error})") from error
-        self._stream.send_recording_name(name)
-
-    def lay_out(self, blueprint: Any) -> None:
-        """How the viewer shows it, until its user changes that."""
-        self._stream.send_blueprint(blueprint)
+            self._output = PipedFile(self._file)
+        except OSError as error:
+            raise self._error(error) from error
+        self._stream = self.sdk.RecordingStream("vinebench")
+        self._stream.save(self._output.pipe)
+        self._stream.send_recording_name(self._name)
+        return self
 
     def __exit__(self, kind: Optional[type[BaseException]], _: Optional[BaseException],
                  __: Optional[TracebackType]) -> None:
         self._stream.flush()
         self._stream.disconnect()
-        if kind is None:
-            os.replace(self._partial, self._file)
-        else:
-            self._partial.unlink(missing_ok=True)
+        if kind is not None:
+            self._output.discard()
+            return
+        try:
+            self._output.finish()
+        except OSError as error:
+            raise self._error(error) from error
+
+    def _error(self, error: OSError) -> Exception:
+        return core.Error(f"{self._file}: cannot be written ({error.strerror})")
+
+    def lay_out(self, blueprint: Any) -> None:
+        """How the viewer shows it, until its user changes that."""
+        self._stream.send_blueprint(blueprint)
 
     def part(self, name: str) -> str:
         """A name as a part of an entity's path."""
@@ -145,9 +148,8 @@ class Writer:
             quaternions=np.array([row_of(0, pose)[4:8] for pose in poses])))
 
     def camera(self, entity: str, view: View) -> None:
-        """A pinhole. Pixel centres are at 0.5 there, and at 0 in a View."""
-        K = view.K + np.array([[0, 0, 0.5], [0, 0, 0.5], [0, 0, 0]])
-        sdk = self.sdk
+        """A pinhole. In Rerun the centre of the top left pixel is (0.5, 0.5)."""
+        K, sdk = view.K + PIXEL_CORNER, self.sdk
         self.transform(entity, view.T_body_camera)
         self.static(entity, sdk.Pinhole(image_from_camera=K, resolution=[view.width, view.height],
                                         camera_xyz=sdk.ViewCoordinates.RDF,

@@ -56,7 +56,7 @@ class Timeline:
     def frames_at(self, stamps: Stamps) -> Stamps:
         """The last frame no later than each stamp; the first one before it."""
         at = np.searchsorted(self.stamps, stamps, side="right") - 1
-        return self.frames[np.maximum(at, 0)]
+        return np.asarray(self.frames[np.maximum(at, 0)])
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

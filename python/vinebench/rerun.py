@@ -23,7 +23,7 @@ from vinebench._rerun_pictures import (Pictures, View, jpeg, pictures_of_recordi
 from vinebench._rerun_writer import Writer, load_sdk
 from vinebench._run_folder import RunFolder, read_run
 
-_BAD_INPUT = 2  # exit code, as of the program
+_BAD_INPUT, _INTERRUPTED = 2, 130  # exit codes, as of the program
 
 
 def _whole(least: int, most: int) -> Any:
@@ -90,10 +90,9 @@ class _Conversion:
     def write(self) -> None:
         """Writes the file; there is none if it fails."""
         run, options = self._run, self._options
-        with Writer(self._sdk, options.out, run.timeline) as writer:
+        with Writer(self._sdk, options.out, run.timeline, self._name()) as writer:
             body = f"{scene.TRUTH if len(run.truth) else f'{scene.MAP}/estimate'}/body"
             entities = {name: f"{body}/{writer.part(name)}" for name in self._views}
-            writer.open(self._name())
             scene.write_site(writer, run)
             corrected, live = scene.write_paths(writer, run, self._cloud, options.align)
             factor = scene.write_covariance(writer, run)
@@ -128,6 +127,9 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
     except core.Error as error:
         print(f"vinebench.rerun: {error}", file=sys.stderr)
         return _BAD_INPUT
+    except KeyboardInterrupt:
+        print("vinebench.rerun: interrupted; nothing was written", file=sys.stderr)
+        return _INTERRUPTED
     print(f"{options.out} ({options.out.stat().st_size / 1e6:.1f} MB)")
     return 0
 
