@@ -7,10 +7,10 @@ import importlib
 from collections.abc import Sequence
 from typing import Any
 
-PLOTS = (("plots/error_mm", "Position error, mm"), ("plots/sigma_mm", "Standard deviation, mm"),
-         ("plots/drift_percent", "Drift, %"), ("plots/inliers", "Inliers"),
-         ("plots/features", "Features"), ("plots/occluded", "Occluded"), ("plots/status", "Status"),
-         ("imu", "Inertial unit"))
+PLOTS = (("plots/error_mm", "Position error, mm"), ("plots/inliers", "Inliers"),
+         ("plots/status", "Status"), ("plots/sigma_mm", "Standard deviation, mm"),
+         ("plots/drift_percent", "Drift, %"), ("plots/features", "Features"),
+         ("plots/occluded", "Occluded"), ("imu", "Inertial unit"))
 """Entities of plots, and their titles."""
 
 
@@ -18,7 +18,8 @@ def layout(cameras: Sequence[tuple[str, str]], plots: Sequence[str]) -> Any:
     """3D view and events at the left; cameras (name, entity) and plots (entities) at the right."""
     views = importlib.import_module("rerun.blueprint")
     left = views.Vertical(
-        views.Spatial3DView(origin="/world", name="Vineyard"),
+        views.Spatial3DView(origin="/world", name="Vineyard",
+                            contents=["$origin/**", "- $origin/map/far_landmarks"]),
         views.Tabs(views.TextLogView(origin="/events", name="Events"),
                    views.TextDocumentView(origin="/summary", name="Run")), row_shares=[3, 1])
     curves = [views.TimeSeriesView(origin=f"/{entity}", name=title) for entity, title in PLOTS
@@ -26,10 +27,9 @@ def layout(cameras: Sequence[tuple[str, str]], plots: Sequence[str]) -> Any:
     images = [views.Spatial2DView(origin=entity, name=name,
                                   contents=["$origin/**", "/world/tags"])
               for name, entity in cameras]
-    # The first three plots in view, the others behind them.
-    right = [views.Grid(*images, grid_columns=2)] if images else []
-    if curves:
-        right.append(views.Vertical(*curves[:2], views.Tabs(*curves[2:])) if len(curves) > 2
-                     else views.Vertical(*curves))
+    right = [views.Grid(*images, grid_columns=min(3, len(images)))] if images else []
+    if len(curves) > 3:  # two in view, the others behind the third
+        curves = [*curves[:2], views.Tabs(*curves[2:])]
+    right += [views.Vertical(*curves)] if curves else []
     return views.Blueprint(views.Horizontal(left, *([views.Vertical(*right)] if right else []),
                                             column_shares=[1, 1] if right else [1]))

@@ -137,8 +137,8 @@ def _check_same_run(folder: pathlib.Path, euroc: pathlib.Path, run: RunFolder,
     mine, theirs = nearest(recorded, run.truth.stamps)
     apart = np.linalg.norm(run.truth.rows[mine, 1:4] - rows[theirs], axis=1)
     if len(apart) and apart.max() > _FURTHEST:
-        raise core.Error(f"{folder}: the recording of another run than {run.folder}: true positions "
-                         f"differ by up to {apart.max():.3g} m")
+        raise core.Error(f"{folder}: the recording of another run than {run.folder}: true "
+                         f"positions differ by up to {apart.max():.3g} m")
 
 
 def pictures_of_recording(folder: pathlib.Path, run: RunFolder) -> Pictures:
@@ -177,7 +177,8 @@ def _of_film(run: RunFolder, index: dict[str, Any], stamps: dict[int, int]) -> I
         for cell in index["cells"]:
             x, width = int(cell["x"]), int(cell["width"])
             box = (x, 0, x + width, strip.size[1])
-            yield Picture(stamps[frame], cell["camera"], functools.partial(strip.crop, box))
+            yield Picture(stamps[frame], str(cell["camera"]),
+                          functools.partial(strip.crop, box))
 
 
 def _film(run: RunFolder, views: list[View], stamps: dict[int, int]) -> Pictures:

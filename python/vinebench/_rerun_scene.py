@@ -18,11 +18,14 @@ from vinebench.trajectories import Array
 TRUTH, MAP, LIVE = "world/truth", "world/map", "world/live_map"
 _GREEN, _ORANGE, _BLUE, _RED = (60, 170, 80), (240, 150, 40), (90, 140, 240), (220, 60, 60)
 _GREY, _BROWN = (150, 150, 150), (140, 110, 80)
+_CAMERAS = ((90, 140, 240), (150, 200, 250), (240, 150, 40), (250, 210, 130), (60, 170, 80),
+            (220, 60, 60), (170, 110, 210))  # colours in plots
 _STATUS = {"lost": 0.0, "initialising": 1.0, "dead_reckoning": 2.0, "tracked": 3.0}
 _WARNINGS = {"lost", "dead_reckoning_given_up", "tag_rejected", "loop_closure_missed", "explained",
              "occlusion_begin"}
 _SIGMAS = 3
 _VISIBLE = 0.1  # m, the largest ellipsoid's half axis is enlarged towards
+_FAR = 4.0  # m, beyond the path
 _DISTANCE = 1.0  # m, before which a drift in percent says nothing
 
 
@@ -100,6 +103,16 @@ def write_loops(writer: Writer, run: RunFolder) -> None:
     writer.lines(f"{MAP}/loops", strips, colours)
 
 
+def _write_landmarks(writer: Writer, estimate: Path, cloud: PointCloud) -> None:
+    """Those far from the path apart: they would make the rest small in the 3D view."""
+    path = estimate.rows[:, 1:4] if len(estimate) else np.zeros((1, 3))
+    near = ((cloud.points >= path.min(axis=0) - _FAR)
+            & (cloud.points <= path.max(axis=0) + _FAR)).all(axis=1)
+    for entity, these in (("landmarks", near), ("far_landmarks", ~near)):
+        colours = [_GREY] if cloud.colours is None else cloud.colours[these]
+        writer.points(f"{MAP}/{entity}", cloud.points[these], colours, 0.01)
+
+
 def write_paths(writer: Writer, run: RunFolder, cloud: Optional[PointCloud], how: str
                 ) -> tuple[Array, Array]:
     """True and estimated paths; the map. Returns T_world_map of the corrected and the live path."""
@@ -112,8 +125,7 @@ def write_paths(writer: Writer, run: RunFolder, cloud: Optional[PointCloud], how
     writer.points(f"{MAP}/keyframes", run.keyframes.rows[:, 1:4], [_ORANGE], 0.02)
     write_loops(writer, run)
     if cloud is not None:
-        writer.points(f"{MAP}/landmarks", cloud.points,
-                      [_GREY] if cloud.colours is None else cloud.colours, 0.01)
+        _write_landmarks(writer, run.estimate, cloud)
     if len(run.live):
         writer.transform(LIVE, live)
         _write_path(writer, LIVE, run.live, _BLUE)
@@ -139,7 +151,8 @@ def write_covariance(writer: Writer, run: RunFolder) -> float:
     if not len(mine) or not hasattr(writer.sdk, "Ellipsoids3D"):
         return 1
     largest = float(np.nanmax(sigmas))
-    factor = 10.0 ** max(0, math.floor(math.log10(_VISIBLE / (_SIGMAS * largest)))) if largest else 1
+    orders = math.floor(math.log10(_VISIBLE / (_SIGMAS * largest))) if largest > 0 else 0
+    factor = 10.0 ** max(0, orders)
     values, axes = np.linalg.eigh(timeline.covariance[at[mine]])
     axes[np.linalg.det(axes) < 0, :, 0] *= -1
     half_sizes = _SIGMAS * factor * np.sqrt(np.maximum(values, 0))
@@ -149,16 +162,16 @@ def write_covariance(writer: Writer, run: RunFolder) -> float:
 
 
 def _write_errors(writer: Writer, run: RunFolder, corrected: Array, live: Array) -> list[str]:
-    lines = {"corrected": position_errors(run.truth, run.estimate, corrected),
-             "live": position_errors(run.truth, run.live, live)}
-    for name, (stamps, errors) in lines.items():
-        writer.scalars(f"plots/error_mm/{name}", stamps, 1000 * errors, name)
-    stamps, errors = lines["live"]
+    stamps, errors = position_errors(run.truth, run.estimate, corrected)
+    writer.scalars("plots/error_mm/corrected", stamps, 1000 * errors, "corrected", _ORANGE)
+    stamps, errors = position_errors(run.truth, run.live, live)
+    writer.scalars("plots/error_mm/live", stamps, 1000 * errors, "live", _BLUE)
     steps = np.linalg.norm(np.diff(run.truth.rows[:, 1:4], axis=0), axis=1)
     driven = np.concatenate([[0.0], np.cumsum(steps)])[np.searchsorted(run.truth.stamps, stamps)
                                                        .clip(max=len(steps))]
     far = driven >= _DISTANCE
-    writer.scalars("plots/drift_percent/live", stamps[far], 100 * errors[far] / driven[far], "live")
+    writer.scalars("plots/drift_percent/live", stamps[far], 100 * errors[far] / driven[far], "live",
+                   _BLUE)
     return ["plots/error_mm", *(["plots/drift_percent"] if far.any() else [])]
 
 
@@ -166,14 +179,17 @@ def write_plots(writer: Writer, run: RunFolder, corrected: Array, live: Array) -
     """Errors, and what the timeline has. Returns the entities that are plots."""
     timeline = run.timeline
     plots = _write_errors(writer, run, corrected, live) if len(run.truth) else []
-    writer.scalars("plots/sigma_mm/live", timeline.stamps, 1000 * _largest_sigmas(timeline), "live")
+    writer.scalars("plots/sigma_mm/live", timeline.stamps, 1000 * _largest_sigmas(timeline), "live",
+                   _BLUE)
     for what, cameras in timeline.counts.items():
-        for camera, counts in cameras.items():
-            writer.scalars(f"plots/{what}/{writer.part(camera)}", timeline.stamps, counts, camera)
+        for i, (camera, counts) in enumerate(cameras.items()):
+            writer.scalars(f"plots/{what}/{writer.part(camera)}", timeline.stamps, counts, camera,
+                           _CAMERAS[i % len(_CAMERAS)])
     status = np.array([_STATUS.get(name, math.nan) for name in timeline.status])
     writer.scalars("plots/status/status", timeline.stamps, status,
                    ", ".join(f"{value:.0f} {name}" for name, value in _STATUS.items()))
-    return [*plots, "plots/sigma_mm", *(f"plots/{what}" for what in timeline.counts), "plots/status"]
+    counts = [f"plots/{what}" for what in timeline.counts]
+    return [*plots, "plots/sigma_mm", "plots/status", *counts]
 
 
 def write_imu(writer: Writer, readings: Array) -> list[str]:

@@ -37,7 +37,7 @@ def load_sdk() -> Any:
 
 
 class Writer:
-    """A file that has its name once it is whole: a context. Raises Error if it cannot be written."""
+    """A context: a file that has its name once it is whole. Raises Error if it cannot be written."""
 
     def __init__(self, sdk: Any, file: pathlib.Path, timeline: Timeline, name: str) -> None:
         self.sdk = sdk
@@ -124,10 +124,11 @@ class Writer:
                 half_sizes=[np.array(box["size"]) / 2 for box in boxes],
                 quaternions=np.array([box["rotation"] for box in boxes]), **more))
 
-    def scalars(self, entity: str, stamps: Stamps, values: Array, name: str) -> None:
+    def scalars(self, entity: str, stamps: Stamps, values: Array, name: str,
+                colour: Optional[Colour] = None) -> None:
         """A line of a plot; what is not a number is left out."""
         known = np.isfinite(values)
-        self.static(entity, self.sdk.SeriesLines(names=[name]))
+        self.static(entity, self.sdk.SeriesLines(names=[name], colors=colour and [colour]))
         self.rows(entity, stamps[known], self.sdk.Scalars.columns(scalars=values[known]))
 
     def texts(self, entity: str, stamps: Stamps, texts: Sequence[str],
@@ -137,8 +138,8 @@ class Writer:
     def document(self, entity: str, markdown: str) -> None:
         self.static(entity, self.sdk.TextDocument(markdown, media_type="text/markdown"))
 
-    def ellipsoids(self, entity: str, stamps: Stamps, half_sizes: Array, rotations: Iterable[Array],
-                   centres: Array, colour: Colour) -> None:
+    def ellipsoids(self, entity: str, stamps: Stamps, half_sizes: Array,
+                   rotations: Iterable[Array], centres: Array, colour: Colour) -> None:
         """One at each stamp; rotations (3, 3)."""
         poses = [np.block([[R, np.zeros((3, 1))], [np.zeros((1, 3)), np.ones((1, 1))]])
                  for R in rotations]

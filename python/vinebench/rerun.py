@@ -75,7 +75,6 @@ class _Conversion:
 
     def __init__(self, options: argparse.Namespace) -> None:
         self._options = options
-        self._sdk = load_sdk()
         self._run: RunFolder = read_run(options.run)
         self._cloud = self._read_cloud()
         self._pictures: Pictures = (pictures_of_recording(options.recording, self._run)
@@ -90,7 +89,7 @@ class _Conversion:
     def write(self) -> None:
         """Writes the file; there is none if it fails."""
         run, options = self._run, self._options
-        with Writer(self._sdk, options.out, run.timeline, self._name()) as writer:
+        with Writer(load_sdk(), options.out, run.timeline, self._name()) as writer:
             body = f"{scene.TRUTH if len(run.truth) else f'{scene.MAP}/estimate'}/body"
             entities = {name: f"{body}/{writer.part(name)}" for name in self._views}
             scene.write_site(writer, run)
