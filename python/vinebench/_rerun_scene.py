@@ -80,7 +80,7 @@ def write_site(writer: Writer, run: RunFolder) -> None:
     writer.boxes("world/objects", boxes["objects"], labels=[b["label"] for b in boxes["objects"]],
                  colors=[b["colour"] for b in boxes["objects"]])
     writer.boxes("world/tags", boxes["tags"], labels=[b["label"] for b in boxes["tags"]],
-                 colors=[_RED])
+                 colors=[_RED], show_labels=False)
 
 
 def _write_path(writer: Writer, entity: str, path: Path, colour: Colour) -> None:

@@ -119,10 +119,11 @@ class Writer:
     def boxes(self, entity: str, boxes: Sequence[Mapping[str, Any]], **more: Any) -> None:
         """Each with `centre`, `size` (m) and `rotation` (quaternion x, y, z, w)."""
         if boxes:
+            wires = self.sdk.components.FillMode.MajorWireframe  # nothing in an image is hidden
             self.static(entity, self.sdk.Boxes3D(
                 centers=[box["centre"] for box in boxes],
                 half_sizes=[np.array(box["size"]) / 2 for box in boxes],
-                quaternions=np.array([box["rotation"] for box in boxes]), **more))
+                quaternions=np.array([box["rotation"] for box in boxes]), fill_mode=wires, **more))
 
     def scalars(self, entity: str, stamps: Stamps, values: Array, name: str,
                 colour: Optional[Colour] = None) -> None:
