@@ -188,8 +188,8 @@ def write_plots(writer: Writer, run: RunFolder, corrected: Array, live: Array) -
     status = np.array([_STATUS.get(name, math.nan) for name in timeline.status])
     writer.scalars("plots/status/status", timeline.stamps, status,
                    ", ".join(f"{value:.0f} {name}" for name, value in _STATUS.items()))
-    counts = [f"plots/{what}" for what in timeline.counts]
-    return [*plots, "plots/sigma_mm", "plots/status", *counts]
+    return [*plots, "plots/sigma_mm", "plots/status",
+            *(f"plots/{what}" for what in timeline.counts)]
 
 
 def write_imu(writer: Writer, readings: Array) -> list[str]:

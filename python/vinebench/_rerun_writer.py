@@ -37,7 +37,7 @@ def load_sdk() -> Any:
 
 
 class Writer:
-    """A context: a file that has its name once it is whole. Raises Error if it cannot be written."""
+    """A context: a file that has its name once it is whole. Raises Error if that fails."""
 
     def __init__(self, sdk: Any, file: pathlib.Path, timeline: Timeline, name: str) -> None:
         self.sdk = sdk
