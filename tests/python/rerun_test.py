@@ -16,7 +16,7 @@ import vinebench as vb
 from vinebench._point_cloud import read_cloud
 from vinebench._rerun_pictures import View, pictures_of_recording, scaled, site_views
 from vinebench._rerun_scene import alignment, position_errors
-from vinebench._run_folder import nearest, read_run, read_timeline
+from vinebench._run_folder import Path, nearest, read_run, read_timeline
 
 T_WORLD_MAP = np.array([[0, -1, 0, 1], [1, 0, 0, 2], [0, 0, 1, 0], [0, 0, 0, 1.0]])
 
@@ -52,6 +52,10 @@ class ReadingTest(MadeRunTest):
         run = read_run(self.run_folder)
         np.testing.assert_allclose(alignment(run.truth, run.estimate, "first"), T_WORLD_MAP,
                                    rtol=0, atol=1e-8)  # m; files have nine decimals
+        # By the second pose too, which is not the map's origin: up to there there is no error.
+        later = Path(run.estimate.stamps[1:], run.estimate.rows[1:])
+        np.testing.assert_allclose(alignment(run.truth, later, "first"), T_WORLD_MAP, rtol=0,
+                                   atol=1e-8)
         np.testing.assert_array_equal(alignment(run.truth, run.estimate, "none"), np.eye(4))
         stamps, errors = position_errors(run.truth, run.live, T_WORLD_MAP)
         self.assertEqual(stamps.tolist(), [STAMPS[0], STAMPS[1], STAMPS[3]])
