@@ -67,7 +67,7 @@ def read_cloud(file: pathlib.Path) -> PointCloud:
         vertices = _vertices(file.read_bytes())
     except OSError as error:
         raise core.Error(f"{file}: {error.strerror}") from error
-    except (ValueError, KeyError, IndexError, TypeError) as error:
+    except (ValueError, KeyError, IndexError, TypeError, OverflowError) as error:
         raise core.Error(f"{file}: not a point cloud in PLY format ({error})") from error
     points = np.stack([vertices[axis].astype(np.float64) for axis in "xyz"], axis=1)
     channels = ("red", "green", "blue")

@@ -106,12 +106,18 @@ def _lines(file: pathlib.Path, columns: int) -> Iterator[tuple[str, list[str]]]:
         yield f"{file}:{number}", fields
 
 
+def _stamp(text: str, where: str) -> int:
+    if not re.fullmatch(r" *[0-9]{1,19} *", text) or int(text) > np.iinfo(np.int64).max:
+        raise core.Error(f"{where}: expected a stamp in ns, found '{text}'")
+    return int(text)
+
+
 def _numbers(file: pathlib.Path, columns: int) -> tuple[Stamps, Array]:
     """Stamps, and the columns after them; none if there is no file."""
     stamps, rows = [], []
     for where, fields in _lines(file, columns) if file.exists() else ():
+        stamps.append(_stamp(fields[0], where))
         try:
-            stamps.append(int(fields[0]))
             rows.append([float(text) for text in fields[1:columns]])
         except ValueError:
             raise core.Error(f"{where}: expected numbers, found '{','.join(fields)}'") from None
@@ -121,9 +127,7 @@ def _numbers(file: pathlib.Path, columns: int) -> tuple[Stamps, Array]:
 def _listed(camera: str, folder: pathlib.Path) -> Iterator[Picture]:
     for where, fields in _lines(folder / "data.csv", 2):
         file = folder / "data" / fields[1].strip()
-        if not fields[0].strip().isdigit():
-            raise core.Error(f"{where}: expected a stamp in ns, found '{fields[0]}'")
-        yield Picture(int(fields[0]), camera, functools.partial(_open, file))
+        yield Picture(_stamp(fields[0], where), camera, functools.partial(_open, file))
 
 
 def _check_same_run(folder: pathlib.Path, euroc: pathlib.Path, run: RunFolder,
@@ -154,18 +158,23 @@ def pictures_of_recording(folder: pathlib.Path, run: RunFolder) -> Pictures:
                     lambda: iter(pictures), np.column_stack([stamps, readings]))
 
 
+def _site_view(camera: dict[str, Any]) -> View:
+    width, height = int(camera["width"]), int(camera["height"])
+    T_body_camera = to_matrices(np.array([[0, *camera["T_body_cam"]]], np.float64))[0]
+    K = np.array([[camera["fx"], 0, (width - 1) / 2], [0, camera["fy"], (height - 1) / 2],
+                  [0, 0, 1]], np.float64)
+    if min(width, height) < 1 or not np.isfinite(K).all() or not np.isfinite(T_body_camera).all():
+        raise ValueError("a number out of range")
+    return View(str(camera["name"]), width, height, K, T_body_camera)
+
+
 def site_views(run: RunFolder) -> list[View]:
     """The rig's cameras by site.json, which has no principal point: it is in the middle."""
-    where = f"{run.folder / 'site.json'}: cameras"
     try:
-        return [View(str(c["name"]), int(c["width"]), int(c["height"]),
-                     np.array([[c["fx"], 0, (c["width"] - 1) / 2],
-                               [0, c["fy"], (c["height"] - 1) / 2], [0, 0, 1]], np.float64),
-                     to_matrices(np.array([[0, *c["T_body_cam"]]]))[0])
-                for c in run.site.get("cameras", [])]
-    except (KeyError, TypeError, ValueError) as error:
-        raise core.Error(f"{where}: expected name, width, height, fx, fy and T_body_cam "
-                         f"({error})") from error
+        return [_site_view(camera) for camera in run.site.get("cameras", [])]
+    except (KeyError, TypeError, ValueError, OverflowError) as error:
+        raise core.Error(f"{run.folder / 'site.json'}: cameras: expected name, width, height, fx, "
+                         f"fy and T_body_cam ({error})") from error
 
 
 def _of_film(run: RunFolder, index: dict[str, Any], stamps: dict[int, int]) -> Iterator[Picture]:
@@ -189,7 +198,9 @@ def _film(run: RunFolder, views: list[View], stamps: dict[int, int]) -> Pictures
         own = {str(cell["camera"]) for cell in index["cells"]}
         [(int(e["frame"]), int(c["x"]), int(c["width"])) for c in index["cells"]
          for e in index["pictures"]]
-    except (KeyError, TypeError, ValueError) as error:
+        if height < 1 or not all(int(cell["width"]) > 0 for cell in index["cells"]):
+            raise ValueError("a number out of range")
+    except (KeyError, TypeError, ValueError, OverflowError) as error:
         raise core.Error(f"{file}: expected height, cells and pictures ({error})") from error
     return Pictures([scaled(view, height) for view in views if view.name in own],
                     lambda: _of_film(run, index, stamps), np.zeros((0, 7)))

@@ -12,7 +12,7 @@ import numpy as np
 from vinebench._load import core
 from vinebench._point_cloud import PointCloud
 from vinebench._rerun_writer import Colour, Writer
-from vinebench._run_folder import Path, RunFolder, Stamps, Timeline, nearest
+from vinebench._run_folder import Path, RunFolder, Stamps, Timeline, is_time, nearest
 from vinebench.trajectories import Array
 
 TRUTH, MAP, LIVE = "world/truth", "world/map", "world/live_map"
@@ -25,6 +25,7 @@ _WARNINGS = {"lost", "dead_reckoning_given_up", "tag_rejected", "loop_closure_mi
              "occlusion_begin"}
 _SIGMAS = 3
 _VISIBLE = 0.1  # m, the largest ellipsoid's half axis is enlarged towards
+_THIN = 0.004  # m, of a tag
 _FAR = 4.0  # m, beyond the path
 _DISTANCE = 1.0  # m, before which a drift in percent says nothing
 
@@ -47,31 +48,46 @@ def position_errors(truth: Path, estimate: Path, T_world_map: Array) -> tuple[St
     return estimate.stamps[mine], np.linalg.norm(placed - truth.rows[theirs, 1:4], axis=1)
 
 
-def _boxes(run: RunFolder) -> dict[str, list[dict[str, Any]]]:
+def _numbers(values: Any, count: int) -> list[float]:
+    """So many finite numbers. Raises ValueError."""
+    numbers = np.array(values, np.float64)
+    if numbers.shape != (count,) or not np.isfinite(numbers).all():
+        raise ValueError(f"expected {count} numbers, found {values}")
+    return [float(number) for number in numbers]
+
+
+def _object(box: Mapping[str, Any]) -> dict[str, Any]:
+    (x, y), size = _numbers(box["centre"], 2), _numbers(box["size"], 3)
+    foot, yaw_deg = _numbers([box["foot"], box["yaw_deg"]], 2)
+    yaw = math.radians(yaw_deg) / 2
+    return {"centre": [x, y, foot + size[2] / 2], "size": size, "label": str(box["class"]),
+            "rotation": [0, 0, math.sin(yaw), math.cos(yaw)],
+            "colour": [round(255 * min(max(c, 0), 1)) for c in _numbers(box["colour"], 3)]}
+
+
+def _tag(tag: Mapping[str, Any]) -> dict[str, Any]:
+    """x right, y down on the printed face, z into it."""
+    pose, [size] = _numbers(tag["T_world_tag"], 7), _numbers([tag["size"]], 1)
+    return {"centre": pose[:3], "size": [size, size, _THIN], "rotation": pose[3:],
+            "label": f"{tag['family']}_{tag['id']}"}
+
+
+def _boxes(site: Mapping[str, Any]) -> dict[str, list[dict[str, Any]]]:
     """Of the vineyard, by entity."""
-    site = run.site
-    radius, height = site.get("post", [0.035, 1.6])
-    posts = [{"centre": [x, y, height / 2], "size": [2 * radius, 2 * radius, height],
-              "rotation": [0, 0, 0, 1]} for x, y in site.get("posts", [])]
-    objects = []
-    for box in site.get("objects", []):
-        yaw, (x, y) = math.radians(box["yaw_deg"]) / 2, box["centre"]
-        objects.append({"centre": [x, y, box["foot"] + box["size"][2] / 2], "size": box["size"],
-                        "rotation": [0, 0, math.sin(yaw), math.cos(yaw)], "label": box["class"],
-                        "colour": [round(255 * c) for c in box["colour"]]})
-    # Tags: x right, y down on the printed face, z into it.
-    tags = [{"centre": tag["T_world_tag"][:3], "size": [tag["size"], tag["size"], 0.004],
-             "rotation": tag["T_world_tag"][3:], "label": f"{tag['family']}_{tag['id']}"}
-            for tag in site.get("tags", [])]
-    return {"posts": posts, "objects": objects, "tags": tags}
+    radius, height = _numbers(site.get("post", [0.035, 1.6]), 2)
+    posts = [{"centre": [*_numbers(post, 2), height / 2], "rotation": [0, 0, 0, 1],
+              "size": [2 * radius, 2 * radius, height]} for post in site.get("posts", [])]
+    return {"posts": posts, "objects": [_object(box) for box in site.get("objects", [])],
+            "tags": [_tag(tag) for tag in site.get("tags", [])]}
 
 
 def write_site(writer: Writer, run: RunFolder) -> None:
     """Rows, posts, objects and tags. Raises Error for a site.json that lacks something."""
     try:
-        boxes = _boxes(run)
-        rows = [np.array([[a, b, 0.0], [c, d, 0.0]]) for a, b, c, d in run.site.get("rows", [])]
-    except (KeyError, TypeError, ValueError, IndexError) as error:
+        boxes = _boxes(run.site)
+        rows = [np.array([[a, b, 0.0], [c, d, 0.0]])
+                for a, b, c, d in (_numbers(row, 4) for row in run.site.get("rows", []))]
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise core.Error(f"{run.folder / 'site.json'}: not as vinebench writes it ({error!r})"
                          ) from error
     writer.static("world", writer.sdk.ViewCoordinates.RIGHT_HAND_Z_UP)
@@ -93,7 +109,7 @@ def write_loops(writer: Writer, run: RunFolder) -> None:
     strips, colours = [], []
     for event in run.events:
         ends = [event.get(name) for name in ("earlier_t", "later_t")]
-        if event["event"] != "loop_closure" or not all(isinstance(t, (int, float)) for t in ends):
+        if event["event"] != "loop_closure" or not all(is_time(t) for t in ends):
             continue
         stamps = np.array([round(t * 1e9) for t in ends if t is not None], np.int64)
         found = nearest(run.estimate.stamps, stamps)[1]

@@ -19,6 +19,7 @@ from vinebench.trajectories import Array, to_matrices
 Stamps = npt.NDArray[np.int64]
 
 _NANOSECONDS = 10**9
+_LONGEST = 9 * 10**9  # s; more is no stamp in ns
 _NEAR = 10**7  # ns, between a true and an estimated pose of one frame, as in the evaluation
 _FIRST = ["t", "frame", "status", "keyframe", "xx", "xy", "xz", "yy", "yz", "zz"]
 _CAMERAS = len(_FIRST)  # first column of what cameras saw
@@ -97,6 +98,11 @@ def json_object(text: str, where: str) -> dict[str, Any]:
     return found
 
 
+def is_time(value: Any) -> bool:
+    """Whether it is a number of seconds that a stamp can have."""
+    return isinstance(value, (int, float)) and abs(value) < _LONGEST
+
+
 def nearest(stamps: Stamps, wanted: Stamps) -> tuple[Stamps, Stamps]:
     """Indices of pairs at most 0.01 s apart: into `wanted`, and of the nearest into `stamps`."""
     if not len(stamps) or not len(wanted):
@@ -115,6 +121,8 @@ def read_path(file: pathlib.Path) -> Path:
     if not file.exists():
         return Path(np.zeros(0, np.int64), np.zeros((0, 8)))
     rows = core.read_tum(str(file))
+    if not (np.abs(rows[:, 0]) < _LONGEST).all():
+        raise core.Error(f"{file}: expected times in s, found {np.abs(rows[:, 0]).max():g}")
     return Path(np.rint(rows[:, 0] * _NANOSECONDS).astype(np.int64), rows)
 
 
@@ -157,7 +165,7 @@ def read_timeline(file: pathlib.Path) -> Timeline:
             raise core.Error(f"{where}: expected {numbers.shape[1]} columns, found {len(fields)}")
         status.append(fields[2])
         numbers[i] = [_number(text, where) for text in [*fields[:2], "0", *fields[3:]]]
-        if not np.isfinite(numbers[i, :2]).all() or (i and not (numbers[i - 1, :2]
+        if not (np.abs(numbers[i, :2]) < _LONGEST).all() or (i and not (numbers[i - 1, :2]
                                                                 < numbers[i, :2]).all()):
             raise core.Error(f"{where}: expected ascending times and frames, found {fields[0]}, "
                              f"{fields[1]}")
@@ -174,7 +182,7 @@ def read_events(file: pathlib.Path) -> list[dict[str, Any]]:
     events = []
     for number, line in enumerate(text_of(file).splitlines(), 1):
         event = json_object(line, f"{file}:{number}")
-        if not isinstance(event.get("t"), (int, float)) or not isinstance(event.get("event"), str):
+        if not is_time(event.get("t")) or not isinstance(event.get("event"), str):
             raise core.Error(f"{file}:{number}: expected an event with \"t\" and \"event\"")
         events.append(event)
     return events
