@@ -19,7 +19,8 @@ def _unlimited(size: int) -> gymnasium.spaces.Box[Any]:
     return gymnasium.spaces.Box(-np.inf, np.inf, (size,), dtype=np.float64)
 
 
-class VineyardEnv(gymnasium.Env[Any, Any]):
+# Without Gymnasium its base is Any to a type checker.
+class VineyardEnv(gymnasium.Env[Any, Any]):  # type: ignore[misc, unused-ignore]
     """Simulation as a gymnasium.Env. Actions are twists (3,) float32 within max_twist; observations
     are those of Simulation. Its arguments are those of Simulation."""
 
