@@ -8,7 +8,7 @@
 #   fuzz     with clang: address and undefined behaviour, but for the checks for null and misaligned
 #            pointers and the sizes of objects, which address errors and Eigen's own assertions tell
 #            of, and which take most of the time; the tests of core and slam without the long drives,
-#            and the fuzzers of all readers, 10 s each
+#            and the fuzzers of all readers, 6 s each
 #   thread   what has threads in slam
 #   address  the same tests as in `fuzz`, with the default compiler
 #   sanitize everything, with all checks

@@ -111,23 +111,24 @@ void Tracker::match_near(const Map& map, const EstimatorRig& rig, const std::vec
   }
 }
 
-void Tracker::match_anywhere(const Map& map, const EstimatorRig& rig, const Pose& predicted,
+bool Tracker::match_anywhere(const Map& map, const EstimatorRig& rig, const Pose& predicted,
                              TrackedFrame& tracked) const {
   const std::vector<int> landmarks =
       local_landmarks(map, last_landmarks_, predicted, config_.local_keyframes);
   Associations associations =
       match_by_appearance(map, landmarks, *tracked.frame, config_.max_hamming, config_.second_best);
   const auto sampled = sample_pose(map, *tracked.frame, rig, PoseSampling{}, 0, associations);
-  if (!sampled) return;
+  if (!sampled) return false;
   const double reach = std::max(config_.max_speed * to_seconds(tracked.frame->stamp - stamp_),
                                 kMaxSigmas * dead_reckoning_.sigma_position());
-  if ((sampled->translation - predicted.translation).norm() > reach) return;
+  if ((sampled->translation - predicted.translation).norm() > reach) return false;
   const MotionEstimate motion =
       estimate_motion(map, *tracked.frame, *sampled, rig, config_.min_inlier_share, associations);
   // Rows look alike: a pose that nothing predicted needs twice the evidence.
-  if (motion.inliers < 2 * config_.min_inliers) return;
+  if (motion.inliers < 2 * config_.min_inliers) return false;
   tracked.motion = motion;
   tracked.associations = std::move(associations);
+  return true;
 }
 
 void Tracker::adjust_motion(const Map& map, const EstimatorRig& rig, TrackedFrame& tracked) const {
@@ -162,11 +163,10 @@ TrackedFrame Tracker::track(std::shared_ptr<FrameFeatures> frame, const Map& map
       from_map ? local_landmarks(map, last_landmarks_, predicted, config_.local_keyframes)
                : last_landmarks_;
   match_near(map, rig, landmarks, predicted, tracked);
-  if (tracked.motion.inliers < 2 * config_.min_inliers) {
-    match_anywhere(map, rig, predicted, tracked);
-  }
+  const bool by_looks = tracked.motion.inliers < 2 * config_.min_inliers &&
+                        match_anywhere(map, rig, predicted, tracked);
   if (tracked.motion.inliers >= config_.min_inliers / 2) refine_on_local_map(map, rig, tracked);
-  tracked.tracked = is_credible(map, rig, tracked, predicted);
+  tracked.tracked = is_credible(map, rig, tracked, predicted, by_looks);
   if (tracked.tracked) {
     accept(tracked);
   } else {
@@ -180,8 +180,11 @@ TrackedFrame Tracker::track(std::shared_ptr<FrameFeatures> frame, const Map& map
   return tracked;
 }
 
-bool Tracker::may_be_elsewhere() const {
-  return guessed_ || kMaxSigmas * dead_reckoning_.sigma_position() > kLookAlike;
+bool Tracker::may_be_elsewhere(const TrackedFrame& tracked, const Pose& predicted,
+                               bool by_looks) const {
+  const double jump = (tracked.motion.T_map_body.translation - predicted.translation).norm();
+  return guessed_ || (by_looks && jump > kLookAlike) ||
+         kMaxSigmas * dead_reckoning_.sigma_position() > kLookAlike;
 }
 
 /// Of the landmarks nearby that the pose would have in view, those that are among its inliers.
@@ -202,14 +205,17 @@ double Tracker::share_found(const Map& map, const EstimatorRig& rig,
 }
 
 bool Tracker::is_credible(const Map& map, const EstimatorRig& rig, const TrackedFrame& tracked,
-                          const Pose& predicted) const {
+                          const Pose& predicted, bool by_looks) const {
   int matches = 0;
   for (const int n : tracked.motion.matches_per_view) matches += n;
   if (tracked.motion.inliers < config_.min_inliers ||
       tracked.motion.inliers < config_.min_inlier_share * matches) {
     return false;
   }
-  if (may_be_elsewhere() && share_found(map, rig, tracked) < kMinFound) return false;
+  if (may_be_elsewhere(tracked, predicted, by_looks) &&
+      share_found(map, rig, tracked) < kMinFound) {
+    return false;
+  }
   if (!dead_reckoning_.active()) return true;
   const Pose off = predicted.inverse() * tracked.motion.T_map_body;
   return off.translation.norm() <= kMaxSigmas * dead_reckoning_.sigma_position() + kPoseNoise &&

@@ -67,15 +67,17 @@ class Tracker {
   void match_near(const Map& map, const EstimatorRig& rig, const std::vector<int>& landmarks,
                   const Pose& predicted, TrackedFrame& tracked) const;
   /// Matches by appearance alone where the prediction led nowhere: after a start, a jolt or a gap.
-  void match_anywhere(const Map& map, const EstimatorRig& rig, const Pose& predicted,
+  /// False where that finds no pose either.
+  bool match_anywhere(const Map& map, const EstimatorRig& rig, const Pose& predicted,
                       TrackedFrame& tracked) const;
   /// Matches, places and follows the landmarks nearby, each round from a better pose.
   void refine_on_local_map(const Map& map, const EstimatorRig& rig, TrackedFrame& tracked) const;
   void adjust_motion(const Map& map, const EstimatorRig& rig, TrackedFrame& tracked) const;
-  bool may_be_elsewhere() const;
+  /// Whether the body may be so far from where it is thought to be that vines there look alike.
+  bool may_be_elsewhere(const TrackedFrame& tracked, const Pose& predicted, bool by_looks) const;
   double share_found(const Map& map, const EstimatorRig& rig, const TrackedFrame& tracked) const;
   bool is_credible(const Map& map, const EstimatorRig& rig, const TrackedFrame& tracked,
-                   const Pose& predicted) const;
+                   const Pose& predicted, bool by_looks) const;
   void accept(const TrackedFrame& tracked);
   void reckon(const FrameFeatures& frame);
 

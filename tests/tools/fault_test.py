@@ -131,6 +131,6 @@ def main():
     return 1 if failures else 0
 
 
-arguments = parse_arguments(every=60, first=1, last=0)
+arguments = parse_arguments(every=90, first=1, last=0)
 vinebench, shim, root = arguments.vinebench, arguments.shim, arguments.root
 sys.exit(main())

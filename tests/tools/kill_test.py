@@ -138,6 +138,6 @@ def main():
     return 1 if failures else 0
 
 
-arguments = parse_arguments(every=160, first=1, last=0, times=6, seed=1)
+arguments = parse_arguments(every=240, first=1, last=0, times=6, seed=1)
 vinebench, shim, root = arguments.vinebench, arguments.shim, arguments.root
 sys.exit(main())

@@ -156,6 +156,15 @@ TEST_F(TrackerTest, AfterALongGapAFewFeaturesAreNotEnough) {
   EXPECT_TRUE(track_every(12, tracker, 21, ahead(0.42)).tracked);
 }
 
+// In between two frames the body does not move by 0.8 m: that place is believed by its looks, if
+// they are those of most that is there.
+TEST_F(TrackerTest, AJumpByLooksMustBeBorneOutByWhatIsThere) {
+  Tracker tracker = moving(3);
+  EXPECT_FALSE(track_every(12, tracker, 4, ahead(0.8, 0.4)).tracked);
+  Tracker other = moving(3);
+  EXPECT_TRUE(track_every(2, other, 4, ahead(0.8, 0.4)).tracked);
+}
+
 TEST_F(TrackerTest, AGuessedPoseMustBeBorneOutByWhatIsThere) {
   Tracker tracker(settings_);
   tracker.start(ahead(0.1), stamp_of_frame(0, 15), true);
