@@ -84,8 +84,8 @@ std::optional<std::vector<double>> find_disparity_offsets(const Map& map, const 
   for (std::size_t v = 0; v < rig.left_cameras.size(); ++v) {
     const double change = whole.offsets[v] - rig.left_cameras[v].disparity_offset;
     farthest = std::max(farthest, std::abs(change));
-    if (std::abs(whole.offsets[v]) > kMostSigmas * rig.noise.disparity_offset_sigma)
-      return std::nullopt;
+    const double most = kMostSigmas * rig.noise.disparity_offset_sigma;
+    if (std::abs(whole.offsets[v]) > most) return std::nullopt;
   }
   if (farthest < kLeast || whole.gain < kLeastGain) return std::nullopt;
   for (const int part_end : {end - count / 2, end}) {
