@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/frame.h"
+#include "core/geometry/pair_calibration.h"
 #include "core/geometry/pose.h"
 #include "core/trajectory.h"
 #include "core/util/stage_timer.h"
@@ -96,10 +97,9 @@ struct Estimate {
   std::vector<RejectedTag>
       rejected_tags;  ///< of these; only while there is a pose to gate them with
   std::optional<LoopClosure> loop_closure;
-  /// Of each stereo pair in use, px: by how much its disparities are too small because of a
-  /// calibration error, as found at this frame and corrected from here on. Empty if nothing was
-  /// found.
-  std::vector<double> disparity_offsets;
+  /// Of each stereo pair in use: by what its calibration was found to be off at this frame, and
+  /// corrected from here on. Empty if nothing was found.
+  std::vector<PairCalibration> calibration;
 };
 
 /// The final result of a SLAM system, after all corrections.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/config/config_field.h"
+#include "slam/calibration/calibration_config.h"
 #include "slam/camera/measurement_noise.h"
 #include "slam/features/orb_extractor.h"
 #include "slam/loop/loop_config.h"
@@ -46,6 +47,7 @@ struct SlamConfig {
   std::vector<std::string> cameras;
   OrbConfig features;
   StereoConfig stereo;
+  CalibrationConfig calibration;
   TrackingConfig tracking;
   RefinementConfig refinement;
   KeyframeConfig keyframes;
@@ -64,6 +66,7 @@ struct SlamConfig {
     archive("cameras", cameras);
     archive("features", features);
     archive("stereo", stereo);
+    archive("calibration", calibration);
     archive("tracking", tracking);
     archive("refinement", refinement);
     archive("keyframes", keyframes);

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "core/util/error.h"
-#include "slam/calibration/stereo_calibration.h"
 #include "slam/camera/rectification.h"
 #include "slam/frame/measurements.h"
 #include "slam/tracking/keyframe_selector.h"
@@ -64,18 +63,17 @@ Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
                config.loop.corner_sigma}),
       scheduler_(config.mapping, one_thread),
       loop_closer_({config.loop, config.tags.size, config.mapping.global_iterations},
-                   rig_.tag_cameras, tags) {
+                   rig_.tag_cameras, tags),
+      calibration_(config.calibration, config.stereo.calibration_sigma, rig_.left_cameras.size()) {
   rig_.wheels = config.dead_reckoning.wheels;
   rig_.noise.loss = config.loss;
-  rig_.noise.disparity_offset_sigma = config.stereo.calibration_sigma;
 }
 
 void Pipeline::continue_from(Map map) {
   if (!map_.keyframes().empty()) fail("a map can be loaded before the first frame only");
   map_ = std::move(map);
-  if (!map_.disparity_offsets().empty()) {
-    rig_ = rig_.with_disparity_offsets(map_.disparity_offsets());
-  }
+  if (!map_.calibration().empty()) rig_ = rig_.with_calibration(map_.calibration());
+  calibration_.begin(map_.keyframes().size());
   loop_closer_.take_over(map_);
 }
 
@@ -163,7 +161,9 @@ void Pipeline::record_pose(const TrackedFrame& tracked, Estimate& estimate) {
 
 SlamSummary Pipeline::finish() {
   join_mapping();
-  if (tags_since_adjustment_) {
+  const auto calibration = calibration_.latest();
+  if (calibration) use_calibration(*calibration);
+  if (tags_since_adjustment_ || calibration) {
     const ScopedTimer timer(times_, "global adjustment");
     loop_closer_.adjust_globally(rig_, map_);
     tags_since_adjustment_ = false;
@@ -345,6 +345,10 @@ void Pipeline::grow_uncertainty(const TrackedFrame& tracked) {
 
 void Pipeline::close_loop(int keyframe, Estimate& estimate) {
   const ScopedTimer timer(times_, "global adjustment");
+  if (const auto latest = calibration_.latest()) {
+    use_calibration(*latest);
+    estimate.calibration = *latest;
+  }
   estimate.loop_closure = loop_closer_.close(keyframe, path_length_, rig_, map_);
   uncertainty_.start(by_tag_covariance() +
                      loop_closer_.localisation_covariance(map_.keyframe(keyframe).frame->tags));
@@ -354,14 +358,18 @@ void Pipeline::close_loop(int keyframe, Estimate& estimate) {
 
 /// Makes good an error of the pairs' calibration, in the map and from here on.
 void Pipeline::calibrate(Estimate& estimate) {
-  if (!config_.stereo.self_calibration || !calibration_due(map_)) return;
+  if (!config_.stereo.self_calibration || !calibration_.due(map_)) return;
   const ScopedTimer timer(times_, "calibration");
-  const auto offsets = find_disparity_offsets(map_, rig_, mapper_.adjustment_options());
-  if (!offsets) return;
-  rig_ = rig_.with_disparity_offsets(*offsets);
-  map_.disparity_offsets() = *offsets;
+  const auto found = calibration_.look(map_, rig_, mapper_.adjustment_options());
+  if (!found) return;
+  use_calibration(*found);
   loop_closer_.adjust_globally(rig_, map_);
-  estimate.disparity_offsets = *offsets;
+  estimate.calibration = *found;
+}
+
+void Pipeline::use_calibration(const std::vector<PairCalibration>& pairs) {
+  rig_ = rig_.with_calibration(pairs);
+  map_.calibration() = pairs;
 }
 
 Estimate Pipeline::report(const TrackedFrame& tracked) const {

@@ -7,6 +7,7 @@
 
 #include "core/slam_system.h"
 #include "core/util/stage_timer.h"
+#include "slam/calibration/calibration_watch.h"
 #include "slam/camera/estimator_rig.h"
 #include "slam/config.h"
 #include "slam/loop/loop_closer.h"
@@ -72,6 +73,7 @@ class Pipeline {
   void grow_uncertainty(const TrackedFrame& tracked);
   void close_loop(int keyframe, Estimate& estimate);
   void calibrate(Estimate& estimate);
+  void use_calibration(const std::vector<PairCalibration>& pairs);
   Matrix6d covariance(const TrackedFrame& tracked, bool keyframe) const;
   Estimate report(const TrackedFrame& tracked) const;
 
@@ -83,6 +85,7 @@ class Pipeline {
   MappingScheduler scheduler_;
   LoopCloser loop_closer_;
   Relocaliser relocaliser_;
+  CalibrationWatch calibration_;
   PoseUncertainty uncertainty_;  ///< of the latest keyframe
   StageTimes times_;
   std::vector<FrameRecord> records_;

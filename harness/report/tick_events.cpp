@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/report/tick_events.h"
 
+#include <numbers>
+
 namespace vinebench::harness {
 namespace {
 
@@ -128,8 +130,22 @@ void TickEvents::add_rejections() {
 }
 
 void TickEvents::add_calibration() {
-  const std::vector<double>& offsets = tick_->estimate.disparity_offsets;
-  if (!offsets.empty()) add("calibrated", {{"disparity_offsets_px", offsets}});
+  const std::vector<PairCalibration>& pairs = tick_->estimate.calibration;
+  if (pairs.empty()) return;
+  Json found = Json::array();
+  for (const PairCalibration& pair : pairs) {
+    const Eigen::Vector3d& p = pair.T_nominal_camera.translation;
+    const Eigen::Vector3d turn = log_so3(pair.T_nominal_camera.rotation) * 180 / std::numbers::pi;
+    found.push_back({{"position_m", {p.x(), p.y(), p.z()}},
+                     {"rotation_deg", {turn.x(), turn.y(), turn.z()}},
+                     {"disparity_offset_px", pair.disparity_offset},
+                     {"disparity_slope", pair.disparity_slope},
+                     {"focal", pair.focal},
+                     {"baseline", pair.baseline},
+                     {"time_s", pair.time},
+                     {"readout_s", pair.readout}});
+  }
+  add("calibrated", {{"pairs", found}});
 }
 
 Json TickEvents::describe(const TagKey& tag, std::optional<double> distance) const {

@@ -10,9 +10,11 @@ EstimatorRig::EstimatorRig(const StereoRig& stereo_rig, const OrbConfig& feature
                            const RefinementConfig& refinement)
     : rig(stereo_rig), tag_cameras(stereo_rig.cameras) {
   for (const RectifiedPair& pair : rig.pairs) {
-    left_cameras.push_back({pair.lens, pair.T_cam_body, pair.baseline});
+    nominal_cameras.push_back({pair.lens, pair.T_cam_body, pair.baseline});
     T_body_cams.push_back(pair.T_body_cam);
   }
+  left_cameras = nominal_cameras;
+  calibration.resize(rig.pairs.size());
   for (int level = 0; level < features.levels; ++level) {
     noise.level_scales.push_back(std::pow(features.scale, level));
   }
@@ -21,10 +23,12 @@ EstimatorRig::EstimatorRig(const StereoRig& stereo_rig, const OrbConfig& feature
   noise.placed_tolerance = refinement.tolerance;
 }
 
-EstimatorRig EstimatorRig::with_disparity_offsets(const std::vector<double>& offsets) const {
+EstimatorRig EstimatorRig::with_calibration(const std::vector<PairCalibration>& pairs) const {
   EstimatorRig corrected = *this;
-  for (std::size_t v = 0; v < left_cameras.size(); ++v) {
-    corrected.left_cameras[v].disparity_offset = offsets[v];
+  corrected.calibration = pairs;
+  for (std::size_t v = 0; v < pairs.size(); ++v) {
+    corrected.left_cameras[v] = calibrated(nominal_cameras[v], pairs[v]);
+    corrected.T_body_cams[v] = rig.pairs[v].T_body_cam * pairs[v].T_nominal_camera;
   }
   return corrected;
 }

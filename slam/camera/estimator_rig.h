@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/geometry/pair_calibration.h"
 #include "slam/camera/measurement_noise.h"
 #include "slam/camera/stereo_camera.h"
 #include "slam/camera/stereo_rig.h"
@@ -33,12 +34,15 @@ struct EstimatorRig {
   EstimatorRig(const StereoRig& stereo_rig, const OrbConfig& features,
                const RefinementConfig& refinement = {});
 
-  /// The same rig with these disparity offsets, one of each pair, px.
-  EstimatorRig with_disparity_offsets(const std::vector<double>& offsets) const;
+  /// The same rig with what self-calibration has found, one of each pair, in place of what it found
+  /// before.
+  EstimatorRig with_calibration(const std::vector<PairCalibration>& pairs) const;
 
-  StereoRig rig;
-  std::vector<StereoCameraModel> left_cameras;  ///< of each pair
-  std::vector<Pose> T_body_cams;                ///< of these
+  StereoRig rig;                                   ///< as its file has it
+  std::vector<StereoCameraModel> nominal_cameras;  ///< left camera of each pair, as the file has it
+  std::vector<PairCalibration> calibration;        ///< what self-calibration has found of them
+  std::vector<StereoCameraModel> left_cameras;     ///< with that
+  std::vector<Pose> T_body_cams;                   ///< of these
   TagCameras tag_cameras;
   MeasurementNoise noise;
   std::optional<InertialCalibration> imu;  ///< where an inertial unit takes part

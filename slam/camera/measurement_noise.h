@@ -30,7 +30,6 @@ struct MeasurementNoise {
   /// tails.
   double placed_tolerance = 2.3;
   ResidualLoss loss = ResidualLoss::kCauchy;
-  double disparity_offset_sigma = 1;  ///< px, of a pair's calibration as the rig has it
 };
 
 }  // namespace vinebench::slam

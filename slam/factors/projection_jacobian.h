@@ -28,6 +28,7 @@ inline Eigen::Matrix3d projection_jacobian(const StereoCameraModel& camera,
   J << fx_z, 0, -fx_z * p.x() * inv_z,  //
       0, fy_z, -fy_z * p.y() * inv_z,   //
       fx_z, 0, -fx_z * (p.x() - camera.baseline) * inv_z;
+  if (camera.disparity_slope != 0) J.row(2) += camera.disparity_slope * J.row(0);
   return J;
 }
 

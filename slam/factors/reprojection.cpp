@@ -8,11 +8,11 @@
 #include "slam/factors/projection_jacobian.h"
 
 namespace vinebench::slam {
-Eigen::Vector3d Reprojection::residual_at(const Eigen::Vector3d& p_cam,
-                                          double disparity_offset) const {
+
+Eigen::Vector3d Reprojection::residual_at(const Eigen::Vector3d& p_cam) const {
   const Eigen::Vector2d pixel = camera_->lens.project(p_cam);
-  const double right_x =
-      pixel.x() - camera_->lens.fx * camera_->baseline / p_cam.z() + disparity_offset;
+  const double right_x = pixel.x() - camera_->lens.fx * camera_->baseline / p_cam.z() +
+                         camera_->disparity_error(pixel.x());
   return {
       (pixel.x() - measurement_.pixel.x()) / measurement_.sigma,
       (pixel.y() - measurement_.pixel.y()) / measurement_.sigma,
@@ -27,26 +27,65 @@ Eigen::Vector3d Reprojection::in_camera(const Eigen::Vector3d& p_body) const {
   return p_cam;
 }
 
+Eigen::Vector3d Reprojection::weights() const {
+  return {1 / measurement_.sigma, 1 / measurement_.sigma,
+          measurement_.right_x ? 1 / measurement_.right_sigma : 0};
+}
+
 Reprojection::Linearised Reprojection::linearise(const Pose& T_map_body,
-                                                 const Eigen::Vector3d& p_map,
-                                                 double disparity_offset) const {
-  const Eigen::Vector3d p_body = in_body(T_map_body, p_map);
-  const Eigen::Vector3d p_cam = in_camera(p_body);
+                                                 const Eigen::Vector3d& p_map) const {
+  const Eigen::Vector3d p_seen = in_body(T_map_body, p_map);
+  const Eigen::Vector3d p_cam = in_camera(p_seen);
   const Eigen::Matrix3d R_cam_body = camera_->T_cam_body.rotation.toRotationMatrix();
-  const Eigen::Vector3d weights(1 / measurement_.sigma, 1 / measurement_.sigma,
-                                measurement_.right_x ? 1 / measurement_.right_sigma : 0);
   Linearised result;
-  result.residual = residual_at(p_cam, disparity_offset);
+  result.residual = residual_at(p_cam);
   result.by_point_in_body =
-      weights.asDiagonal() * projection_jacobian(*camera_, p_cam) * R_cam_body;
-  result.by_pose = result.by_point_in_body * body_point_jacobian(p_body);
+      weights().asDiagonal() * projection_jacobian(*camera_, p_cam) * R_cam_body;
+  if (!camera_->has_times()) {
+    result.by_pose = result.by_point_in_body * body_point_jacobian(p_seen);
+    return result;
+  }
+  const Pose way = way_until_exposed();
+  result.by_point_in_body *= way.rotation.toRotationMatrix().transpose();
+  result.by_pose = result.by_point_in_body * body_point_jacobian(way * p_seen);
   return result;
 }
 
+Eigen::Matrix<double, 3, 12> Reprojection::by_calibration(const Pose& T_map_body,
+                                                          const Eigen::Vector3d& p_map,
+                                                          const StereoCameraModel& nominal) const {
+  const Eigen::Vector3d p_seen = in_body(T_map_body, p_map);
+  const Eigen::Vector3d p_cam = in_camera(p_seen);
+  const Eigen::Matrix3d by_point = projection_jacobian(*camera_, p_cam);
+  const PinholeCamera& lens = camera_->lens;
+  const Eigen::Vector2d pixel = lens.project(p_cam);
+  const double x = pixel.x() - lens.cx;
+  const double y = pixel.y() - lens.cy;
+  const double disparity = lens.fx * camera_->baseline / p_cam.z();
+  const double longer = lens.fx / nominal.lens.fx;
+  // The velocity's first part is along axes that turn with the body meanwhile.
+  Vector6d velocity = measurement_.velocity;
+  velocity.head<3>() = way_until_exposed().rotation.conjugate() * velocity.head<3>();
+  const Eigen::Vector3d by_time = by_point * camera_->T_cam_body.rotation.toRotationMatrix() *
+                                  body_point_jacobian(p_seen) * velocity;
+  Eigen::Matrix<double, 3, 12> J;
+  J.leftCols<6>() = by_point * body_point_jacobian(p_cam);
+  J.col(6) << 0, 0, 1;
+  J.col(7) << 0, 0, x;
+  J.col(8) << x / longer, y / longer, (x * (1 + camera_->disparity_slope) - disparity) / longer;
+  J.col(9) << 0, 0, -disparity * nominal.baseline / camera_->baseline;
+  J.col(10) = by_time;
+  J.col(11) = by_time * (measurement_.pixel.y() / lens.height - 0.5);
+  return weights().asDiagonal() * J;
+}
+
 double Reprojection::chi_squared(const Pose& T_map_body, const Eigen::Vector3d& p_map) const {
-  const Eigen::Vector3d p_cam = camera_->T_cam_body * (T_map_body.inverse() * p_map);
+  const Eigen::Vector3d p_cam =
+      camera_->has_times()
+          ? camera_->T_cam_body * (way_until_exposed().inverse() * (T_map_body.inverse() * p_map))
+          : camera_->T_cam_body * (T_map_body.inverse() * p_map);
   if (p_cam.z() < kMinDepth) return std::numeric_limits<double>::infinity();
-  return residual_at(p_cam, camera_->disparity_offset).squaredNorm();
+  return residual_at(p_cam).squaredNorm();
 }
 
 }  // namespace vinebench::slam

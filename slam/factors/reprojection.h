@@ -18,12 +18,17 @@ struct PixelMeasurement {
   double right_sigma = 1;  ///< px, of the column in the right camera
   /// Errors beyond the 95 % of this many times the standard deviation are outliers.
   double tolerance = 1;
+  /// Of the body in its own frame (m/s, rad/s), of which a camera with times of its own makes use.
+  Vector6d velocity = Vector6d::Zero();
   int size() const { return right_x ? 3 : 2; }
 };
 
 /// Reprojection error of one map point in one camera, Eq. (2), (3) and (5): residuals in standard
 /// deviations, two for the pixel, a third for the column in the right camera. The same error serves
 /// tracking, motion-only, local and global bundle adjustment.
+///
+/// A camera that exposes a row later than the frame's stamp sees it from where the body's velocity
+/// has carried it by then.
 class Reprojection {
  public:
   /// Keeps a pointer to the camera.
@@ -37,38 +42,37 @@ class Reprojection {
     Eigen::Matrix<double, 3, 6> by_pose;
     Eigen::Matrix3d by_point_in_body;  ///< by the point in the body frame
   };
-  Linearised linearise(const Pose& T_map_body, const Eigen::Vector3d& p_map) const {
-    return linearise(T_map_body, p_map, camera_->disparity_offset);
-  }
-
-  /// The same for another disparity offset than the camera's (px).
-  Linearised linearise(const Pose& T_map_body, const Eigen::Vector3d& p_map,
-                       double disparity_offset) const;
+  Linearised linearise(const Pose& T_map_body, const Eigen::Vector3d& p_map) const;
 
   /// The residuals alone.
   Eigen::Vector3d residual(const Pose& T_map_body, const Eigen::Vector3d& p_map) const {
-    return residual(T_map_body, p_map, camera_->disparity_offset);
-  }
-  Eigen::Vector3d residual(const Pose& T_map_body, const Eigen::Vector3d& p_map,
-                           double disparity_offset) const {
-    return residual_at(in_camera(in_body(T_map_body, p_map)), disparity_offset);
+    return residual_at(in_camera(in_body(T_map_body, p_map)));
   }
 
-  /// Derivative of the third residual by the disparity offset, 1/px.
-  double by_disparity_offset() const { return 1 / measurement_.right_sigma; }
+  /// Derivatives by the camera's calibration: the step of T_body_cam (camera frame: m, then rad),
+  /// then the other numbers of PairCalibration in their order, about `nominal`, of which the
+  /// shares are.
+  Eigen::Matrix<double, 3, 12> by_calibration(const Pose& T_map_body, const Eigen::Vector3d& p_map,
+                                              const StereoCameraModel& nominal) const;
 
   /// Squared norm of the residuals for that pose and point; infinite behind the camera.
   double chi_squared(const Pose& T_map_body, const Eigen::Vector3d& p_map) const;
 
   int size() const { return measurement_.size(); }
-  const StereoCameraModel& camera() const { return *camera_; }
 
  private:
-  static Eigen::Vector3d in_body(const Pose& T_map_body, const Eigen::Vector3d& p_map) {
-    return T_map_body.rotation.conjugate() * (p_map - T_map_body.translation);
+  /// Where the point is from the body as it was when the row was exposed.
+  Eigen::Vector3d in_body(const Pose& T_map_body, const Eigen::Vector3d& p_map) const {
+    const Eigen::Vector3d p_body =
+        T_map_body.rotation.conjugate() * (p_map - T_map_body.translation);
+    return camera_->has_times() ? way_until_exposed().inverse() * p_body : p_body;
+  }
+  Pose way_until_exposed() const {
+    return step_of(measurement_.velocity * camera_->time_of(measurement_.pixel.y()));
   }
   Eigen::Vector3d in_camera(const Eigen::Vector3d& p_body) const;
-  Eigen::Vector3d residual_at(const Eigen::Vector3d& p_cam, double disparity_offset) const;
+  Eigen::Vector3d residual_at(const Eigen::Vector3d& p_cam) const;
+  Eigen::Vector3d weights() const;
 
   const StereoCameraModel* camera_;
   PixelMeasurement measurement_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "slam/factors/calibration_belief.h"
 #include "slam/factors/pose_manifold.h"
 #include "slam/factors/projection_jacobian.h"
 
@@ -15,25 +16,35 @@ using RowMajor37 = Eigen::Matrix<double, 3, 7, Eigen::RowMajor>;
 }  // namespace
 
 ReprojectionFactor::ReprojectionFactor(const StereoCameraModel& camera,
-                                       const PixelMeasurement& measurement, bool offset_unknown)
-    : reprojection_(camera, measurement) {
+                                       const PixelMeasurement& measurement,
+                                       bool calibration_unknown)
+    : camera_(&camera), measurement_(measurement) {
   set_num_residuals(measurement.size());
   *mutable_parameter_block_sizes() = {7, 3};
-  if (offset_unknown) mutable_parameter_block_sizes()->push_back(1);
+  if (calibration_unknown) *mutable_parameter_block_sizes() = {7, 3, 7, kLensUnknowns};
+}
+
+StereoCameraModel ReprojectionFactor::camera_of(double const* const* parameters) const {
+  if (parameter_block_sizes().size() == 2) return *camera_;
+  const double* lens = parameters[3];
+  StereoCameraModel camera =
+      calibrated(*camera_, {{}, lens[0], lens[1], lens[2], lens[3], lens[4], lens[5]});
+  camera.T_cam_body = from_block(parameters[2]).inverse();
+  return camera;
 }
 
 bool ReprojectionFactor::Evaluate(double const* const* parameters, double* residuals,
                                   double** jacobians) const {
   const Pose T_map_body = from_block(parameters[0]);
   const Eigen::Map<const Eigen::Vector3d> p_map(parameters[1]);
-  const bool offset_unknown = parameter_block_sizes().size() > 2;
-  const double offset = offset_unknown ? parameters[2][0] : reprojection_.camera().disparity_offset;
+  const StereoCameraModel camera = camera_of(parameters);
+  const Reprojection reprojection(camera, measurement_);
   if (jacobians == nullptr) {
-    const Eigen::Vector3d residual = reprojection_.residual(T_map_body, p_map, offset);
+    const Eigen::Vector3d residual = reprojection.residual(T_map_body, p_map);
     std::copy_n(residual.data(), num_residuals(), residuals);
     return true;
   }
-  const Reprojection::Linearised at = reprojection_.linearise(T_map_body, p_map, offset);
+  const Reprojection::Linearised at = reprojection.linearise(T_map_body, p_map);
   std::copy_n(at.residual.data(), num_residuals(), residuals);
   if (jacobians[0] != nullptr) {
     RowMajor37 J = RowMajor37::Zero();
@@ -44,9 +55,17 @@ bool ReprojectionFactor::Evaluate(double const* const* parameters, double* resid
     const Eigen::Matrix3d R_body_map = T_map_body.rotation.toRotationMatrix().transpose();
     copy_rows(Eigen::Matrix3d(at.by_point_in_body * R_body_map), num_residuals(), jacobians[1]);
   }
-  if (offset_unknown && jacobians[2] != nullptr) {
-    std::fill_n(jacobians[2], num_residuals(), 0.0);
-    if (num_residuals() == 3) jacobians[2][2] = reprojection_.by_disparity_offset();
+  if (parameter_block_sizes().size() == 2) return true;
+  if (jacobians[2] == nullptr && jacobians[3] == nullptr) return true;
+  const auto by_calibration = reprojection.by_calibration(T_map_body, p_map, *camera_);
+  if (jacobians[2] != nullptr) {
+    RowMajor37 J = RowMajor37::Zero();
+    J.leftCols<6>() = by_calibration.leftCols<6>();
+    copy_rows(J, num_residuals(), jacobians[2]);
+  }
+  if (jacobians[3] != nullptr) {
+    copy_rows(Eigen::Matrix<double, 3, kLensUnknowns>(by_calibration.rightCols<kLensUnknowns>()),
+              num_residuals(), jacobians[3]);
   }
   return true;
 }

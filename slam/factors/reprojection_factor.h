@@ -9,22 +9,26 @@
 namespace vinebench::slam {
 
 /// The same as a cost function of Ceres: parameters are the body's pose (7), the point (3) and,
-/// where it is an unknown, the camera's disparity offset (1), which the right camera alone
-/// measures.
+/// where its calibration is unknown, T_body_cam of the camera (7) and the six numbers of
+/// PairCalibration besides, in their order, against the camera given.
 class ReprojectionFactor : public ceres::CostFunction {
  public:
   ReprojectionFactor(const StereoCameraModel& camera, const PixelMeasurement& measurement,
-                     bool offset_unknown = false);
+                     bool calibration_unknown = false);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
   double chi_squared(const Pose& T_map_body, const Eigen::Vector3d& p_map) const {
-    return reprojection_.chi_squared(T_map_body, p_map);
+    return Reprojection(*camera_, measurement_).chi_squared(T_map_body, p_map);
   }
 
  private:
-  Reprojection reprojection_;
+  /// The camera that an unknown calibration makes of the given one.
+  StereoCameraModel camera_of(double const* const* parameters) const;
+
+  const StereoCameraModel* camera_;
+  PixelMeasurement measurement_;
 };
 
 }  // namespace vinebench::slam

@@ -56,7 +56,8 @@ struct FrameFeatures {
   Stamp stamp = 0;
   std::vector<StereoView> views;  ///< of each pair of the StereoRig
   std::vector<TagSighting> tags;
-  std::optional<Pose> wheels;  ///< T_before_now since the frame before, by the wheels
+  Vector6d velocity = Vector6d::Zero();  ///< of the body in its own frame, m/s and rad/s
+  std::optional<Pose> wheels;            ///< T_before_now since the frame before, by the wheels
   /// Left and right pyramid of each pair, while the frame is being tracked; dropped afterwards.
   std::vector<std::vector<cv::Mat>> pyramids;
   std::vector<std::vector<cv::Mat>> right_pyramids;

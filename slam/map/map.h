@@ -9,6 +9,7 @@
 #include <set>
 #include <vector>
 
+#include "core/geometry/pair_calibration.h"
 #include "core/geometry/pose.h"
 #include "core/slam_system.h"
 #include "core/time.h"
@@ -88,10 +89,9 @@ class Map {
   std::vector<MapTag>& tags() { return tags_; }
   const std::vector<MapTag>& tags() const { return tags_; }
 
-  /// StereoCameraModel::disparity_offset of each view, as they were when the map was made; empty
-  /// for none.
-  std::vector<double>& disparity_offsets() { return disparity_offsets_; }
-  const std::vector<double>& disparity_offsets() const { return disparity_offsets_; }
+  /// What self-calibration found of each view when the map was made; empty for nothing.
+  std::vector<PairCalibration>& calibration() { return calibration_; }
+  const std::vector<PairCalibration>& calibration() const { return calibration_; }
   const MapTag* find_tag(const std::string& family, int id) const;
 
   /// Adds a keyframe; its associations become observations. Returns its id.
@@ -129,7 +129,7 @@ class Map {
   std::vector<Keyframe> keyframes_;
   std::vector<Landmark> landmarks_;
   std::vector<MapTag> tags_;
-  std::vector<double> disparity_offsets_;
+  std::vector<PairCalibration> calibration_;
 };
 
 /// Number of different keyframes among a landmark's observations.

@@ -15,7 +15,7 @@ namespace vinebench::slam {
 namespace {
 
 constexpr std::string_view kMagic("vinemap\0", 8);
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 constexpr std::uint32_t kOldestVersion = 3;  // without inertial states
 constexpr std::size_t kHeaderSize = 20;      // magic, version, size of the content
 constexpr std::size_t kChecksumSize = 8;
@@ -65,6 +65,11 @@ void fields(Archive& archive, TagSighting& tag) {
   archive(tag.camera, tag.family, tag.id, tag.corners, tag.T_cam_tag, tag.corner_sigma);
 }
 template <class Archive>
+void fields(Archive& archive, PairCalibration& pair) {
+  archive(pair.T_nominal_camera, pair.disparity_offset, pair.disparity_slope, pair.focal,
+          pair.baseline, pair.time, pair.readout);
+}
+template <class Archive>
 void fields(Archive& archive, Patch& patch) {
   archive(patch.grey);
 }
@@ -99,6 +104,7 @@ void fields(Archive& archive, StoredKeyframe& k) {
   archive(k.frame.index, k.frame.stamp, k.frame.views, k.frame.tags, k.T_map_body, k.landmarks,
           k.patches, k.link);
   if (archive.version() >= 4) archive(k.inertial);
+  if (archive.version() >= 6) archive(k.frame.velocity);
 }
 
 namespace {
@@ -142,6 +148,7 @@ StoredKeyframe stored(const Keyframe& keyframe, const FrameFeatures& last,
   stored.frame.stamp = keyframe.frame->stamp - last.stamp + kLastStamp;
   stored.frame.views = keyframe.frame->views;
   stored.frame.tags = keyframe.frame->tags;
+  stored.frame.velocity = keyframe.frame->velocity;
   stored.T_map_body = keyframe.T_map_body;
   stored.landmarks = keyframe.landmarks;
   for (std::vector<int>& view : stored.landmarks) {
@@ -189,6 +196,7 @@ void check(const StoredKeyframe& keyframe, const EstimatorRig& rig, std::size_t 
       reader.expect(id >= -1 && id < static_cast<int>(landmarks), "a tie to no landmark");
     }
   }
+  reader.expect(keyframe.frame.velocity.allFinite(), "a keyframe's velocity");
   reader.expect(is_in_range(keyframe.frame.stamp) && is_in_range(keyframe.frame.index),
                 "a keyframe's instant");
   for (const TagSighting& tag : keyframe.frame.tags) {
@@ -231,26 +239,45 @@ void add(StoredKeyframe keyframe, const EstimatorRig& rig, Map& map, const Binar
   map.keyframe(id).inertial = keyframe.inertial;
 }
 
+/// Before version 6 there were disparity offsets alone.
+std::vector<PairCalibration> read_calibration(BinaryReader& reader) {
+  std::vector<PairCalibration> calibration;
+  if (reader.version() >= 6) {
+    reader(calibration);
+    return calibration;
+  }
+  std::vector<double> offsets;
+  reader(offsets);
+  for (const double offset : offsets) calibration.push_back({{}, offset});
+  return calibration;
+}
+
 Map read_content(BinaryReader& reader, const EstimatorRig& rig, const std::string& where) {
   RigFingerprint print;
   reader(print);
   const std::string differs = difference(print, rig_fingerprint(rig));
   if (!differs.empty()) fail("{}: this map was made with another rig: {}", where, differs);
   double level_scale = 0;
-  std::vector<double> disparity_offsets;
   std::vector<MapTag> tags;
   std::vector<Landmark> landmarks;
   std::vector<StoredKeyframe> keyframes;
-  reader(level_scale, disparity_offsets, tags, landmarks, keyframes);
+  reader(level_scale);
+  std::vector<PairCalibration> calibration = read_calibration(reader);
+  reader(tags, landmarks, keyframes);
   reader.expect(reader.at_end(), "it goes on after its end");
   reader.expect(std::isfinite(level_scale) && level_scale > 1, "the pyramid's scale");
-  reader.expect(disparity_offsets.empty() || disparity_offsets.size() == rig.left_cameras.size(),
-                "disparity offsets of no pair");
-  for (const double offset : disparity_offsets) {
-    reader.expect(std::isfinite(offset), "a disparity offset");
+  reader.expect(calibration.empty() || calibration.size() == rig.left_cameras.size(),
+                "calibrations of no pair");
+  for (const PairCalibration& pair : calibration) {
+    const bool finite = std::isfinite(pair.disparity_offset) &&
+                        std::isfinite(pair.disparity_slope) && std::isfinite(pair.time) &&
+                        std::isfinite(pair.readout);
+    reader.expect(
+        finite && pair.focal > -1 && pair.focal < 1 && pair.baseline > -1 && pair.baseline < 1,
+        "a pair's calibration");
   }
   Map map(level_scale);
-  map.disparity_offsets() = std::move(disparity_offsets);
+  map.calibration() = std::move(calibration);
   for (const MapTag& tag : tags)
     reader.expect(std::isfinite(tag.size) && tag.size > 0, "a tag's size");
   map.tags() = std::move(tags);
@@ -278,7 +305,7 @@ std::string format_map(const Map& map, const EstimatorRig& rig) {
   std::vector<int> moved_to;
   const std::vector<Landmark> landmarks = living_landmarks(map, moved_to);
   BinaryWriter content(kVersion);
-  content(rig_fingerprint(rig), map.level_scale(), map.disparity_offsets(), map.tags(), landmarks,
+  content(rig_fingerprint(rig), map.level_scale(), map.calibration(), map.tags(), landmarks,
           static_cast<std::uint32_t>(map.keyframes().size()));
   for (const Keyframe& keyframe : map.keyframes()) {
     content(stored(keyframe, *map.keyframes().back().frame, moved_to));

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/optimisation/bundle_adjustment.h"
 
-#include <array>
+#include <vector>
 
+#include "slam/optimisation/calibration_unknowns.h"
 #include "slam/optimisation/landmark_factors.h"
 #include "slam/optimisation/odometry_factors.h"
 #include "slam/optimisation/problem_builder.h"
@@ -54,9 +55,11 @@ class AdjustmentJob::Impl {
        const AdjustmentOptions& options)
       : rig_(rig),
         options_(options),
-        landmarks_(rig_, options.offsets_unknown),
+        calibration_(unknown_calibration(rig_, options)),
+        landmarks_(rig_, options.min_keyframes, calibration_.get()),
         tags_(rig_.tag_cameras, options.tag_corner_sigma, options.global),
         problem_(map, window) {
+    if (calibration_) calibration_->add_to(problem_, map);
     for (FactorSource* source : sources()) source->add_to(problem_, map);
   }
 
@@ -70,14 +73,22 @@ class AdjustmentJob::Impl {
     for (const FactorSource* source : sources()) source->remove_outliers(map);
   }
 
-  void free_offsets() { landmarks_.free_offsets(problem_); }
-  const std::vector<double>& disparity_offsets() const { return landmarks_.disparity_offsets(); }
+  CalibrationBelief calibration() { return calibration_->belief_now(problem_); }
 
  private:
-  std::array<FactorSource*, 3> sources() { return {&landmarks_, &odometry_, &tags_}; }
+  static std::unique_ptr<CalibrationUnknowns> unknown_calibration(
+      const EstimatorRig& rig, const AdjustmentOptions& options) {
+    if (!options.calibration) return nullptr;
+    return std::make_unique<CalibrationUnknowns>(rig, *options.calibration);
+  }
+  std::vector<FactorSource*> sources() {
+    if (!options_.tags) return {&landmarks_, &odometry_};
+    return {&landmarks_, &odometry_, &tags_};
+  }
 
   const EstimatorRig rig_;  // a copy: calibration may change the estimator's own meanwhile
   AdjustmentOptions options_;
+  std::unique_ptr<CalibrationUnknowns> calibration_;
   LandmarkFactors landmarks_;
   OdometryFactors odometry_;
   TagFactors tags_;
@@ -94,12 +105,8 @@ double AdjustmentJob::solve() {
   return impl_->solve();
 }
 
-void AdjustmentJob::free_offsets() {
-  impl_->free_offsets();
-}
-
-const std::vector<double>& AdjustmentJob::disparity_offsets() const {
-  return impl_->disparity_offsets();
+CalibrationBelief AdjustmentJob::calibration() const {
+  return impl_->calibration();
 }
 
 void AdjustmentJob::apply(Map& map) const {

@@ -3,9 +3,10 @@
 #pragma once
 
 #include <memory>
-#include <vector>
+#include <optional>
 
 #include "slam/camera/estimator_rig.h"
+#include "slam/factors/calibration_belief.h"
 #include "slam/map/map.h"
 #include "slam/optimisation/adjustment_window.h"
 
@@ -15,7 +16,10 @@ struct AdjustmentOptions {
   int iterations = 6;
   double tag_corner_sigma = 0.3;  ///< px, besides the noise that a sighting knows of
   bool global = false;            ///< all of the map: to the end; mapped tags move too
-  bool offsets_unknown = false;   ///< the cameras' disparity offsets can be freed
+  bool tags = true;               ///< tags that keyframes saw take part
+  int min_keyframes = 1;          ///< landmarks that fewer see are left out
+  /// Where the pairs' calibrations are unknown: what is believed of them beforehand.
+  std::optional<CalibrationBelief> calibration;
 };
 
 /// A bundle adjustment in three steps, so that the second can run beside tracking: what it needs of
@@ -35,11 +39,9 @@ class AdjustmentJob {
   double solve();
   void apply(Map& map) const;
 
-  /// Lets the next solve() estimate the disparity offsets too (AdjustmentOptions::offsets_unknown).
-  void free_offsets();
-
-  /// Of each camera, px: the rig's, or what was estimated.
-  const std::vector<double>& disparity_offsets() const;
+  /// What is known of the pairs' calibrations after solve(), where these are unknown
+  /// (AdjustmentOptions::calibration): that belief and the factors' own information.
+  CalibrationBelief calibration() const;
 
  private:
   class Impl;

@@ -31,18 +31,31 @@ std::vector<int> landmarks_of(const std::vector<int>& keyframes, const Map& map)
   return ids;
 }
 
+/// Number of the problem's keyframes that see a landmark.
+int count_taking_part(const Landmark& landmark, const ProblemBuilder& problem) {
+  int count = 0;
+  int last = -1;
+  for (const Observation& o : landmark.observations) {
+    if (o.keyframe != last && problem.takes_part(o.keyframe)) ++count;
+    last = o.keyframe;
+  }
+  return count;
+}
+
 }  // namespace
 
-LandmarkFactors::LandmarkFactors(const EstimatorRig& rig, bool offsets_unknown)
-    : rig_(rig), offsets_unknown_(offsets_unknown), loss_(make_loss(rig.noise.loss)) {
-  for (const StereoCameraModel& camera : rig.left_cameras) {
-    offsets_.push_back(camera.disparity_offset);
-  }
-  offset_used_.assign(offsets_.size(), 0);
-}
+LandmarkFactors::LandmarkFactors(const EstimatorRig& rig, int min_keyframes,
+                                 CalibrationUnknowns* calibration)
+    : rig_(rig),
+      min_keyframes_(min_keyframes),
+      calibration_(calibration),
+      loss_(make_loss(rig.noise.loss)) {}
 
 void LandmarkFactors::add_to(ProblemBuilder& problem, const Map& map) {
   landmark_ids_ = landmarks_of(problem.window().moved, map);
+  std::erase_if(landmark_ids_, [&](int id) {
+    return count_taking_part(map.landmark(id), problem) < min_keyframes_;
+  });
   points_.reserve(landmark_ids_.size());
   for (const int id : landmark_ids_) add_landmark(map.landmark(id), map, problem);
 }
@@ -56,29 +69,17 @@ void LandmarkFactors::add_landmark(const Landmark& landmark, const Map& map,
     if (!problem.takes_part(o.keyframe)) continue;
     const auto v = static_cast<std::size_t>(o.view);
     const StereoView& view = map.keyframe(o.keyframe).frame->views[v];
-    const PixelMeasurement m = measure(view, o.feature, rig_.noise);
-    const bool with_offset = offsets_unknown_ && m.right_x;
-    factors_.emplace_back(rig_.left_cameras[v], m, with_offset);
+    PixelMeasurement m = measure(view, o.feature, rig_.noise);
+    m.velocity = map.keyframe(o.keyframe).frame->velocity;
+    const auto& cameras = calibration_ != nullptr ? rig_.nominal_cameras : rig_.left_cameras;
+    factors_.emplace_back(cameras[v], m, calibration_ != nullptr);
     std::vector<double*> blocks{problem.pose_of(o.keyframe), point};
-    if (with_offset) blocks.push_back(offset_of(v, problem));
+    if (calibration_ != nullptr) {
+      blocks.push_back(calibration_->camera(v));
+      blocks.push_back(calibration_->lens(v));
+    }
     problem.add_factor(factors_.back(), loss_.get(), blocks);
     terms_.push_back({landmark.id, o, &factors_.back(), chi_squared_limit(m)});
-  }
-}
-
-double* LandmarkFactors::offset_of(std::size_t view, ProblemBuilder& problem) {
-  double* offset = &offsets_[view];
-  if (!offset_used_[view]) {
-    problem.add_block(offset, 1, ProblemBuilder::Group::kOffsets);
-    problem.hold(offset);
-    offset_used_[view] = 1;
-  }
-  return offset;
-}
-
-void LandmarkFactors::free_offsets(ProblemBuilder& problem) {
-  for (std::size_t v = 0; v < offsets_.size(); ++v) {
-    if (offset_used_[v]) problem.release(&offsets_[v]);
   }
 }
 

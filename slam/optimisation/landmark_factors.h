@@ -8,26 +8,24 @@
 
 #include "slam/camera/estimator_rig.h"
 #include "slam/factors/reprojection_factor.h"
+#include "slam/optimisation/calibration_unknowns.h"
 #include "slam/optimisation/problem_builder.h"
 
 namespace vinebench::slam {
 
 /// Reprojection errors, Eq. (5), of the landmarks that the moved keyframes see, in all keyframes
-/// that take part; with the pairs' disparity offsets where these are unknown.
+/// that take part; with the pairs' calibrations where these are unknown.
 class LandmarkFactors : public FactorSource {
  public:
-  /// The rig must outlive it.
-  LandmarkFactors(const EstimatorRig& rig, bool offsets_unknown);
+  /// Landmarks that fewer keyframes see are left out. The rig must outlive it, and so must
+  /// `calibration`, which is null where calibrations are known and otherwise added before.
+  explicit LandmarkFactors(const EstimatorRig& rig, int min_keyframes = 1,
+                           CalibrationUnknowns* calibration = nullptr);
 
   void add_to(ProblemBuilder& problem, const Map& map) override;
   void write_back(Map& map) const override;
   /// Observations beyond the 95 % of chi-square.
   void remove_outliers(Map& map) const override;
-
-  /// Lets the offsets, which are held at first, be estimated.
-  void free_offsets(ProblemBuilder& problem);
-  /// Of each pair, px.
-  const std::vector<double>& disparity_offsets() const { return offsets_; }
 
  private:
   struct Term {
@@ -38,17 +36,15 @@ class LandmarkFactors : public FactorSource {
   };
 
   void add_landmark(const Landmark& landmark, const Map& map, ProblemBuilder& problem);
-  double* offset_of(std::size_t view, ProblemBuilder& problem);
 
   const EstimatorRig& rig_;
-  bool offsets_unknown_;
+  int min_keyframes_;
+  CalibrationUnknowns* calibration_;
   std::unique_ptr<ceres::LossFunction> loss_;
   std::vector<int> landmark_ids_;  ///< ascending
   std::vector<Eigen::Vector3d> points_;
   std::deque<ReprojectionFactor> factors_;
   std::vector<Term> terms_;
-  std::vector<double> offsets_;  ///< px, of each view
-  std::vector<char> offset_used_;
 };
 
 }  // namespace vinebench::slam

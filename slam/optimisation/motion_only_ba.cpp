@@ -35,7 +35,8 @@ Matches gather(const Map& map, const FrameFeatures& frame, const EstimatorRig& r
   for (std::size_t v = 0; v < associations.size(); ++v) {
     for (std::size_t f = 0; f < associations[v].size(); ++f) {
       if (associations[v][f] < 0) continue;
-      const PixelMeasurement m = measure(frame.views[v], static_cast<int>(f), rig.noise);
+      PixelMeasurement m = measure(frame.views[v], static_cast<int>(f), rig.noise);
+      m.velocity = frame.velocity;
       matches.emplace_back(v, f, rig.left_cameras[v], m, map.landmark(associations[v][f]).position);
     }
   }

@@ -2,9 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/optimisation/problem_builder.h"
 
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+
 namespace vinebench::slam {
 
 namespace {
+
+/// Of unknowns that no factor holds; a metre or a radian that one holds weakly has 1e3.
+constexpr double kDamping = 1e-9;
 
 constexpr std::size_t kAbsent = static_cast<std::size_t>(-1);
 
@@ -62,6 +68,37 @@ double ProblemBuilder::solve(ceres::Solver::Options options) {
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem_, &summary);
   return summary.final_cost;
+}
+
+Eigen::MatrixXd ProblemBuilder::marginal_information(const std::vector<Group>& last_groups) {
+  ceres::Problem::EvaluateOptions options;
+  int kept = 0;
+  for (const auto& [group, blocks] : ordering_.group_to_elements()) {
+    const bool keep = std::ranges::count(last_groups, static_cast<Group>(group)) > 0;
+    for (double* block : blocks) {
+      if (problem_.IsParameterBlockConstant(block)) continue;
+      options.parameter_blocks.push_back(block);
+      if (keep) kept += problem_.ParameterBlockTangentSize(block);
+    }
+  }
+  ceres::CRSMatrix crs;
+  problem_.Evaluate(options, nullptr, nullptr, nullptr, &crs);
+  using RowMajor = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  const Eigen::SparseMatrix<double> J =
+      Eigen::Map<const RowMajor>(crs.num_rows, crs.num_cols, static_cast<int>(crs.values.size()),
+                                 crs.rows.data(), crs.cols.data(), crs.values.data());
+  // In their own order the last unknowns are eliminated last, so that the end of the factor is that
+  // of their Schur complement.
+  Eigen::SparseMatrix<double> identity(J.cols(), J.cols());
+  identity.setIdentity();
+  const Eigen::SparseMatrix<double> H = J.transpose() * J + kDamping * identity;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower,
+                              Eigen::NaturalOrdering<int>>
+      factor(H);
+  const Eigen::MatrixXd L =
+      Eigen::MatrixXd(Eigen::SparseMatrix<double>(factor.matrixL()).bottomRightCorner(kept, kept));
+  const Eigen::VectorXd D = factor.vectorD().tail(kept);
+  return L * D.asDiagonal() * L.transpose();
 }
 
 void ProblemBuilder::write_poses(Map& map) const {

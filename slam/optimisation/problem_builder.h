@@ -21,7 +21,7 @@ class ProblemBuilder {
   /// orders those of a group by their addresses, so the blocks of a group must be parts of one
   /// array: those of two would be ordered by what was allocated before, and the last bits with
   /// them.
-  enum class Group { kLandmarks = 0, kPoses = 1, kTags = 2, kOffsets = 3 };
+  enum class Group { kLandmarks = 0, kPoses = 1, kTags = 2, kCameras = 3, kLenses = 4 };
 
   ProblemBuilder(const Map& map, const AdjustmentWindow& window);
   ProblemBuilder(const ProblemBuilder&) = delete;
@@ -36,7 +36,6 @@ class ProblemBuilder {
   void add_block(double* block, int size, Group group);
   void add_pose(double* block, Group group);
   void hold(double* block) { problem_.SetParameterBlockConstant(block); }
-  void release(double* block) { problem_.SetParameterBlockVariable(block); }
 
   /// `loss` may be null: squared.
   void add_factor(ceres::CostFunction& factor, ceres::LossFunction* loss,
@@ -44,6 +43,11 @@ class ProblemBuilder {
 
   /// Half the sum of the squared residuals in the end, under their losses.
   double solve(ceres::Solver::Options options);
+
+  /// What the factors, linearised where the blocks are, say of the last groups' unknowns with all
+  /// others unknown too: their information once the others are eliminated (Schur complement), in
+  /// the order of groups and blocks.
+  Eigen::MatrixXd marginal_information(const std::vector<Group>& last_groups);
 
   void write_poses(Map& map) const;
 

@@ -35,11 +35,9 @@ struct StereoConfig {
   /// Windows that show two depths, a stem before the ground, differ more: they would be biased
   /// towards the nearer one.
   double max_residual = 0.1;
-  bool self_calibration = true;  ///< corrects a pair's disparities where the map shows them off
-  /// px, accuracy of the pairs' disparities as the rig's calibration has them: a correction of more
-  /// than three times this is not believed.
-  double calibration_sigma = 1;
-  double noise = 1.5;  ///< grey levels, difference that the sensor's noise alone explains
+  bool self_calibration = true;  ///< corrects the pairs' calibrations where the map shows them off
+  double calibration_sigma = 1;  ///< px, accuracy of the disparities as the rig file has them
+  double noise = 1.5;            ///< grey levels, difference that the sensor's noise alone explains
 
   /// Whether aligned windows show the same thing.
   bool accepts(const PatchAlignment& aligned) const {

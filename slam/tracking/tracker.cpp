@@ -131,7 +131,16 @@ bool Tracker::match_anywhere(const Map& map, const EstimatorRig& rig, const Pose
   return true;
 }
 
+/// Takes the frame's velocity to be that of the step to its pose as far as it is known.
+void Tracker::update_velocity(TrackedFrame& tracked) const {
+  const double dt = to_seconds(tracked.frame->stamp - stamp_);
+  if (dt <= 0 || dead_reckoning_.active()) return;
+  const Pose step = T_map_body_.inverse() * tracked.motion.T_map_body;
+  tracked.frame->velocity << step.translation / dt, log_so3(step.rotation) / dt;
+}
+
 void Tracker::adjust_motion(const Map& map, const EstimatorRig& rig, TrackedFrame& tracked) const {
+  update_velocity(tracked);
   tracked.motion = estimate_motion(map, *tracked.frame, tracked.motion.T_map_body, rig,
                                    config_.min_inlier_share, tracked.associations);
 }
@@ -156,6 +165,7 @@ TrackedFrame Tracker::track(std::shared_ptr<FrameFeatures> frame, const Map& map
                             const EstimatorRig& rig) {
   TrackedFrame tracked;
   tracked.frame = std::move(frame);
+  tracked.frame->velocity = velocity_;
   const Pose predicted = predict(*tracked.frame);
   tracked.motion.T_map_body = predicted;
   const bool from_map = dead_reckoning_.active() || last_landmarks_.empty();

@@ -112,36 +112,29 @@ TEST(PipelineTest, GoesOnWhileOnePairIsBlind) {
   EXPECT_LT(worst_error(pipeline.finish().trajectory, truth), 0.01);
 }
 
-/// The final offsets found in a drive of 3.6 m whose second pair has disparities 0.8 px too small,
-/// and its largest error, m.
-std::pair<std::vector<double>, double> drive_miscalibrated(const SlamConfig& settings) {
-  const SyntheticAisle aisle(0.5, 9, kLandmarks);
+/// The last calibration found in a drive of 3.6 m whose second pair has disparities 0.8 px too
+/// small, and its largest error, m.
+std::pair<std::vector<PairCalibration>, double> drive_miscalibrated(const SlamConfig& settings) {
+  SyntheticAisle aisle(0.5, 9, kLandmarks);
+  aisle.calibration[1].disparity_offset = 0.8;
   Pipeline pipeline(settings, aisle.rig, {});
-  const RectifiedPair& pair = aisle.rig.pairs[1];
   std::vector<Pose> truth;
-  std::vector<double> offsets;
+  std::vector<PairCalibration> found;
   for (std::int64_t i = 0; i < 90; ++i) {
     truth.push_back(driving(i, 0.04));
-    const auto frame = aisle.frame(i, truth.back());
-    StereoView& view = frame->views[1];
-    for (std::size_t f = 0; f < view.stereo.size(); ++f) {
-      view.stereo[f].x_right += 0.8F;
-      const float disparity = view.features.keypoints[f].x - view.stereo[f].x_right;
-      view.stereo[f].depth = static_cast<float>(pair.lens.fx * pair.baseline) / disparity;
-    }
-    const Estimate estimate = pipeline.process(frame);
-    if (!estimate.disparity_offsets.empty()) offsets = estimate.disparity_offsets;
+    const Estimate estimate = pipeline.process(aisle.frame(i, truth.back()));
+    if (!estimate.calibration.empty()) found = estimate.calibration;
   }
-  return {offsets, worst_error(pipeline.finish().trajectory, truth)};
+  return {found, worst_error(pipeline.finish().trajectory, truth)};
 }
 
 // The bound on the error is not derived: this drive exceeds the 8 mm allowed for noise above. The
 // test checks the offset, and that the error is less than half of that without correction.
 TEST(PipelineTest, FindsThatAPairsDisparitiesAreShort) {
-  const auto [offsets, error] = drive_miscalibrated(config());
-  ASSERT_EQ(offsets.size(), 2u);
-  EXPECT_NEAR(offsets[0], 0, 0.05);
-  EXPECT_NEAR(offsets[1], 0.8, 0.05);
+  const auto [found, error] = drive_miscalibrated(config());
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_NEAR(found[0].disparity_offset, 0, 0.05);
+  EXPECT_NEAR(found[1].disparity_offset, 0.8, 0.05);
   EXPECT_LT(error, 0.012);
 
   SlamConfig believing = config();

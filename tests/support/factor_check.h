@@ -51,7 +51,7 @@ inline void expect_jacobian(const ceres::CostFunction& cost,
         std::vector<double> step(tangent, 0.0);
         step[c] = sign * h;
         std::vector<double> moved = blocks[b];
-        if (tangent == 6) {
+        if (blocks[b].size() == 7) {
           manifold.Plus(blocks[b].data(), step.data(), moved.data());
         } else {
           moved[c] += step[c];

@@ -24,6 +24,7 @@ class SyntheticAisle {
   SyntheticAisle(double noise_px, std::uint64_t seed, int landmarks = 6000)
       : noise_(noise_px), seed_(seed) {
     rig = slam::make_stereo_rig(load_rig(VINEBENCH_SOURCE_DIR "/models/csl-rover/rig.yaml"), {});
+    calibration.resize(2);
     RandomSequence random(RandomStream(seed, "aisle"));
     for (int i = 0; i < landmarks; ++i) {
       const double side = i % 2 == 0 ? 0.5 : -0.5;
@@ -50,6 +51,7 @@ class SyntheticAisle {
     auto features = std::make_shared<slam::FrameFeatures>();
     features->index = index;
     features->stamp = stamp_of_frame(index, 15);
+    features->velocity = velocity;
     features->views.resize(rig.pairs.size());
     for (std::size_t v = 0; v < rig.pairs.size(); ++v) {
       const bool sees = std::find(blind.begin(), blind.end(), v) == blind.end();
@@ -82,16 +84,32 @@ class SyntheticAisle {
   }
 
   slam::StereoRig rig;
+  std::vector<PairCalibration> calibration;  ///< by what the first pairs differ from the rig
+  Vector6d velocity = Vector6d::Zero();      ///< of the body, m/s and rad/s
 
  private:
+  /// A point from the camera, when its row is exposed.
+  Eigen::Vector3d seen(const Eigen::Vector3d& p_world, const slam::StereoCameraModel& camera,
+                       const Pose& T_world_body) const {
+    Eigen::Vector3d p = camera.T_cam_body * (T_world_body.inverse() * p_world);
+    // A row's time depends on the row: each round brings it nearer by the velocity's share of 1e-2.
+    for (int round = 0; camera.has_times() && round < 5 && p.z() > 0.1; ++round) {
+      const Pose way = step_of(velocity * camera.time_of(camera.lens.project(p).y()));
+      p = camera.T_cam_body * ((T_world_body * way).inverse() * p_world);
+    }
+    return p;
+  }
+
   void fill(slam::FrameFeatures& features, std::size_t v, const Pose& T_world_body) const {
-    const slam::RectifiedPair& camera = rig.pairs[v];
-    const Pose T_cam_world = camera.T_cam_body * T_world_body.inverse();
+    const slam::RectifiedPair& pair = rig.pairs[v];
+    const slam::StereoCameraModel camera =
+        slam::calibrated({pair.lens, pair.T_cam_body, pair.baseline},
+                         v < calibration.size() ? calibration[v] : PairCalibration{});
     const RandomStream draw(seed_, "noise" + std::to_string(v),
                             static_cast<std::uint64_t>(features.index));
     slam::StereoView& view = features.views[v];
     for (std::size_t i = 0; i < points_.size() && view.features.size() < 1000; ++i) {
-      const Eigen::Vector3d p = T_cam_world * points_[i];
+      const Eigen::Vector3d p = seen(points_[i], camera, T_world_body);
       if (p.z() < 0.15 || p.z() > 4.8) continue;
       const Eigen::Vector2d pixel = camera.lens.project(p);
       if (!camera.lens.contains(pixel, 19)) continue;
@@ -103,10 +121,10 @@ class SyntheticAisle {
       keypoint.y = static_cast<float>(pixel.y() + sigma * draw.normal(3 * i + 1));
       keypoint.level = level;
       const double disparity =
-          camera.lens.fx * camera.baseline / p.z() + 0.5 * sigma * draw.normal(3 * i + 2);
+          camera.disparity_of(pixel.x(), p.z()) + 0.5 * sigma * draw.normal(3 * i + 2);
       slam::StereoMatch match;
       match.x_right = static_cast<float>(keypoint.x - disparity);
-      match.depth = static_cast<float>(camera.lens.fx * camera.baseline / disparity);
+      match.depth = static_cast<float>(pair.lens.fx * pair.baseline / disparity);
       view.features.keypoints.push_back(keypoint);
       view.features.descriptors.push_back(descriptors_[i]);
       view.stereo.push_back(match);

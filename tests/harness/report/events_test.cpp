@@ -146,12 +146,21 @@ TEST(EventsTest, OcclusionBeginsAtTheGivenShare) {
 TEST(EventsTest, ACalibrationIsLogged) {
   const auto found = events_of(record_of([](Estimate& estimate) {
                                  if (estimate.stamp == test::seconds(5)) {
-                                   estimate.disparity_offsets = {0.25};
+                                   PairCalibration pair;
+                                   pair.T_nominal_camera.translation.x() = 0.5;
+                                   pair.disparity_offset = 0.25;
+                                   pair.time = 0.125;
+                                   estimate.calibration = {pair};
                                  }
                                }),
                                "calibrated");
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0]["disparity_offsets_px"], Json({0.25}));
+  ASSERT_EQ(found[0]["pairs"].size(), 1u);
+  const Json& pair = found[0]["pairs"][0];
+  EXPECT_EQ(pair["disparity_offset_px"], 0.25);
+  EXPECT_EQ(pair["time_s"], 0.125);
+  EXPECT_EQ(pair["position_m"], Json({0.5, 0, 0}));
+  EXPECT_EQ(pair["rotation_deg"], Json({0, 0, 0}));
 }
 
 }  // namespace

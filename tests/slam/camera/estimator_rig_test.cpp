@@ -18,14 +18,24 @@ TEST(EstimatorRigTest, TagCamerasHaveNoDistortionLeft) {
   EXPECT_LT((identity.matrix() - Eigen::Matrix4d::Identity()).norm(), 1e-14);
 }
 
-TEST(EstimatorRigTest, OffsetsMakeAnotherRig) {
+TEST(EstimatorRigTest, ACalibrationMakesAnotherRig) {
   const EstimatorRig rig(
       make_stereo_rig(load_rig(VINEBENCH_SOURCE_DIR "/models/csl-rover/rig.yaml"), {}),
       OrbConfig{});
-  const EstimatorRig corrected = rig.with_disparity_offsets({0.5, -0.25});
+  // The second camera is a centimetre further along its own axis.
+  const Pose ahead{Eigen::Quaterniond::Identity(), {0, 0, 0.01}};
+  const EstimatorRig corrected = rig.with_calibration({{{}, 0.5}, {ahead, -0.25}});
   EXPECT_EQ(corrected.left_cameras[0].disparity_offset, 0.5);
   EXPECT_EQ(corrected.left_cameras[1].disparity_offset, -0.25);
   EXPECT_EQ(rig.left_cameras[0].disparity_offset, 0);
+  const Eigen::Vector3d optical_axis = rig.T_body_cams[1].rotation * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d moved = rig.T_body_cams[1].translation + 0.01 * optical_axis;
+  EXPECT_LT((corrected.T_body_cams[1].translation - moved).norm(), 1e-15);
+  const Pose identity = corrected.left_cameras[1].T_cam_body * corrected.T_body_cams[1];
+  EXPECT_LT((identity.matrix() - Eigen::Matrix4d::Identity()).norm(), 1e-14);
+  // A calibration replaces the one before, it does not add to it.
+  EXPECT_EQ(corrected.with_calibration({{}, {}}).T_body_cams[1].translation,
+            rig.T_body_cams[1].translation);
 }
 
 }  // namespace

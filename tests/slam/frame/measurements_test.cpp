@@ -56,7 +56,7 @@ TEST(MeasurementsTest, CorrectsDepthsByTheDisparityOffset) {
   StereoView corrected = view;
   correct_depths(rig.left_cameras[0], limit, corrected);
   EXPECT_EQ(corrected.stereo[5].depth, view.stereo[5].depth);
-  const EstimatorRig found = rig.with_disparity_offsets({0.5, 0});
+  const EstimatorRig found = rig.with_calibration({{{}, 0.5}, {}});
   corrected.stereo[3].x_right = view.features.keypoints[3].x - 0.1F;
   correct_depths(found.left_cameras[0], limit, corrected);
   const StereoCameraModel& camera = rig.left_cameras[0];

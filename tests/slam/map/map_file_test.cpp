@@ -61,7 +61,7 @@ AisleMap small_map(const SyntheticAisle& aisle) {
   grey.grey.fill(77);
   patches[0].add(1, grey);
   made.map.tags().push_back({"tag36h11", 0, 0.161, T_world_tag, true});
-  made.map.disparity_offsets() = {0, 0.25};
+  made.map.calibration() = {{}, {{exp_so3({0, 0.01, 0}), {0.005, 0, 0}}, 0.25}};
   made.map.remove_landmark(made.map.keyframe(0).landmarks[0][2]);
   return made;
 }
@@ -119,7 +119,11 @@ TEST_F(MapFileTest, EverythingComesBack) {
   EXPECT_THAT(found, testing::Contains(3));
   ASSERT_EQ(map.tags().size(), 1u);
   EXPECT_TRUE(map.tags()[0].fixed);
-  EXPECT_EQ(map.disparity_offsets(), (std::vector<double>{0, 0.25}));
+  ASSERT_EQ(map.calibration().size(), 2u);
+  EXPECT_EQ(map.calibration()[0].disparity_offset, 0);
+  EXPECT_EQ(map.calibration()[1].disparity_offset, 0.25);
+  EXPECT_EQ(map.calibration()[1].T_nominal_camera.translation, Eigen::Vector3d(0.005, 0, 0));
+  EXPECT_NEAR(angle_of(map.calibration()[1].T_nominal_camera.rotation), 0.01, 1e-12);
 }
 
 TEST_F(MapFileTest, LandmarksKeepAllButTheirNumbers) {
@@ -190,7 +194,7 @@ TEST_F(MapFileTest, AnotherVersionIsSaidSo) {
   std::string other = bytes_;
   other[8] = 1;  // version, low byte
   EXPECT_THAT(error_of(sealed(other)),
-              AllOf(HasSubstr("version 1"), HasSubstr("expected version 3 to 5")));
+              AllOf(HasSubstr("version 1"), HasSubstr("expected version 3 to 6")));
 }
 
 std::string rig_bytes(const EstimatorRig& rig, std::uint32_t version) {
@@ -199,19 +203,44 @@ std::string rig_bytes(const EstimatorRig& rig, std::uint32_t version) {
   return writer.take();
 }
 
+/// The same map with other contents and their size, as version 3 or later.
+std::string with_contents(std::string bytes, std::uint32_t version) {
+  bytes[8] = static_cast<char>(version);
+  const std::uint64_t content = bytes.size() - 28;
+  for (std::size_t i = 0; i < 8; ++i) bytes[12 + i] = static_cast<char>(content >> (8 * i) & 0xffU);
+  return sealed(bytes);
+}
+
+/// Bytes at the end of a keyframe from version 6 on.
+constexpr std::size_t kVelocity = 6 * sizeof(double);
+
+// Until version 5 there was one number a pair, its disparity offset.
+TEST_F(MapFileTest, DisparityOffsetsOfVersion5AreRead) {
+  AisleMap one(aisle_, {Pose{}});
+  std::string older = format_map(one.map, one.rig);
+  BinaryWriter none(6), offsets(5);
+  none(std::vector<double>{});  // an empty list of anything
+  offsets(std::vector<double>{0, 0.25});
+  older.erase(older.size() - 8 - kVelocity, kVelocity);
+  const std::size_t at = 20 + rig_bytes(one.rig, 5).size() + sizeof(double);
+  older.replace(at, none.take().size(), offsets.take());
+  const Map map = parse_map(with_contents(older, 5), one.rig, "older.map");
+  ASSERT_EQ(map.calibration().size(), 2u);
+  EXPECT_EQ(map.calibration()[1].disparity_offset, 0.25);
+  EXPECT_EQ(map.calibration()[1].T_nominal_camera.translation, Eigen::Vector3d(0, 0, 0));
+}
+
 // Versions 3 and 4 lack the lens models of the rig, with which the content begins. Version 3 also
 // lacks the flag behind each keyframe that says whether it has an inertial state; of a map of one
-// keyframe that is the content's last byte.
+// keyframe that is the content's last byte before the velocity.
 TEST_F(MapFileTest, MapsOfVersion3AreRead) {
   AisleMap one(aisle_, {Pose{}});
   std::string older = format_map(one.map, one.rig);
-  ASSERT_EQ(older[older.size() - 9], 0);
-  older.erase(older.size() - 9, 1);
+  const std::size_t flag = older.size() - 9 - kVelocity;
+  ASSERT_EQ(older[flag], 0);
+  older.erase(flag, 1 + kVelocity);
   older.replace(20, rig_bytes(one.rig, 5).size(), rig_bytes(one.rig, 3));
-  older[8] = 3;
-  const std::uint64_t content = older.size() - 28;
-  for (std::size_t i = 0; i < 8; ++i) older[12 + i] = static_cast<char>(content >> (8 * i) & 0xffU);
-  const Map map = parse_map(sealed(older), one.rig, "older.map");
+  const Map map = parse_map(with_contents(older, 3), one.rig, "older.map");
   ASSERT_EQ(map.keyframes().size(), 1u);
   EXPECT_FALSE(map.keyframe(0).inertial);
   EXPECT_EQ(map.landmarks().size(), one.map.landmarks().size());

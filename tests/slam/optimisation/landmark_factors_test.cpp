@@ -47,7 +47,7 @@ TEST_F(LandmarkFactorsTest, LandmarksOfMovedKeyframesComeBackTheOthersStay) {
   for (Landmark& landmark : made_.map.landmarks()) landmark.position += off;
   ProblemBuilder problem(made_.map, {{3}, {1, 2}});
   problem.hold(problem.pose_of(3));
-  LandmarkFactors factors(made_.rig, false);
+  LandmarkFactors factors(made_.rig);
   factors.add_to(problem, made_.map);
   EXPECT_LT(problem.solve(dense()), 1e-4);
   factors.write_back(made_.map);
@@ -76,7 +76,7 @@ TEST_F(LandmarkFactorsTest, KeyframesOutsideOfTheWindowHaveNoSay) {
   made_.map.keyframe(0).frame = spoilt;
   const auto cost = [&](const AdjustmentWindow& window) {
     ProblemBuilder problem(made_.map, window);
-    LandmarkFactors factors(made_.rig, false);
+    LandmarkFactors factors(made_.rig);
     factors.add_to(problem, made_.map);
     return problem.solve(dense());
   };
@@ -99,7 +99,7 @@ TEST_F(LandmarkFactorsTest, ObservationsThatContradictTheMapAreRemoved) {
   };
   const std::size_t before = observations();
   ProblemBuilder problem(made_.map, {{2}, {0, 1, 3}});
-  LandmarkFactors factors(made_.rig, false);
+  LandmarkFactors factors(made_.rig);
   factors.add_to(problem, made_.map);
   factors.write_back(made_.map);  // as they are: nothing is solved
   factors.remove_outliers(made_.map);
@@ -109,21 +109,19 @@ TEST_F(LandmarkFactorsTest, ObservationsThatContradictTheMapAreRemoved) {
   }
 }
 
-/// Disparities are measured as they are, while the rig says that they are too small by 0.4 and
-/// -0.3 px.
-TEST_F(LandmarkFactorsTest, OffsetsAreHeldUntilFreed) {
-  const EstimatorRig nominal = made_.rig.with_disparity_offsets({0.4, -0.3});
-  ProblemBuilder problem(made_.map, {{3}, {0, 1, 2}});
-  problem.hold(problem.pose_of(3));
-  LandmarkFactors factors(nominal, true);
+TEST_F(LandmarkFactorsTest, LandmarksThatTooFewKeyframesSeeAreLeftOut) {
+  const auto seen_by_three = std::ranges::count_if(
+      made_.map.landmarks(), [](const Landmark& l) { return count_keyframes(l) >= 3; });
+  ASSERT_LT(seen_by_three, std::ssize(made_.map.landmarks()));
+  for (Landmark& landmark : made_.map.landmarks()) landmark.position.z() += 0.01;
+  ProblemBuilder problem(made_.map, {{1, 2, 3}, {0}});
+  LandmarkFactors factors(made_.rig, 3);
   factors.add_to(problem, made_.map);
-  const double held = problem.solve(dense());
-  EXPECT_EQ(factors.disparity_offsets(), (std::vector<double>{0.4, -0.3}));
-  factors.free_offsets(problem);
-  EXPECT_LT(problem.solve(dense()), 1e-2 * held);
-  // The poses are exact, so that motion tells the depth: some hundred pixels good to 3e-5 px.
-  EXPECT_NEAR(factors.disparity_offsets()[0], 0, 1e-3);
-  EXPECT_NEAR(factors.disparity_offsets()[1], 0, 1e-3);
+  problem.solve(dense());
+  factors.write_back(made_.map);
+  int moved = 0;
+  for (const auto& [point, landmark] : made_.landmark_of) moved += error(point, landmark) < 0.009;
+  EXPECT_EQ(moved, seen_by_three);
 }
 
 }  // namespace

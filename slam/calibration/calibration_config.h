@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/config/config_field.h"
+
+namespace vinebench::slam {
+
+/// Accuracy of the stereo pairs' calibrations as the rig file has them: standard deviations of the
+/// numbers of PairCalibration; that of disparity offsets is StereoConfig::calibration_sigma.
+struct CalibrationConfig {
+  double position = 0.005;         ///< m
+  double rotation_deg = 0.3;       ///< degrees
+  double disparity_slope = 0.002;  ///< share of the focal length
+  double focal = 0.002;            ///< share
+  double baseline = 0.003;         ///< share
+  double time = 0.005;             ///< s
+  double readout = 0.02;           ///< s
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("position", position, Range::positive());
+    archive("rotation_deg", rotation_deg, Range::positive());
+    archive("disparity_slope", disparity_slope, Range::positive());
+    archive("focal", focal, Range::positive());
+    archive("baseline", baseline, Range::positive());
+    archive("time", time, Range::positive());
+    archive("readout", readout, Range::positive());
+  }
+};
+
+}  // namespace vinebench::slam

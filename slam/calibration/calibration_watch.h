@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "slam/calibration/calibration_config.h"
+#include "slam/optimisation/bundle_adjustment.h"
+
+namespace vinebench::slam {
+
+/// Watches by what the pairs' calibrations are off, as the map itself shows it.
+///
+/// A camera that looks a little to the side of where the rig file has it measures all disparities
+/// wrong by the same number of pixels; then what is near and what is far tell of different scales.
+/// A pair that is mounted otherwise, or triggered at another time, sees the body move otherwise
+/// than the other pairs do. So each dozen of keyframes
+/// is adjusted by itself with PairCalibration as further unknowns. What it says of them, while all
+/// its poses and landmarks are unknown too, is added up over the drive, beside the rig file's own
+/// accuracy, so that what the motion does not show stays where the file has it. A calibration is
+/// replaced where the likelihood ratio of what is known then is beyond chance.
+///
+/// How much the dozens differ from each other tells how far their information is to be trusted:
+/// errors that are no property of the cameras (leaves in the wind, noise of other kinds) make them
+/// differ by more than their own covariances say. Two dozens in a row that have nothing to do with
+/// those before mean that the cameras were knocked: then they alone count.
+class CalibrationWatch {
+ public:
+  /// `disparity_sigma`: px, accuracy of disparity offsets.
+  CalibrationWatch(const CalibrationConfig& accuracy, double disparity_sigma, std::size_t pairs);
+
+  /// Whether enough keyframes came since the last look: a dozen, later four.
+  bool due(const Map& map) const;
+
+  /// Keyframes before this one are not looked at: those of a loaded map.
+  void begin(std::size_t keyframe) { looked_ = keyframe; }
+
+  /// Looks at the latest keyframes. The calibrations, where they are now known to
+  /// differ from the rig's; otherwise none. The map is not touched.
+  std::optional<std::vector<PairCalibration>> look(const Map& map, const EstimatorRig& rig,
+                                                   const AdjustmentOptions& options);
+
+  /// The calibrations as they are known now, if they were replaced once.
+  std::optional<std::vector<PairCalibration>> latest() const;
+
+  /// What is known of the calibrations now.
+  CalibrationBelief known() const;
+
+ private:
+  CalibrationBelief measure(const Map& map, const EstimatorRig& rig,
+                            const AdjustmentOptions& options) const;
+  void add(const CalibrationBelief& part);
+  double spread() const;
+
+  CalibrationBelief prior_;
+  CalibrationBelief parts_;                    ///< sum of what the dozens say
+  std::optional<CalibrationBelief> stranger_;  ///< the last one, if it contradicts the others
+  double chi_squared_ = 0;                     ///< of the dozens against those before
+  double freedom_ = 0;                         ///< numbers that these chi-squares are of
+  std::size_t looked_ = 0;                     ///< keyframes
+  int looks_ = 0;
+  bool replaced_ = false;
+};
+
+}  // namespace vinebench::slam

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/factors/calibration_belief.h"
+
+#include <Eigen/Cholesky>
+
+namespace vinebench::slam {
+
+Eigen::VectorXd to_vector(const std::vector<PairCalibration>& pairs) {
+  Eigen::VectorXd unknowns(kPairUnknowns * static_cast<Eigen::Index>(pairs.size()));
+  Eigen::Index at = 0;
+  for (const PairCalibration& pair : pairs) {
+    unknowns.segment<kPairUnknowns>(at) << pair.T_nominal_camera.translation,
+        log_so3(pair.T_nominal_camera.rotation), pair.disparity_offset, pair.disparity_slope,
+        pair.focal, pair.baseline, pair.time, pair.readout;
+    at += kPairUnknowns;
+  }
+  return unknowns;
+}
+
+std::vector<PairCalibration> from_vector(const Eigen::VectorXd& unknowns) {
+  std::vector<PairCalibration> pairs;
+  for (Eigen::Index at = 0; at < unknowns.size(); at += kPairUnknowns) {
+    pairs.push_back({step_of(unknowns.segment<6>(at)), unknowns[at + 6], unknowns[at + 7],
+                     unknowns[at + 8], unknowns[at + 9], unknowns[at + 10], unknowns[at + 11]});
+  }
+  return pairs;
+}
+
+CalibrationBelief CalibrationBelief::nothing(std::size_t pairs) {
+  const Eigen::Index n = kPairUnknowns * static_cast<Eigen::Index>(pairs);
+  return {Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
+}
+
+Eigen::VectorXd CalibrationBelief::mean() const {
+  return information.ldlt().solve(information_vector);
+}
+
+Eigen::MatrixXd CalibrationBelief::covariance() const {
+  return information.ldlt().solve(
+      Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+}
+
+}  // namespace vinebench::slam

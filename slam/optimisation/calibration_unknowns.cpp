@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/optimisation/calibration_unknowns.h"
+
+namespace vinebench::slam {
+namespace {
+
+std::vector<Pose> nominal_cameras(const EstimatorRig& rig) {
+  std::vector<Pose> cameras;
+  for (const RectifiedPair& pair : rig.rig.pairs) cameras.push_back(pair.T_body_cam);
+  return cameras;
+}
+
+}  // namespace
+
+CalibrationUnknowns::CalibrationUnknowns(const EstimatorRig& rig, const CalibrationBelief& belief)
+    : T_body_nominal_(nominal_cameras(rig)), factor_(T_body_nominal_, belief) {
+  for (std::size_t v = 0; v < rig.calibration.size(); ++v) {
+    const PairCalibration& pair = rig.calibration[v];
+    cameras_.push_back(to_block(rig.T_body_cams[v]));
+    lenses_.push_back({pair.disparity_offset, pair.disparity_slope, pair.focal, pair.baseline,
+                       pair.time, pair.readout});
+  }
+}
+
+void CalibrationUnknowns::add_to(ProblemBuilder& problem, const Map&) {
+  std::vector<double*> blocks;
+  for (std::size_t v = 0; v < cameras_.size(); ++v) {
+    problem.add_pose(camera(v), ProblemBuilder::Group::kCameras);
+    problem.add_block(lens(v), kLensUnknowns, ProblemBuilder::Group::kLenses);
+    blocks.push_back(camera(v));
+    blocks.push_back(lens(v));
+  }
+  problem.add_factor(factor_, nullptr, blocks);
+}
+
+std::vector<PairCalibration> CalibrationUnknowns::found() const {
+  std::vector<PairCalibration> pairs;
+  for (std::size_t v = 0; v < cameras_.size(); ++v) {
+    const std::array<double, kLensUnknowns>& lens = lenses_[v];
+    pairs.push_back({T_body_nominal_[v].inverse() * from_block(cameras_[v].data()), lens[0],
+                     lens[1], lens[2], lens[3], lens[4], lens[5]});
+  }
+  return pairs;
+}
+
+CalibrationBelief CalibrationUnknowns::belief_now(ProblemBuilder& problem) const {
+  // Of all cameras, then of all lenses; to_vector() has them pair by pair.
+  const Eigen::MatrixXd by_group = problem.marginal_information(
+      {ProblemBuilder::Group::kCameras, ProblemBuilder::Group::kLenses});
+  const auto pairs = static_cast<Eigen::Index>(cameras_.size());
+  std::vector<Eigen::Index> source;
+  for (Eigen::Index v = 0; v < pairs; ++v) {
+    for (Eigen::Index i = 0; i < 6; ++i) source.push_back(6 * v + i);
+    for (Eigen::Index i = 0; i < kLensUnknowns; ++i) {
+      source.push_back(6 * pairs + kLensUnknowns * v + i);
+    }
+  }
+  CalibrationBelief belief{by_group(source, source), {}};
+  belief.information_vector = belief.information * to_vector(found());
+  return belief;
+}
+
+}  // namespace vinebench::slam

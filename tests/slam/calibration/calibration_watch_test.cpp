@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/calibration/calibration_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "slam/features/orb_extractor.h"
+#include "tests/support/aisle_map.h"
+
+namespace vinebench::slam {
+namespace {
+
+using test::AisleMap;
+using test::SyntheticAisle;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// Of a winding drive along the aisle, 10 cm a keyframe. Only the velocities' variety matters: the
+/// keyframes need not follow from them.
+Pose winding(int keyframe) {
+  return {exp_so3({0, 0, 0.3 * std::sin(0.5 * keyframe)}),
+          {0.1 * keyframe, 0.1 * std::sin(0.3 * keyframe), 0}};
+}
+Vector6d velocity(int keyframe) {
+  Vector6d twist = Vector6d::Zero();
+  twist[0] = 0.4 + 0.2 * std::sin(0.9 * keyframe);
+  twist[1] = 0.1 * std::cos(0.7 * keyframe);
+  twist[5] = 0.6 * std::cos(0.5 * keyframe);
+  return twist;
+}
+
+/// Drives with cameras that differ from their rig file, and watches.
+class CalibrationWatchTest : public testing::Test {
+ protected:
+  /// The watch knows how large the pixels' noise is.
+  CalibrationWatchTest() {
+    for (double& scale : made_.rig.noise.level_scales) scale *= 0.3;
+  }
+  void drive(int keyframes) {
+    for (int i = 0; i < keyframes; ++i) {
+      const auto id = static_cast<int>(made_.map.keyframes().size());
+      aisle_.velocity = velocity(id);
+      made_.add(aisle_.frame(id, winding(id)), winding(id));
+      if (!watch_.due(made_.map)) continue;
+      const auto found = watch_.look(made_.map, made_.rig, {});
+      if (!found) continue;
+      made_.rig = made_.rig.with_calibration(*found);
+      ++changes_;
+    }
+  }
+  const PairCalibration& front() const { return made_.rig.calibration[0]; }
+  const PairCalibration& back() const { return made_.rig.calibration[1]; }
+
+  SyntheticAisle aisle_{0.3, 4, 800};
+  AisleMap made_{aisle_, {}};
+  CalibrationWatch watch_{CalibrationConfig{}, 1, 2};
+  int changes_ = 0;
+};
+
+TEST_F(CalibrationWatchTest, ARightCalibrationStays) {
+  drive(60);
+  EXPECT_EQ(changes_, 0);
+  EXPECT_EQ(back().disparity_offset, 0);
+}
+
+// In each of these, what is found is a sum over some thousand pixels of 0.3 px: the bounds are five
+// standard deviations of what the watch itself says, which were 0.02 px, 0.02 %, 0.2 mm, 0.01
+// degrees, 0.3 ms and 1 ms or less. What is right by itself stays exactly.
+TEST_F(CalibrationWatchTest, FindsTheOffsetOfAPairsDisparities) {
+  aisle_.calibration[1].disparity_offset = -0.5;
+  drive(36);
+  EXPECT_GE(changes_, 1);
+  EXPECT_NEAR(back().disparity_offset, -0.5, 0.1);
+  EXPECT_EQ(front().disparity_offset, 0);
+  EXPECT_EQ(back().T_nominal_camera.translation, Eigen::Vector3d(0, 0, 0));
+}
+
+TEST_F(CalibrationWatchTest, FindsEyesOfDifferentFocalLengths) {
+  aisle_.calibration[0].disparity_slope = 0.004;
+  drive(36);
+  EXPECT_NEAR(front().disparity_slope, 0.004, 0.001);
+  EXPECT_EQ(back().disparity_slope, 0);
+}
+
+TEST_F(CalibrationWatchTest, FindsAFocalLength) {
+  aisle_.calibration[0].focal = 0.006;
+  drive(36);
+  EXPECT_NEAR(front().focal, 0.006, 0.001);
+}
+
+// How much the pairs differ shows, not which of them is wrong: the rig's accuracy is the same for
+// both, so each gets half. So short a drive tells it to a quarter of that accuracy, which therefore
+// pulls it back by some percent.
+TEST_F(CalibrationWatchTest, FindsBaselinesThatDiffer) {
+  aisle_.calibration[1].baseline = 0.01;
+  drive(36);
+  EXPECT_NEAR(back().baseline - front().baseline, 0.01, 0.002);
+  EXPECT_NEAR(back().baseline, 0.005, 0.0015);
+}
+
+TEST_F(CalibrationWatchTest, FindsATurnedPair) {
+  aisle_.calibration[1].T_nominal_camera.rotation = exp_so3({0, 0.5 * kDegree, 0});
+  drive(36);
+  // The cameras' y axes point down: a turn of one is that of the other.
+  const double turn = log_so3(back().T_nominal_camera.rotation).y() -
+                      log_so3(front().T_nominal_camera.rotation).y();
+  EXPECT_NEAR(turn / kDegree, 0.5, 0.05);
+}
+
+TEST_F(CalibrationWatchTest, FindsALatePair) {
+  aisle_.calibration[1].time = 0.010;
+  drive(48);
+  EXPECT_NEAR(back().time - front().time, 0.010, 0.0015);
+}
+
+TEST_F(CalibrationWatchTest, FindsARollingShutter) {
+  aisle_.calibration[0].readout = 0.03;
+  drive(48);
+  EXPECT_NEAR(front().readout, 0.03, 0.005);
+}
+
+// Baselines that are all wrong by the same share make a map of another size, and nothing else.
+TEST_F(CalibrationWatchTest, WhatADriveDoesNotShowStaysWhereTheRigHasIt) {
+  aisle_.calibration[0].baseline = aisle_.calibration[1].baseline = 0.01;
+  drive(36);
+  EXPECT_EQ(changes_, 0);
+}
+
+// After four dozens with the right calibration a knock: the first dozen after it may be an
+// accident, the second one is not.
+TEST_F(CalibrationWatchTest, AKnockIsFoundWithinTwoLooks) {
+  drive(48);
+  EXPECT_EQ(changes_, 0);
+  aisle_.calibration[1].disparity_offset = 1.5;
+  drive(12);
+  EXPECT_EQ(changes_, 0);
+  drive(12);
+  EXPECT_EQ(changes_, 1);
+  EXPECT_NEAR(back().disparity_offset, 1.5, 0.15);
+}
+
+TEST_F(CalibrationWatchTest, LooksEveryDozenAndLaterEveryFourth) {
+  Map map(OrbConfig{}.scale);
+  std::vector<int> due;
+  for (int i = 1; i < 200; ++i) {
+    map.add_keyframe(std::make_shared<FrameFeatures>(), {}, {});
+    if (!watch_.due(map)) continue;
+    due.push_back(i);
+    // Keyframes that see nothing say nothing.
+    EXPECT_FALSE(watch_.look(map, made_.rig, {}));
+  }
+  EXPECT_EQ(due, (std::vector<int>{12, 24, 36, 48, 60, 72, 84, 96, 144, 192}));
+}
+
+}  // namespace
+}  // namespace vinebench::slam

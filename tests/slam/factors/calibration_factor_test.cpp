@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/factors/calibration_factor.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/factor_check.h"
+
+namespace vinebench::slam {
+namespace {
+
+/// Two pairs whose numbers all depend on each other.
+CalibrationBelief mixed_belief() {
+  CalibrationBelief belief = CalibrationBelief::nothing(2);
+  for (Eigen::Index i = 0; i < 24; ++i) {
+    for (Eigen::Index j = 0; j < 24; ++j) belief.information(i, j) = i == j ? 4 : 1.0 / (1 + i + j);
+  }
+  belief.information_vector = belief.information * Eigen::VectorXd::LinSpaced(24, -0.002, 0.004);
+  return belief;
+}
+
+const std::vector<Pose> kNominal{{exp_so3({0.1, -1.2, 0.4}), {0.2, 0.1, 0.3}},
+                                 {exp_so3({0, 2, 0.1}), {-0.2, 0, 0.3}}};
+
+// The factor's rotation vector is good to the first order of a turn of 0.01 rad: 1e-5 of the
+// information's root of about 2.
+TEST(CalibrationFactorTest, JacobiansAreTheNumericOnes) {
+  const Pose off = step_of((Vector6d() << 0.003, -0.001, 0.002, 0.004, 0.006, -0.008).finished());
+  test::expect_jacobian(CalibrationFactor(kNominal, mixed_belief()),
+                        {test::as_vector(to_block(kNominal[0] * off)),
+                         {0.3, 0, 0.01, 0, 0.005, 0.02},
+                         test::as_vector(to_block(kNominal[1])),
+                         {-0.1, 0.001, 0, 0.002, 0, 0}});
+}
+
+// With standard deviations of 1 mm, 2 mrad, 0.5 px and 1 of the rest: 3 mm, 4 mrad, 1 px and 0.1 of
+// the last are 3, 2, 2 and 0.1 of them.
+TEST(CalibrationFactorTest, ResidualsAreStandardDeviations) {
+  CalibrationBelief belief = CalibrationBelief::nothing(1);
+  belief.information.setIdentity();
+  belief.information.diagonal().head<7>() << Eigen::Vector3d::Constant(1e6),
+      Eigen::Vector3d::Constant(2.5e5), 4;
+  const CalibrationFactor factor({kNominal[0]}, belief);
+  const Pose off = step_of((Vector6d() << 0, 0.003, 0, 0.004, 0, 0).finished());
+  const PoseBlock camera = to_block(kNominal[0] * off);
+  const std::array<double, kLensUnknowns> lens{1, 0, 0, 0, 0, 0.1};
+  const double* parameters[] = {camera.data(), lens.data()};
+  Eigen::Matrix<double, kPairUnknowns, 1> residuals;
+  ASSERT_TRUE(factor.Evaluate(parameters, residuals.data(), nullptr));
+  Eigen::Matrix<double, kPairUnknowns, 1> expected;
+  expected << 0, 3, 0, 2, 0, 0, 2, 0, 0, 0, 0, 0.1;
+  EXPECT_LT((residuals - expected).norm(), 1e-9);
+}
+
+TEST(CalibrationBeliefTest, VectorsAndPairsAreTheSame) {
+  const Eigen::VectorXd unknowns = Eigen::VectorXd::LinSpaced(24, -0.01, 0.02);
+  const std::vector<PairCalibration> pairs = from_vector(unknowns);
+  ASSERT_EQ(pairs.size(), 2u);
+  EXPECT_EQ(pairs[1].disparity_offset, unknowns[18]);
+  EXPECT_EQ(pairs[1].readout, unknowns[23]);
+  EXPECT_EQ(pairs[0].T_nominal_camera.translation, unknowns.head<3>());
+  EXPECT_LT((to_vector(pairs) - unknowns).norm(), 1e-15);
+}
+
+// Two measurements of 1 and 3 with standard deviations of 1 and 1 / sqrt(3): the mean is
+// (1 + 3 * 3) / 4, its variance 1 / 4.
+TEST(CalibrationBeliefTest, WhatPartsSayAddsUp) {
+  CalibrationBelief one = CalibrationBelief::nothing(1), three = one;
+  one.information.setIdentity();
+  one.information_vector.setOnes();
+  three.information = one.information * 3;
+  three.information_vector = three.information * Eigen::VectorXd::Constant(12, 3);
+  const CalibrationBelief sum = one + three;
+  EXPECT_LT((sum.mean() - Eigen::VectorXd::Constant(12, 2.5)).norm(), 1e-12);
+  EXPECT_NEAR(sum.covariance()(0, 0), 0.25, 1e-12);
+  EXPECT_NEAR((sum * 2).covariance()(0, 0), 0.125, 1e-12);
+}
+
+}  // namespace
+}  // namespace vinebench::slam
