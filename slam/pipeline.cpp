@@ -64,7 +64,7 @@ Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
       scheduler_(config.mapping, one_thread),
       loop_closer_({config.loop, config.tags.size, config.mapping.global_iterations},
                    rig_.tag_cameras, tags),
-      calibration_(config.calibration, config.stereo.calibration_sigma, rig_.left_cameras.size()) {
+      calibration_(config.calibration, config.stereo.calibration_sigma, rig_) {
   rig_.wheels = config.dead_reckoning.wheels;
   rig_.noise.loss = config.loss;
 }

@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "slam/optimisation/pose_uncertainty.h"
+
 namespace vinebench::slam {
 namespace {
 
@@ -21,6 +23,9 @@ constexpr std::size_t kLaterLooks = 48;  // keyframes
 /// Landmarks that fewer keyframes of a part see say too little of the calibrations for the time
 /// that they cost.
 constexpr int kMinKeyframes = 3;
+
+/// Times as surely as by the rig's accuracy the pairs are held not to move all together.
+constexpr double kHeldTogether = 1e4;
 
 /// Numbers that covariances are trusted for beforehand, to estimate how far they are right.
 constexpr double kTrustedFreedom = 12;
@@ -38,15 +43,32 @@ AdjustmentWindow keyframes_between(std::size_t begin, std::size_t end) {
   return window;
 }
 
+/// The steps of all cameras that a step of the body (columns) makes of them: moved together, they
+/// see the same.
+Eigen::MatrixXd moves_together(const EstimatorRig& rig) {
+  const auto pairs = static_cast<Eigen::Index>(rig.rig.pairs.size());
+  Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(kPairUnknowns * pairs, 6);
+  for (Eigen::Index v = 0; v < pairs; ++v) {
+    moves.middleRows<6>(kPairUnknowns * v) =
+        carried_step(rig.rig.pairs[static_cast<std::size_t>(v)].T_body_cam);
+  }
+  return moves;
+}
+
+/// The rig file's accuracy. That the pairs are not moved all together is a matter of definition,
+/// since that is no more than another body frame.
 CalibrationBelief belief_of(const CalibrationConfig& accuracy, double disparity_sigma,
-                            std::size_t pairs) {
+                            const EstimatorRig& rig) {
   Eigen::Matrix<double, kPairUnknowns, 1> sigma;
   sigma << Eigen::Vector3d::Constant(accuracy.position),
       Eigen::Vector3d::Constant(accuracy.rotation_deg * std::numbers::pi / 180), disparity_sigma,
       accuracy.disparity_slope, accuracy.focal, accuracy.baseline, accuracy.time, accuracy.readout;
-  CalibrationBelief belief = CalibrationBelief::nothing(pairs);
-  belief.information.diagonal() =
-      sigma.cwiseAbs2().cwiseInverse().replicate(static_cast<Eigen::Index>(pairs), 1);
+  CalibrationBelief belief = CalibrationBelief::nothing(rig.rig.pairs.size());
+  belief.information.diagonal() = sigma.cwiseAbs2().cwiseInverse().replicate(
+      static_cast<Eigen::Index>(rig.rig.pairs.size()), 1);
+  const Eigen::MatrixXd held = belief.information * moves_together(rig);
+  const Eigen::MatrixXd weight = (moves_together(rig).transpose() * held).inverse();
+  belief.information += kHeldTogether * held * weight * held.transpose();
   return belief;
 }
 
@@ -149,9 +171,9 @@ Eigen::VectorXd simplest(const CalibrationBelief& belief) {
 }  // namespace
 
 CalibrationWatch::CalibrationWatch(const CalibrationConfig& accuracy, double disparity_sigma,
-                                   std::size_t pairs)
-    : prior_(belief_of(accuracy, disparity_sigma, pairs)),
-      parts_(CalibrationBelief::nothing(pairs)) {}
+                                   const EstimatorRig& rig)
+    : prior_(belief_of(accuracy, disparity_sigma, rig)),
+      parts_(CalibrationBelief::nothing(rig.rig.pairs.size())) {}
 
 bool CalibrationWatch::due(const Map& map) const {
   return map.keyframes().size() >= looked_ + (looks_ < kFrequentLooks ? kPart : kLaterLooks);

@@ -28,7 +28,8 @@ namespace vinebench::slam {
 class CalibrationWatch {
  public:
   /// `disparity_sigma`: px, accuracy of disparity offsets.
-  CalibrationWatch(const CalibrationConfig& accuracy, double disparity_sigma, std::size_t pairs);
+  CalibrationWatch(const CalibrationConfig& accuracy, double disparity_sigma,
+                   const EstimatorRig& rig);
 
   /// Whether enough keyframes came since the last look: a dozen, later four.
   bool due(const Map& map) const;

@@ -56,7 +56,7 @@ class CalibrationWatchTest : public testing::Test {
 
   SyntheticAisle aisle_{0.3, 4, 800};
   AisleMap made_{aisle_, {}};
-  CalibrationWatch watch_{CalibrationConfig{}, 1, 2};
+  CalibrationWatch watch_{CalibrationConfig{}, 1, made_.rig};
   int changes_ = 0;
 };
 
@@ -108,6 +108,18 @@ TEST_F(CalibrationWatchTest, FindsATurnedPair) {
   const double turn = log_so3(back().T_nominal_camera.rotation).y() -
                       log_so3(front().T_nominal_camera.rotation).y();
   EXPECT_NEAR(turn / kDegree, 0.5, 0.05);
+}
+
+// Both pairs turned about the vertical by the same angle are nothing but another body frame, if
+// they move with it: no camera can see that.
+TEST_F(CalibrationWatchTest, PairsThatMoveTogetherAreAnotherBodyFrame) {
+  const Pose turned{exp_so3({0, 0, 0.5 * kDegree}), {0.005, 0, 0}};
+  for (std::size_t v = 0; v < 2; ++v) {
+    const Pose& nominal = aisle_.rig.pairs[v].T_body_cam;
+    aisle_.calibration[v].T_nominal_camera = nominal.inverse() * turned * nominal;
+  }
+  drive(36);
+  EXPECT_EQ(changes_, 0);
 }
 
 TEST_F(CalibrationWatchTest, FindsALatePair) {
