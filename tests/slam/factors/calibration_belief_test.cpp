@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/factors/calibration_belief.h"
+
+#include <gtest/gtest.h>
+
+namespace vinebench::slam {
+namespace {
+
+TEST(CalibrationBeliefTest, VectorsAndPairsAreTheSame) {
+  const Eigen::VectorXd unknowns = Eigen::VectorXd::LinSpaced(24, -0.01, 0.02);
+  const std::vector<PairCalibration> pairs = from_vector(unknowns);
+  ASSERT_EQ(pairs.size(), 2u);
+  EXPECT_EQ(pairs[1].disparity_offset, unknowns[18]);
+  EXPECT_EQ(pairs[1].readout, unknowns[23]);
+  EXPECT_EQ(pairs[0].T_nominal_camera.translation, unknowns.head<3>());
+  EXPECT_LT((to_vector(pairs) - unknowns).norm(), 1e-15);
+}
+
+// Two measurements of 1 and 3 with standard deviations of 1 and 1 / sqrt(3): the mean is
+// (1 + 3 * 3) / 4, its variance 1 / 4.
+TEST(CalibrationBeliefTest, WhatPartsSayAddsUp) {
+  CalibrationBelief one = CalibrationBelief::nothing(1), three = one;
+  one.information.setIdentity();
+  one.information_vector.setOnes();
+  three.information = one.information * 3;
+  three.information_vector = three.information * Eigen::VectorXd::Constant(12, 3);
+  const CalibrationBelief sum = one + three;
+  EXPECT_LT((sum.mean() - Eigen::VectorXd::Constant(12, 2.5)).norm(), 1e-12);
+  EXPECT_NEAR(sum.covariance()(0, 0), 0.25, 1e-12);
+  EXPECT_NEAR((sum * 2).covariance()(0, 0), 0.125, 1e-12);
+}
+
+}  // namespace
+}  // namespace vinebench::slam

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/optimisation/calibration_unknowns.h"
+
+#include <gtest/gtest.h>
+
+#include "slam/optimisation/landmark_factors.h"
+#include "tests/support/aisle_map.h"
+
+namespace vinebench::slam {
+namespace {
+
+using test::AisleMap;
+using test::SyntheticAisle;
+
+/// All but the disparity offsets, with a deviation of 1 px, are as the rig has them to 1e-4.
+CalibrationBelief loose() {
+  CalibrationBelief belief = CalibrationBelief::nothing(2);
+  belief.information.diagonal().setConstant(1e8);
+  belief.information(6, 6) = belief.information(18, 18) = 1;
+  return belief;
+}
+
+// Poses are exact and disparities of the second pair 0.4 px too small: some hundred pixels, good to
+// 3e-5 px, tell it to better than 1e-3 px, of which a belief of 0 with a deviation of 1 px takes
+// nothing to speak of.
+TEST(CalibrationUnknownsTest, AreFoundWithTheLandmarks) {
+  SyntheticAisle aisle(0, 1, 500);
+  aisle.calibration[1].disparity_offset = 0.4;
+  AisleMap made(aisle, {});
+  for (int k = 0; k < 4; ++k) {
+    const Pose pose{exp_so3({0, 0, 0.02 * k}), {0.15 * k, 0.01 * k, 0}};
+    made.add(aisle.frame(k, pose), pose);
+  }
+  ProblemBuilder problem(made.map, {{1, 2, 3}, {0}});
+  for (const int id : {1, 2, 3}) problem.hold(problem.pose_of(id));
+  CalibrationUnknowns unknowns(made.rig, loose());
+  unknowns.add_to(problem, made.map);
+  LandmarkFactors factors(made.rig, 2, &unknowns);
+  factors.add_to(problem, made.map);
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_SCHUR;
+  options.max_num_iterations = 50;
+  options.logging_type = ceres::SILENT;
+  problem.solve(options);
+  EXPECT_NEAR(unknowns.found()[0].disparity_offset, 0, 1e-2);
+  EXPECT_NEAR(unknowns.found()[1].disparity_offset, 0.4, 1e-2);
+  // What is known afterwards has its mean there.
+  const Eigen::VectorXd mean = unknowns.belief_now(problem).mean();
+  EXPECT_LT((mean - to_vector(unknowns.found())).norm(), 1e-6);
+}
+
+// Without factors the belief is what it was.
+TEST(CalibrationUnknownsTest, WithoutFactorsTheBeliefStays) {
+  const SyntheticAisle aisle(0, 1, 10);
+  const AisleMap made(aisle, {Pose{}});
+  ProblemBuilder problem(made.map, {{0}, {}});
+  CalibrationUnknowns unknowns(made.rig, loose());
+  unknowns.add_to(problem, made.map);
+  const CalibrationBelief belief = unknowns.belief_now(problem);
+  EXPECT_LT((belief.information - loose().information).norm(), 1e-12 * 1e8 * 24);  // rounding
+  EXPECT_LT(belief.information_vector.norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace vinebench::slam
