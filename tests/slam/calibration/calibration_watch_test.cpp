@@ -91,6 +91,28 @@ TEST_F(CalibrationWatchTest, FindsAFocalLength) {
   EXPECT_NEAR(front().focal, 0.006, 0.001);
 }
 
+/// Whether a rig of the front pair alone is corrected, whose disparities have that offset.
+std::optional<double> found_alone(double offset) {
+  SyntheticAisle aisle(0.3, 4, 800);
+  aisle.rig.pairs.resize(1);
+  aisle.calibration[0].disparity_offset = offset;
+  AisleMap made(aisle, {});
+  CalibrationWatch watch(CalibrationConfig{}, 1, made.rig);
+  for (int i = 0; i < 12; ++i) made.add(aisle.frame(i, winding(i)), winding(i));
+  const auto found = watch.look(made.map, made.rig, {});
+  if (!found) return std::nullopt;
+  EXPECT_FALSE(watch.latest());
+  return found->front().disparity_offset;
+}
+
+TEST_F(CalibrationWatchTest, OfOnePairALargeOffsetAloneIsBelieved) {
+  EXPECT_FALSE(found_alone(0));
+  EXPECT_FALSE(found_alone(0.5));
+  const auto found = found_alone(1.5);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(*found, 1.5, 0.2);
+}
+
 // How much the pairs differ shows, not which of them is wrong: the rig's accuracy is the same for
 // both, so each gets half. So short a drive tells it to a quarter of that accuracy, which therefore
 // pulls it back by some percent.
