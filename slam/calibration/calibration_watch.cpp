@@ -32,6 +32,9 @@ constexpr double kTrustedFreedom = 12;
 
 constexpr Eigen::Index kDisparityOffset = 6;
 
+/// Share of the accuracy to which numbers are held that are not to be estimated.
+constexpr double kExact = 1e-3;
+
 /// Nothing bears out what one pair alone shows of itself, and what its images and the model of them
 /// differ in looks like a calibration: on a real drive like 0.3 px that the truth does not have.
 constexpr double kLeastOfOnePair = 0.9;  // px
@@ -69,6 +72,10 @@ CalibrationBelief belief_of(const CalibrationConfig& accuracy, double disparity_
   sigma << Eigen::Vector3d::Constant(accuracy.position),
       Eigen::Vector3d::Constant(accuracy.rotation_deg * std::numbers::pi / 180), disparity_sigma,
       accuracy.disparity_slope, accuracy.focal, accuracy.baseline, accuracy.time, accuracy.readout;
+  if (rig.rig.pairs.size() == 1) {
+    sigma *= kExact;
+    sigma[kDisparityOffset] = disparity_sigma;
+  }
   CalibrationBelief belief = CalibrationBelief::nothing(rig.rig.pairs.size());
   belief.information.diagonal() = sigma.cwiseAbs2().cwiseInverse().replicate(
       static_cast<Eigen::Index>(rig.rig.pairs.size()), 1);
