@@ -3,6 +3,7 @@
 #include "slam/factors/reprojection_factor.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "slam/factors/calibration_belief.h"
 #include "slam/factors/pose_manifold.h"
@@ -25,7 +26,6 @@ ReprojectionFactor::ReprojectionFactor(const StereoCameraModel& camera,
 }
 
 StereoCameraModel ReprojectionFactor::camera_of(double const* const* parameters) const {
-  if (parameter_block_sizes().size() == 2) return *camera_;
   const double* lens = parameters[3];
   StereoCameraModel camera =
       calibrated(*camera_, {{}, lens[0], lens[1], lens[2], lens[3], lens[4], lens[5]});
@@ -37,7 +37,10 @@ bool ReprojectionFactor::Evaluate(double const* const* parameters, double* resid
                                   double** jacobians) const {
   const Pose T_map_body = from_block(parameters[0]);
   const Eigen::Map<const Eigen::Vector3d> p_map(parameters[1]);
-  const StereoCameraModel camera = camera_of(parameters);
+  const bool calibration_unknown = parameter_block_sizes().size() > 2;
+  std::optional<StereoCameraModel> found;
+  if (calibration_unknown) found = camera_of(parameters);
+  const StereoCameraModel& camera = found ? *found : *camera_;
   const Reprojection reprojection(camera, measurement_);
   if (jacobians == nullptr) {
     const Eigen::Vector3d residual = reprojection.residual(T_map_body, p_map);
@@ -55,7 +58,7 @@ bool ReprojectionFactor::Evaluate(double const* const* parameters, double* resid
     const Eigen::Matrix3d R_body_map = T_map_body.rotation.toRotationMatrix().transpose();
     copy_rows(Eigen::Matrix3d(at.by_point_in_body * R_body_map), num_residuals(), jacobians[1]);
   }
-  if (parameter_block_sizes().size() == 2) return true;
+  if (!calibration_unknown) return true;
   if (jacobians[2] == nullptr && jacobians[3] == nullptr) return true;
   const auto by_calibration = reprojection.by_calibration(T_map_body, p_map, *camera_);
   if (jacobians[2] != nullptr) {

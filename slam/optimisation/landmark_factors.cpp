@@ -53,9 +53,11 @@ LandmarkFactors::LandmarkFactors(const EstimatorRig& rig, int min_keyframes,
 
 void LandmarkFactors::add_to(ProblemBuilder& problem, const Map& map) {
   landmark_ids_ = landmarks_of(problem.window().moved, map);
-  std::erase_if(landmark_ids_, [&](int id) {
-    return count_taking_part(map.landmark(id), problem) < min_keyframes_;
-  });
+  if (min_keyframes_ > 1) {
+    std::erase_if(landmark_ids_, [&](int id) {
+      return count_taking_part(map.landmark(id), problem) < min_keyframes_;
+    });
+  }
   points_.reserve(landmark_ids_.size());
   for (const int id : landmark_ids_) add_landmark(map.landmark(id), map, problem);
 }
