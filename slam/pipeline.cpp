@@ -8,7 +8,9 @@
 #include "core/util/error.h"
 #include "slam/camera/rectification.h"
 #include "slam/frame/measurements.h"
+#include "slam/loop/loop_correction.h"
 #include "slam/tracking/keyframe_selector.h"
+#include "slam/tracking/place_evidence.h"
 
 namespace vinebench::slam {
 namespace {
@@ -18,6 +20,9 @@ constexpr int kMinFirstPoints = 100;
 
 /// Frames in a row that see that many and find nothing of the map: a new map part starts.
 constexpr int kFramesBeforeRestart = 3;
+
+/// As many where they resemble a place that the map has.
+constexpr int kFramesOfDoubt = 10;
 
 /// While a tag is in view keyframes are this near to each other, so that it is seen from several
 /// places.
@@ -134,8 +139,9 @@ TrackedFrame Pipeline::locate(const std::shared_ptr<FrameFeatures>& frame) {
 }
 
 /// Leaves the frame the sightings that are to be believed.
-void Pipeline::gate_tags(const TrackedFrame& tracked, Estimate& estimate) {
+void Pipeline::gate_tags(TrackedFrame& tracked, Estimate& estimate) {
   if (!tracked.tracked) return;
+  find_carried(tracked);
   estimate.rejected_tags =
       loop_closer_.gate(*tracked.frame, tracked.motion.T_map_body, path_length_, map_);
 }
@@ -154,7 +160,8 @@ void Pipeline::record_tags(const TrackedFrame& tracked) {
 void Pipeline::record_pose(const TrackedFrame& tracked, Estimate& estimate) {
   if (!tracked.tracked && estimate.status != TrackingStatus::kDeadReckoning) return;
   const Keyframe& last = map_.keyframes().back();
-  records_.push_back({estimate.stamp, last.id, last.T_map_body.inverse() * tracker_.T_map_body()});
+  records_.push_back({estimate.stamp, last.id, last.T_map_body.inverse() * tracker_.T_map_body(),
+                      !tracked.tracked});
   estimate.T_map_body = tracker_.T_map_body();
   estimate.covariance = covariance(tracked, estimate.keyframe);
 }
@@ -185,9 +192,13 @@ SlamSummary Pipeline::finish() {
 /// Of the body's pose; a keyframe's own is part of the uncertainty kept.
 Matrix6d Pipeline::covariance(const TrackedFrame& tracked, bool keyframe) const {
   const Pose T_last_now = map_.keyframes().back().T_map_body.inverse() * tracker_.T_map_body();
-  if (keyframe) return uncertainty_.at({}, Matrix6d::Zero());
-  if (tracked.tracked) return uncertainty_.at(T_last_now, tracked.motion.information);
-  return uncertainty_.at(T_last_now, Matrix6d::Zero()) + tracker_.dead_reckoning().covariance();
+  const Matrix6d of_calibration = uncertainty_.of_calibration(T_last_now, calibration_error_);
+  if (keyframe) return uncertainty_.at({}, Matrix6d::Zero()) + of_calibration;
+  if (tracked.tracked) {
+    return uncertainty_.at(T_last_now, tracked.motion.information) + of_calibration;
+  }
+  return uncertainty_.at(T_last_now, Matrix6d::Zero()) + of_calibration +
+         tracker_.dead_reckoning().covariance();
 }
 
 /// The first frame with enough stereo points is the map's first keyframe. A registered tag in it
@@ -250,8 +261,16 @@ TrackedFrame Pipeline::track(const std::shared_ptr<FrameFeatures>& frame) {
   return tracked;
 }
 
-/// Goes on where the body is by a tag that the map knows or, once it is lost, by the looks of the
-/// place. A tag is believed; a place must be borne out by tracking there.
+/// Whether a frame has enough to see a map by.
+bool Pipeline::sees_well(const FrameFeatures& frame) {
+  int points = 0;
+  for (const StereoView& view : frame.views) points += count_stereo(view);
+  return points >= kMinFirstPoints;
+}
+
+/// Goes on where the body is by a tag that the map knows or by the looks of the place. A tag is
+/// believed; a place must be borne out by tracking there and, as long as dead reckoning says that
+/// the body is elsewhere, by all cameras: then it was carried.
 void Pipeline::find_again(TrackedFrame& tracked) {
   const std::shared_ptr<FrameFeatures> frame = tracked.frame;
   if (const auto by_tag = loop_closer_.map_pose(frame->tags, map_)) {
@@ -259,29 +278,57 @@ void Pipeline::find_again(TrackedFrame& tracked) {
     tracked = tracker_.track(frame, map_, rig_);
     return;
   }
-  if (!tracker_.dead_reckoning().is_lost()) return;
+  const bool reckons = !tracker_.dead_reckoning().is_lost();
+  if (reckons && !sees_well(*frame)) return;
   const auto by_looks = relocaliser_.find(map_, rig_, *frame);
   if (!by_looks) return;
+  if (reckons && !bears_out(look_around(map_, rig_, *frame, *by_looks))) return;
   Tracker there = tracker_;
-  there.start(*by_looks, frame->stamp, true);
+  there.start(*by_looks, frame->stamp, !reckons);
   TrackedFrame found = there.track(frame, map_, rig_);
   if (!found.tracked) return;
   tracker_ = std::move(there);
   tracked = std::move(found);
+  if (reckons) withdraw_reckoned(map_.keyframes().back().id);
+}
+
+/// Forgets what dead reckoning made of the frames after a keyframe: the body was carried meanwhile.
+void Pipeline::withdraw_reckoned(int keyframe) {
+  std::erase_if(records_, [&](const FrameRecord& record) {
+    return record.reckoned && record.keyframe == keyframe;
+  });
+}
+
+/// Believes a tag rather than dead reckoning over the last gap, where the map bears it out: the
+/// body was carried. The map from there on moves to where the tag says that it is.
+void Pipeline::find_carried(TrackedFrame& tracked) {
+  const FrameFeatures& frame = *tracked.frame;
+  const auto by_tag =
+      loop_closer_.pose_across_gap(frame.tags, tracked.motion.T_map_body, path_length_, map_);
+  if (!by_tag) return;
+  const PlaceEvidence evidence = look_around(map_, rig_, frame, *by_tag);
+  if (!bears_out(evidence)) return;
+  if (scheduler_.busy()) join_mapping(&tracked);
+  const int after = loop_closer_.open_gap(frame.tags, map_);
+  const Pose T_new_old = evidence.T_map_body * tracked.motion.T_map_body.inverse();
+  move_from(map_, after, T_new_old);
+  tracker_.correct(T_new_old * tracker_.T_map_body());
+  tracked.motion.T_map_body = T_new_old * tracked.motion.T_map_body;
+  withdraw_reckoned(map_.keyframe(after).link->from);
 }
 
 /// Makes a frame that sees well, but nothing of the map, the map's next keyframe where dead
 /// reckoning says that it is. False where that is not the case.
 bool Pipeline::restart_map(TrackedFrame& tracked) {
-  int points = 0;
-  for (const StereoView& view : tracked.frame->views) points += count_stereo(view);
-  seeing_frames_ = points >= kMinFirstPoints ? seeing_frames_ + 1 : 0;
-  if (seeing_frames_ < kFramesBeforeRestart || tracker_.dead_reckoning().is_lost()) return false;
+  seeing_frames_ = sees_well(*tracked.frame) ? seeing_frames_ + 1 : 0;
+  const int frames = relocaliser_.has_candidate() ? kFramesOfDoubt : kFramesBeforeRestart;
+  if (seeing_frames_ < frames || tracker_.dead_reckoning().is_lost()) return false;
   const Keyframe& last = map_.keyframes().back();
   tracked.motion.T_map_body = tracker_.T_map_body();
   tracked.link = OdometryLink{last.id, last.T_map_body.inverse() * tracker_.T_map_body(),
                               tracker_.dead_reckoning().covariance()};
-  loop_closer_.cross_gap(path_length_, tracked.link->covariance);
+  loop_closer_.cross_gap(path_length_, tracked.link->covariance,
+                         static_cast<int>(map_.keyframes().size()));
   tracked.associations = no_associations(*tracked.frame);
   tracked.motion.information.setZero();
   tracker_.start(tracked.motion.T_map_body, tracked.frame->stamp);
@@ -339,7 +386,7 @@ void Pipeline::grow_uncertainty(const TrackedFrame& tracked) {
   if (tracked.link) {
     uncertainty_.cross_gap(T_last_now, tracked.link->covariance);
   } else {
-    uncertainty_.keyframe(T_last_now, tracked.motion.information);
+    uncertainty_.keyframe(T_last_now, tracked.motion.information, calibration_.drift());
   }
 }
 
@@ -361,10 +408,12 @@ void Pipeline::calibrate(Estimate& estimate) {
   if (!config_.stereo.self_calibration || !calibration_.due(map_)) return;
   const ScopedTimer timer(times_, "calibration");
   const auto found = calibration_.look(map_, rig_, mapper_.adjustment_options());
-  if (!found) return;
-  use_calibration(*found);
-  loop_closer_.adjust_globally(rig_, map_);
-  estimate.calibration = *found;
+  if (found) {
+    use_calibration(*found);
+    loop_closer_.adjust_globally(rig_, map_);
+    estimate.calibration = *found;
+  }
+  calibration_error_ = calibration_.error(rig_);
 }
 
 void Pipeline::use_calibration(const std::vector<PairCalibration>& pairs) {

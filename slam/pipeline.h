@@ -51,12 +51,13 @@ class Pipeline {
     Stamp stamp;
     int keyframe;
     Pose T_keyframe_body;
+    bool reckoned = false;  ///< by dead reckoning alone
   };
 
   void join_due_mapping();
   void correct_stereo(FrameFeatures& frame) const;
   TrackedFrame locate(const std::shared_ptr<FrameFeatures>& frame);
-  void gate_tags(const TrackedFrame& tracked, Estimate& estimate);
+  void gate_tags(TrackedFrame& tracked, Estimate& estimate);
   static void release_images(FrameFeatures& frame);
   void record_tags(const TrackedFrame& tracked);
   void record_pose(const TrackedFrame& tracked, Estimate& estimate);
@@ -65,7 +66,10 @@ class Pipeline {
   TrackedFrame initialise(const std::shared_ptr<FrameFeatures>& frame);
   TrackedFrame relocalise(const std::shared_ptr<FrameFeatures>& frame);
   TrackedFrame track(const std::shared_ptr<FrameFeatures>& frame);
+  static bool sees_well(const FrameFeatures& frame);
   void find_again(TrackedFrame& tracked);
+  void withdraw_reckoned(int keyframe);
+  void find_carried(TrackedFrame& tracked);
   bool restart_map(TrackedFrame& tracked);
   bool wants_new_keyframe(const TrackedFrame& tracked) const;
   void join_mapping(TrackedFrame* tracked = nullptr);
@@ -86,7 +90,8 @@ class Pipeline {
   LoopCloser loop_closer_;
   Relocaliser relocaliser_;
   CalibrationWatch calibration_;
-  PoseUncertainty uncertainty_;  ///< of the latest keyframe
+  PoseUncertainty uncertainty_;        ///< of the latest keyframe
+  Eigen::MatrixXd calibration_error_;  ///< second moments, as CalibrationWatch has them
   StageTimes times_;
   std::vector<FrameRecord> records_;
   std::vector<std::vector<Eigen::Vector2f>> supporting_;  ///< px, of the last frame's views

@@ -186,7 +186,8 @@ Eigen::VectorXd simplest(const CalibrationBelief& belief) {
 CalibrationWatch::CalibrationWatch(const CalibrationConfig& accuracy, double disparity_sigma,
                                    const EstimatorRig& rig)
     : prior_(belief_of(accuracy, disparity_sigma, rig)),
-      parts_(CalibrationBelief::nothing(rig.rig.pairs.size())) {}
+      parts_(CalibrationBelief::nothing(rig.rig.pairs.size())),
+      drift_(Eigen::MatrixXd::Zero(6, prior_.information.cols())) {}
 
 bool CalibrationWatch::due(const Map& map) const {
   return map.keyframes().size() >= looked_ + (looks_ < kFrequentLooks ? kPart : kLaterLooks);
@@ -194,10 +195,11 @@ bool CalibrationWatch::due(const Map& map) const {
 
 std::optional<std::vector<PairCalibration>> CalibrationWatch::look(
     const Map& map, const EstimatorRig& rig, const AdjustmentOptions& options) {
-  const CalibrationBelief part = measure(map, rig, options);
+  const auto [part, of_last_pose] = measure(map, rig, options);
   looked_ = map.keyframes().size();
   ++looks_;
   if (!part.information.allFinite() || !part.information_vector.allFinite()) return std::nullopt;
+  if (of_last_pose.allFinite()) drift_ = of_last_pose / static_cast<double>(kPart - 1);
   add(part);
   const CalibrationBelief now = known();
   if (rig.calibration.size() == 1) return look_at_one_pair(now, rig);
@@ -226,8 +228,8 @@ std::optional<std::vector<PairCalibration>> CalibrationWatch::latest() const {
   return from_vector(simplest(known()));
 }
 
-CalibrationBelief CalibrationWatch::measure(const Map& map, const EstimatorRig& rig,
-                                            const AdjustmentOptions& options) const {
+CalibrationMarginal CalibrationWatch::measure(const Map& map, const EstimatorRig& rig,
+                                              const AdjustmentOptions& options) const {
   AdjustmentOptions unknown = options;
   unknown.iterations = kIterations;
   unknown.tags = false;  // their corners err alike from frame to frame, by more than they tell
@@ -236,7 +238,9 @@ CalibrationBelief CalibrationWatch::measure(const Map& map, const EstimatorRig& 
   const std::size_t end = map.keyframes().size();
   AdjustmentJob job(map, keyframes_between(end - kPart, end), rig, unknown);
   job.solve();
-  return job.calibration() + prior_ * -1;
+  CalibrationMarginal found = job.calibration();
+  found.belief = found.belief + prior_ * -1;
+  return found;
 }
 
 void CalibrationWatch::add(const CalibrationBelief& part) {
@@ -267,6 +271,24 @@ double CalibrationWatch::spread() const {
 
 CalibrationBelief CalibrationWatch::known() const {
   return prior_ + parts_ * (1 / spread());
+}
+
+Eigen::MatrixXd CalibrationWatch::error(const EstimatorRig& rig) const {
+  const CalibrationBelief now = known();
+  const Eigen::VectorXd missed = now.mean() - to_vector(rig.calibration);
+  const double probability = replaced_ ? 1 : file_is_wrong(now);
+  return probability * (now.covariance() + missed * missed.transpose());
+}
+
+/// By how much better a rig that is off by anything within the file's accuracy explains what was
+/// seen than one that is as the file says (Bayes factor of two Gaussians), as a probability.
+double CalibrationWatch::file_is_wrong(const CalibrationBelief& now) const {
+  const auto log_determinant = [](const Eigen::MatrixXd& information) {
+    return information.ldlt().vectorD().array().log().sum();
+  };
+  const double explained = now.information_vector.dot(now.mean());
+  const double vagueness = log_determinant(now.information) - log_determinant(prior_.information);
+  return 1 / (1 + std::exp(-0.5 * (explained - vagueness)));
 }
 
 }  // namespace vinebench::slam

@@ -49,20 +49,31 @@ class CalibrationWatch {
   /// What is known of the calibrations now.
   CalibrationBelief known() const;
 
+  /// Second moments of the error that the rig's calibrations have now, as far as is known: of
+  /// to_vector(). Of the rig file's own, that they have with the probability that it is wrong at
+  /// all, where every second one is.
+  Eigen::MatrixXd error(const EstimatorRig& rig) const;
+
+  /// By how much such errors move the body from one keyframe to the next, as the last look had it:
+  /// steps of step_of in six rows, a column for each number of to_vector(). Zero before the first.
+  const Eigen::MatrixXd& drift() const { return drift_; }
+
  private:
-  CalibrationBelief measure(const Map& map, const EstimatorRig& rig,
-                            const AdjustmentOptions& options) const;
+  CalibrationMarginal measure(const Map& map, const EstimatorRig& rig,
+                              const AdjustmentOptions& options) const;
   std::optional<std::vector<PairCalibration>> look_at_one_pair(const CalibrationBelief& now,
                                                                const EstimatorRig& rig);
   void add(const CalibrationBelief& part);
   double spread() const;
+  double file_is_wrong(const CalibrationBelief& now) const;
 
   CalibrationBelief prior_;
   CalibrationBelief parts_;                    ///< sum of what the dozens say
   std::optional<CalibrationBelief> stranger_;  ///< the last one, if it contradicts the others
-  double chi_squared_ = 0;                     ///< of the dozens against those before
-  double freedom_ = 0;                         ///< numbers that these chi-squares are of
-  std::size_t looked_ = 0;                     ///< keyframes
+  Eigen::MatrixXd drift_;
+  double chi_squared_ = 0;  ///< of the dozens against those before
+  double freedom_ = 0;      ///< numbers that these chi-squares are of
+  std::size_t looked_ = 0;  ///< keyframes
   int looks_ = 0;
   bool replaced_ = false;
 };

@@ -38,4 +38,12 @@ struct CalibrationBelief {
   }
 };
 
+/// What an adjustment says of the calibrations, and what these do to its last pose.
+struct CalibrationMarginal {
+  CalibrationBelief belief;
+  /// Step of the last keyframe's pose, against the first one's, for a calibration's number that is
+  /// 1 larger: six rows, a column for each number of to_vector().
+  Eigen::MatrixXd of_last_pose;
+};
+
 }  // namespace vinebench::slam

@@ -25,6 +25,10 @@ constexpr double kInARow = 0.5;  // s
 constexpr double kFrameOffset = 0.005;  // m
 constexpr double kFrameTurn = 0.01;     // rad
 
+/// How far a body may be carried, standard deviations.
+constexpr double kAnywhere = 100;  // m
+constexpr double kAnyTurn = 3;     // rad
+
 template <class A, class B>
 bool same_tag(const A& a, const B& b) {
   return a.id == b.id && a.family == b.family;
@@ -229,6 +233,34 @@ bool LoopCloser::is_confirmed(const Return& now) const {
                               diagonal_covariance(kFrameOffset, kFrameTurn);
     return pose_chi_squared(now.T_map_tag, before.T_map_tag, expected) <= kChiSquared6;
   });
+}
+
+/// Whether there was an odometry gap since a visit that says where the tag is.
+bool LoopCloser::crossed_gap(const TagSighting& sighting) const {
+  const Visit* last = reference(sighting);
+  return last != nullptr && !gaps_.empty() && gaps_.back().path_length >= last->path_length;
+}
+
+std::optional<Pose> LoopCloser::pose_across_gap(const std::vector<TagSighting>& sightings,
+                                                const Pose& T_map_body, double path_length,
+                                                const Map& map) const {
+  std::vector<PlacedSighting> elsewhere;
+  for (const TagSighting& sighting : sightings) {
+    if (sighting.ambiguous || !crossed_gap(sighting)) continue;
+    if (is_in_place(sighting, T_map_body, path_length, map)) continue;
+    if (const auto tag = placed(sighting, map)) elsewhere.push_back(*tag);
+  }
+  return locate_by_tags(elsewhere, cameras_, settings_.loop.corner_sigma);
+}
+
+int LoopCloser::open_gap(const std::vector<TagSighting>& sightings, Map& map) {
+  for (const TagSighting& sighting : sightings) {
+    std::erase(rejected_, std::pair(sighting.family, sighting.id));
+  }
+  Gap& last = gaps_.back();
+  last.covariance = diagonal_covariance(kAnywhere, kAnyTurn);
+  map.keyframe(last.keyframe).link->covariance = last.covariance;
+  return last.keyframe;
 }
 
 void LoopCloser::reject(const TagSighting& sighting) {

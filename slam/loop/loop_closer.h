@@ -57,11 +57,23 @@ class LoopCloser {
   std::vector<RejectedTag> gate(FrameFeatures& frame, const Pose& T_map_body, double path_length,
                                 const Map& map);
 
-  /// Reports an odometry gap (a part of the path that no camera saw), and how uncertain the motion
-  /// in it is: tags may be that much farther from their place in the map from here on.
-  void cross_gap(double path_length, const Matrix6d& covariance) {
-    gaps_.push_back({path_length, covariance});
+  /// Reports an odometry gap (a part of the path that no camera saw) before `keyframe`, and how
+  /// uncertain the motion in it is: tags may be that much farther from their place in the map from
+  /// here on.
+  void cross_gap(double path_length, const Matrix6d& covariance, int keyframe) {
+    gaps_.push_back({path_length, covariance, keyframe});
   }
+
+  /// The body's pose by those of the sightings that lie farther from their tags' places in the map
+  /// than an odometry gap since they were seen last allows. The tag was moved, or the body was
+  /// carried in the gap. None where there are none of these.
+  std::optional<Pose> pose_across_gap(const std::vector<TagSighting>& sightings,
+                                      const Pose& T_map_body, double path_length,
+                                      const Map& map) const;
+
+  /// Takes the motion over the last gap to be unknown, and the sightings' tags to be where they
+  /// were. Returns the first keyframe after the gap.
+  int open_gap(const std::vector<TagSighting>& sightings, Map& map);
 
   /// Whether a tag of this frame was seen before, in a keyframe, and left since: a loop to close.
   bool sees_loop(const FrameFeatures& frame, double path_length) const;
@@ -90,6 +102,7 @@ class LoopCloser {
   struct Gap {
     double path_length = 0;  ///< m, the way driven until its end
     Matrix6d covariance = Matrix6d::Zero();
+    int keyframe = 0;  ///< the first one after it
   };
   /// A sighting that would close a loop.
   struct Return {
@@ -101,6 +114,7 @@ class LoopCloser {
   const RegisteredTag* registered(const TagSighting& sighting) const;
   const Visit* visit(const TagSighting& sighting) const;
   const Visit* reference(const TagSighting& sighting) const;
+  bool crossed_gap(const TagSighting& sighting) const;
   bool was_left(const TagSighting& sighting, Stamp stamp, double path_length) const;
   const TagSighting* loop_sighting(const FrameFeatures& frame, double path_length) const;
   void remember_visit(const TagSighting& sighting, Stamp stamp, double path_length,

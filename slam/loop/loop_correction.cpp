@@ -69,4 +69,13 @@ void spread_correction(Map& map, int first, int last, const Pose& corrected,
   }
 }
 
+void move_from(Map& map, int first, const Pose& T_new_old) {
+  for (Keyframe& keyframe : map.keyframes()) {
+    if (keyframe.id >= first) keyframe.T_map_body = T_new_old * keyframe.T_map_body;
+  }
+  for (Landmark& landmark : map.landmarks()) {
+    if (landmark.first_keyframe >= first) landmark.position = T_new_old * landmark.position;
+  }
+}
+
 }  // namespace vinebench::slam

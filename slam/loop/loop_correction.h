@@ -20,4 +20,7 @@ inline constexpr double kStepTurn = 2e-4;    // rad
 void spread_correction(Map& map, int first, int last, const Pose& corrected,
                        const Matrix6d& covariance);
 
+/// Moves `first`, all later keyframes and the landmarks that they made by `T_new_old`.
+void move_from(Map& map, int first, const Pose& T_new_old);
+
 }  // namespace vinebench::slam

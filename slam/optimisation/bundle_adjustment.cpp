@@ -73,7 +73,7 @@ class AdjustmentJob::Impl {
     for (const FactorSource* source : sources()) source->remove_outliers(map);
   }
 
-  CalibrationBelief calibration() { return calibration_->belief_now(problem_); }
+  CalibrationMarginal calibration() { return calibration_->marginal(problem_); }
 
  private:
   static std::unique_ptr<CalibrationUnknowns> unknown_calibration(
@@ -105,7 +105,7 @@ double AdjustmentJob::solve() {
   return impl_->solve();
 }
 
-CalibrationBelief AdjustmentJob::calibration() const {
+CalibrationMarginal AdjustmentJob::calibration() const {
   return impl_->calibration();
 }
 

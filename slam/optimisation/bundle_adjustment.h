@@ -41,7 +41,7 @@ class AdjustmentJob {
 
   /// What is known of the pairs' calibrations after solve(), where these are unknown
   /// (AdjustmentOptions::calibration): that belief and the factors' own information.
-  CalibrationBelief calibration() const;
+  CalibrationMarginal calibration() const;
 
  private:
   class Impl;

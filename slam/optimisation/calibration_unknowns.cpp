@@ -44,10 +44,10 @@ std::vector<PairCalibration> CalibrationUnknowns::found() const {
   return pairs;
 }
 
-CalibrationBelief CalibrationUnknowns::belief_now(ProblemBuilder& problem) const {
+CalibrationMarginal CalibrationUnknowns::marginal(ProblemBuilder& problem) const {
   // Of all cameras, then of all lenses; to_vector() has them pair by pair.
-  const Eigen::MatrixXd by_group = problem.marginal_information(
-      {ProblemBuilder::Group::kCameras, ProblemBuilder::Group::kLenses});
+  const ProblemBuilder::Marginal by_group =
+      problem.marginal({ProblemBuilder::Group::kCameras, ProblemBuilder::Group::kLenses});
   const auto pairs = static_cast<Eigen::Index>(cameras_.size());
   std::vector<Eigen::Index> source;
   for (Eigen::Index v = 0; v < pairs; ++v) {
@@ -56,9 +56,9 @@ CalibrationBelief CalibrationUnknowns::belief_now(ProblemBuilder& problem) const
       source.push_back(6 * pairs + kLensUnknowns * v + i);
     }
   }
-  CalibrationBelief belief{by_group(source, source), {}};
+  CalibrationBelief belief{by_group.information(source, source), {}};
   belief.information_vector = belief.information * to_vector(found());
-  return belief;
+  return {belief, by_group.of_last_pose(Eigen::all, source)};
 }
 
 }  // namespace vinebench::slam

@@ -28,7 +28,7 @@ class CalibrationUnknowns : public FactorSource {
   /// What the adjustment, once solved, says of them with all else unknown too: the belief
   /// beforehand and the factors' own information, which is the Schur complement of all other
   /// unknowns.
-  CalibrationBelief belief_now(ProblemBuilder& problem) const;
+  CalibrationMarginal marginal(ProblemBuilder& problem) const;
 
  private:
   std::vector<Pose> T_body_nominal_;

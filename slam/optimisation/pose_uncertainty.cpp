@@ -37,14 +37,33 @@ Matrix6d carry_covariance(const Matrix6d& of_a, const Pose& T_a_b) {
 
 void PoseUncertainty::start(const Matrix6d& covariance) {
   keyframe_ = covariance;
+  by_calibration_.resize(6, 0);
+  without_drift_ = 0;
 }
 
-void PoseUncertainty::keyframe(const Pose& T_last_now, const Matrix6d& information) {
+void PoseUncertainty::keyframe(const Pose& T_last_now, const Matrix6d& information,
+                               const Eigen::MatrixXd& drift) {
   keyframe_ = at(T_last_now, information);
+  if (by_calibration_.cols() != drift.cols()) by_calibration_.setZero(6, drift.cols());
+  by_calibration_ = carried_step(T_last_now) * by_calibration_ + drift;
+  if (drift.isZero()) {
+    ++without_drift_;
+  } else if (without_drift_ > 0) {
+    by_calibration_ += without_drift_ * drift;
+    without_drift_ = 0;
+  }
 }
 
 void PoseUncertainty::cross_gap(const Pose& T_last_now, const Matrix6d& covariance) {
   keyframe_ = carry_covariance(keyframe_, T_last_now) + covariance;
+  by_calibration_ = carried_step(T_last_now) * by_calibration_;
+}
+
+Matrix6d PoseUncertainty::of_calibration(const Pose& T_last_now,
+                                         const Eigen::MatrixXd& error) const {
+  if (by_calibration_.cols() != error.cols()) return Matrix6d::Zero();
+  const Eigen::MatrixXd now = carried_step(T_last_now) * by_calibration_;
+  return now * error * now.transpose();
 }
 
 Matrix6d PoseUncertainty::at(const Pose& T_last_now, const Matrix6d& information) const {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
+
 #include "core/geometry/pose.h"
 
 namespace vinebench::slam {
@@ -14,6 +16,9 @@ namespace vinebench::slam {
 /// they are not, and errors as larger than most are, for the sake of their tails: `kInflation`
 /// makes up for both. It was found on two clean drives (docs/benchmarks.md) and holds no truth of
 /// any other.
+///
+/// Errors of the cameras' calibration are the same all the way, and theirs add up in a line: kept
+/// is the step that each makes.
 class PoseUncertainty {
  public:
   static constexpr double kInflation = 0.5;
@@ -21,8 +26,10 @@ class PoseUncertainty {
   /// The map begins here, or a tag of known pose has just fixed it.
   void start(const Matrix6d& covariance);
 
-  /// A keyframe at T_last_now from the one before, held by that information.
-  void keyframe(const Pose& T_last_now, const Matrix6d& information);
+  /// A keyframe at T_last_now from the one before, held by that information, which each error of
+  /// the calibrations (a column) moves by `drift`. While that is zero it is not known, and taken to
+  /// have been what it is found to be.
+  void keyframe(const Pose& T_last_now, const Matrix6d& information, const Eigen::MatrixXd& drift);
 
   /// An odometry gap ends in a keyframe.
   void cross_gap(const Pose& T_last_now, const Matrix6d& covariance);
@@ -31,8 +38,13 @@ class PoseUncertainty {
   /// period of dead reckoning is to be added by the caller.
   Matrix6d at(const Pose& T_last_now, const Matrix6d& information) const;
 
+  /// What the calibrations' errors, of these second moments, add to that.
+  Matrix6d of_calibration(const Pose& T_last_now, const Eigen::MatrixXd& error) const;
+
  private:
   Matrix6d keyframe_ = Matrix6d::Zero();
+  Eigen::MatrixXd by_calibration_;  ///< the keyframe's step by each error; empty for none
+  int without_drift_ = 0;           ///< keyframes
 };
 
 /// The step of b that a step of a makes, where T_a_b does not change: as a matrix, the adjoint of

@@ -70,7 +70,7 @@ double ProblemBuilder::solve(ceres::Solver::Options options) {
   return summary.final_cost;
 }
 
-Eigen::MatrixXd ProblemBuilder::marginal_information(const std::vector<Group>& last_groups) {
+ProblemBuilder::Marginal ProblemBuilder::marginal(const std::vector<Group>& last_groups) {
   ceres::Problem::EvaluateOptions options;
   int kept = 0;
   for (const auto& [group, blocks] : ordering_.group_to_elements()) {
@@ -95,10 +95,17 @@ Eigen::MatrixXd ProblemBuilder::marginal_information(const std::vector<Group>& l
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower,
                               Eigen::NaturalOrdering<int>>
       factor(H);
-  const Eigen::MatrixXd L =
-      Eigen::MatrixXd(Eigen::SparseMatrix<double>(factor.matrixL()).bottomRightCorner(kept, kept));
+  const Eigen::SparseMatrix<double> whole(factor.matrixL());
+  const Eigen::MatrixXd L = Eigen::MatrixXd(whole.bottomRightCorner(kept, kept));
   const Eigen::VectorXd D = factor.vectorD().tail(kept);
-  return L * D.asDiagonal() * L.transpose();
+  Marginal marginal{L * D.asDiagonal() * L.transpose(), {}};
+  if (window_.moved.empty()) return marginal;
+  // With the factor's last rows (P 0; Q L) the pose's step x solves P^T x = -Q^T c.
+  const Eigen::Index before = whole.rows() - kept - 6;
+  const Eigen::Matrix<double, 6, 6> P = Eigen::MatrixXd(whole.block(before, before, 6, 6));
+  const Eigen::MatrixXd Q = Eigen::MatrixXd(whole.block(before + 6, before, kept, 6));
+  marginal.of_last_pose = -P.transpose().triangularView<Eigen::Upper>().solve(Q.transpose());
+  return marginal;
 }
 
 void ProblemBuilder::write_poses(Map& map) const {

@@ -44,10 +44,18 @@ class ProblemBuilder {
   /// Half the sum of the squared residuals in the end, under their losses.
   double solve(ceres::Solver::Options options);
 
+  /// What a part of the unknowns has to do with the others.
+  struct Marginal {
+    Eigen::MatrixXd information;  ///< of the part, once the others are eliminated
+    /// Step of the last moved keyframe's pose for each of the part's numbers that is 1 larger, all
+    /// others being as the factors then have them best: six rows.
+    Eigen::MatrixXd of_last_pose;
+  };
+
   /// What the factors, linearised where the blocks are, say of the last groups' unknowns with all
-  /// others unknown too: their information once the others are eliminated (Schur complement), in
-  /// the order of groups and blocks.
-  Eigen::MatrixXd marginal_information(const std::vector<Group>& last_groups);
+  /// others unknown too (Schur complement), in the order of groups and blocks. There must be none
+  /// between the poses and these.
+  Marginal marginal(const std::vector<Group>& last_groups);
 
   void write_poses(Map& map) const;
 

@@ -106,7 +106,7 @@ std::optional<Pose> Relocaliser::find(const Map& map, const EstimatorRig& rig,
                                       const FrameFeatures& frame) {
   const std::optional<Relocation> now = relocate(map, rig, frame, options_);
   const bool believed = now && agree(*now, frame.stamp);
-  before_ = believed ? std::nullopt : now;
+  before_ = now;
   stamp_ = frame.stamp;
   return believed ? std::optional(now->T_map_body) : std::nullopt;
 }

@@ -46,6 +46,9 @@ class Relocaliser {
  public:
   explicit Relocaliser(const RelocaliserOptions& options = {}) : options_(options) {}
 
+  /// Whether the last frame resembled a place, which the next one may confirm.
+  bool has_candidate() const { return before_.has_value(); }
+
   /// The body's pose in the map, or none (yet).
   std::optional<Pose> find(const Map& map, const EstimatorRig& rig, const FrameFeatures& frame);
 

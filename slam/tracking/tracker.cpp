@@ -80,6 +80,7 @@ void Tracker::start(const Pose& T_map_body, Stamp stamp, bool guessed) {
   guessed_ = guessed;
   stamp_ = stamp;
   velocity_.setZero();
+  last_landmarks_.clear();
   dead_reckoning_.reset();
 }
 

@@ -204,6 +204,117 @@ TEST(PipelineTest, RestartsByItsWheelsWhereNothingIsKnown) {
   EXPECT_NEAR(worst_error(pipeline.finish().trajectory, truth), 0.013, 0.006);
 }
 
+/// Largest distance of the estimate's positions from the truth of their frames, m.
+double worst_distance(const Trajectory& estimate, const std::vector<Pose>& truth) {
+  double worst = 0;
+  for (const StampedPose& at : estimate) {
+    const auto frame = static_cast<std::size_t>(std::lround(to_seconds(at.stamp) * 15));
+    worst = std::max(worst, (at.pose.translation - truth[frame].translation).norm());
+  }
+  return worst;
+}
+
+// With covered cameras and resting wheels carried back by 0.8 m, to where it was before.
+TEST(PipelineTest, ACarriedBodyKnowsThePlaceAgain) {
+  const SyntheticAisle aisle(0.5, 5, kLandmarks);
+  Pipeline pipeline(config(), aisle.rig, {});
+  std::vector<Pose> truth;
+  for (std::int64_t i = 0; i < 120; ++i) {
+    const bool dark = i >= 60 && i < 70;
+    truth.push_back(driving(i < 60 ? i : dark ? 60 : i - 50));
+    const auto frame = dark ? aisle.frame(i, truth.back(), {0, 1}) : aisle.frame(i, truth.back());
+    if (i > 0) frame->wheels = dark || i == 70 ? Pose{} : wheels(i < 60 ? i : i - 50, 0);
+    const Estimate estimate = pipeline.process(frame);
+    // Two frames in a row have to agree.
+    if (i >= 71) {
+      EXPECT_EQ(estimate.status, TrackingStatus::kTracking) << i;
+    }
+  }
+  const SlamSummary summary = pipeline.finish();
+  // What dead reckoning made of the dark frames and the one after them is withdrawn.
+  EXPECT_EQ(summary.trajectory.size(), 120u - 11u);
+  EXPECT_LT(worst_distance(summary.trajectory, truth), 0.01);  // as DriftsLittleWithNoise
+}
+
+/// What both frames see.
+std::shared_ptr<FrameFeatures> both(FrameFeatures a, const FrameFeatures& b, const StereoRig& rig) {
+  for (std::size_t v = 0; v < a.views.size(); ++v) {
+    Features& features = a.views[v].features;
+    const Features& more = b.views[v].features;
+    features.keypoints.insert(features.keypoints.end(), more.keypoints.begin(),
+                              more.keypoints.end());
+    features.descriptors.insert(features.descriptors.end(), more.descriptors.begin(),
+                                more.descriptors.end());
+    a.views[v].stereo.insert(a.views[v].stereo.end(), b.views[v].stereo.begin(),
+                             b.views[v].stereo.end());
+    a.views[v].grid =
+        FeatureGrid(features.keypoints, rig.pairs[v].lens.width, rig.pairs[v].lens.height);
+  }
+  return std::make_shared<FrameFeatures>(std::move(a));
+}
+
+/// A drive from a tag on for 30 frames; with covered cameras and resting wheels carried 2 m ahead,
+/// where nothing is known; and back to the tag, where the new things are still in view.
+class CarriedTest : public testing::Test {
+ protected:
+  /// The tag is at `later` in the end; there, what was seen first is in view if `aisle_in_view`.
+  SlamSummary drive(const Pose& later, bool aisle_in_view) {
+    Pipeline pipeline(config(), aisle_.rig, {});
+    for (std::int64_t i = 0; i < 100; ++i) {
+      const bool dark = i >= 30 && i < 40;
+      const double x = i < 40
+                           ? 0.02 * static_cast<double>(std::min<std::int64_t>(i, 29))
+                           : 2.58 - 0.04 * static_cast<double>(std::min<std::int64_t>(i - 40, 62));
+      truth_.push_back({Eigen::Quaterniond::Identity(), {x, 0, 0}});
+      const Pose& pose = truth_.back();
+      std::shared_ptr<FrameFeatures> frame = dark     ? aisle_.frame(i, pose, {0, 1})
+                                             : i < 30 ? aisle_.frame(i, pose)
+                                                      : elsewhere_.frame(i, pose);
+      const bool sees_tag = i < 3 || i >= 95;
+      if (sees_tag) {
+        const Pose& tag = i < 3 ? T_world_tag_ : later;
+        const auto there = aisle_.frame_with_tag(i, pose, tag);
+        if (i >= 95 && aisle_in_view) frame = both(*frame, *there, aisle_.rig);
+        if (i < 3) frame = there;
+        frame->tags = there->tags;
+      }
+      if (i > 0) {
+        frame->wheels = Pose{};
+        if (i < 30 || i > 40) frame->wheels->translation.x() = i < 30 ? 0.02 : -0.04;
+      }
+      const Estimate estimate = pipeline.process(frame);
+      loops_ += estimate.loop_closure.has_value();
+      rejected_ += estimate.rejected_tags.size();
+    }
+    return pipeline.finish();
+  }
+
+  const SyntheticAisle aisle_{0.5, 5, kLandmarks};
+  const SyntheticAisle elsewhere_{0.5, 15, kLandmarks};
+  const Pose T_world_tag_ =
+      aisle_.rig.cameras[4].T_body_cam * Pose{exp_so3({0.1, 0.2, 0}), {0.02, 0.01, 1.0}};
+  std::vector<Pose> truth_;
+  int loops_ = 0;
+  std::size_t rejected_ = 0;
+};
+
+TEST_F(CarriedTest, ATagThatItsPlaceBearsOutIsBelieved) {
+  const SlamSummary summary = drive(T_world_tag_, true);
+  EXPECT_EQ(loops_, 1);
+  EXPECT_EQ(rejected_, 0u);
+  // 13 frames without a pose: ten dark ones, and those until the map is restarted, but the third.
+  EXPECT_EQ(summary.trajectory.size(), 100u - 12u);
+  // As DriftsLittleWithNoise, over the way back to the tag.
+  EXPECT_LT(worst_distance(summary.trajectory, truth_), 0.01);
+}
+
+// The tag came along, and stands 2 m from its place; what is around it is not what was there.
+TEST_F(CarriedTest, ATagThatItsPlaceDoesNotBearOutWasMoved) {
+  drive(T_world_tag_, false);
+  EXPECT_EQ(loops_, 0);
+  EXPECT_GT(rejected_, 0u);
+}
+
 TEST(PipelineTest, SaysLostWhenItKnowsTooLittle) {
   SlamConfig uncertain = config();
   uncertain.dead_reckoning.max_sigma = 0.01;  // m, and an acceleration of 0.5 m/s^2: 0.2 s

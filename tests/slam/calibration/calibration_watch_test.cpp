@@ -78,6 +78,35 @@ TEST_F(CalibrationWatchTest, FindsTheOffsetOfAPairsDisparities) {
   EXPECT_EQ(back().T_nominal_camera.translation, Eigen::Vector3d(0, 0, 0));
 }
 
+// Before anything was seen the file is as likely right as wrong: half of the prior's variance, 1 px
+// squared.
+TEST_F(CalibrationWatchTest, AtFirstTheFileIsRightOrWrong) {
+  EXPECT_NEAR(watch_.error(made_.rig)(18, 18), 0.5, 1e-9);
+}
+
+// A right one is borne out: what five dozens leave of the offset's error is less than a hundredth
+// of the square of a deviation of 0.05 px.
+TEST_F(CalibrationWatchTest, ARightFileIsBorneOut) {
+  drive(60);
+  EXPECT_LT(watch_.error(made_.rig)(18, 18), 0.01 * 0.05 * 0.05);
+}
+
+// What the watch says of its own error: that of the offset is within four standard deviations, and
+// less than the prior's 1 px.
+TEST_F(CalibrationWatchTest, KnowsItsError) {
+  aisle_.calibration[1].disparity_offset = -0.5;
+  drive(11);
+  EXPECT_EQ(watch_.drift().norm(), 0);
+  drive(25);
+  ASSERT_GE(changes_, 1);
+  const Eigen::MatrixXd error = watch_.error(made_.rig);
+  const double sigma = std::sqrt(error(18, 18));
+  EXPECT_LT(sigma, 0.1);
+  EXPECT_LT(std::abs(back().disparity_offset + 0.5), 4 * sigma);
+  // An offset makes what is seen, and the way along it, longer or shorter.
+  EXPECT_GT(std::abs(watch_.drift()(0, 18)), 1e-5);
+}
+
 TEST_F(CalibrationWatchTest, FindsEyesOfDifferentFocalLengths) {
   aisle_.calibration[0].disparity_slope = 0.004;
   drive(36);

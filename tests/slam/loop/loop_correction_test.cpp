@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 namespace vinebench::slam {
 namespace {
 
@@ -84,6 +86,23 @@ TEST(SpreadCorrectionTest, AnOdometryGapTakesIt) {
   EXPECT_NEAR(place(map, 1).x(), 1, 1e-4);
   EXPECT_NEAR(place(map, 2).x(), 2.2, 1e-4);
   EXPECT_NEAR(place(map, 3).x(), 4.2, 1e-4);
+}
+
+// Turned by 90 degrees about the origin and 1 m aside: (2, 0) comes to (0, 2) + (1, 0).
+TEST(MoveFromTest, MovesAKeyframeAllLaterOnesAndTheirLandmarks) {
+  Map map = straight_map({0, 1, 2, 4});
+  const Eigen::Vector3d before = map.landmark(1).position;
+  const Pose turn{
+      Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ())),
+      {1, 0, 0}};
+  const Eigen::Vector3d of_third = turn * map.landmark(3).position;
+  move_from(map, 2, turn);
+  EXPECT_EQ(place(map, 1), Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(map.landmark(1).position, before);
+  EXPECT_LT((place(map, 2) - Eigen::Vector3d(1, 2, 0)).norm(), 1e-12);
+  EXPECT_LT((place(map, 3) - Eigen::Vector3d(1, 4, 0)).norm(), 1e-12);
+  EXPECT_NEAR(yaw_of(map.keyframe(3).T_map_body.rotation), std::numbers::pi / 2, 1e-12);
+  EXPECT_EQ(map.landmark(3).position, of_third);
 }
 
 }  // namespace

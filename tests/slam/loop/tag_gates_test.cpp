@@ -119,11 +119,36 @@ TEST_F(TagJudgementTest, AfterAnOdometryGapMoreIsAllowed) {
   Matrix6d covariance = Matrix6d::Zero();
   covariance.topLeftCorner<3, 3>().diagonal().setConstant(0.04 * 0.04);      // m^2
   covariance.bottomRightCorner<3, 3>().diagonal().setConstant(0.02 * 0.02);  // rad^2
-  loop_.cross_gap(3, covariance);
+  loop_.cross_gap(3, covariance, 1);
   // In variances: 3 x 0.04^2 and 3 x 0.02^2 x 2^2 m^2 besides (0.15 m / 4.74)^2, together 0.104 m
   // squared: 4.74 of them are 0.49 m.
   EXPECT_TRUE(accepted(0.25));
   EXPECT_FALSE(accepted(0.6));
+}
+
+// The tag is 0.6 m from its place: either it was moved, or the body was carried in the gap.
+TEST_F(TagJudgementTest, ATagElsewhereAfterAGapTellsWhereTheBodyWouldBe) {
+  see_first();
+  const std::vector<TagSighting> elsewhere = {shifted(3, 0.6)};
+  EXPECT_FALSE(loop_.pose_across_gap(elsewhere, body_, 5, map_));  // no gap
+  FrameFeatures second;
+  map_.add_keyframe(std::make_shared<FrameFeatures>(second), body_, {});
+  map_.keyframe(1).link = OdometryLink{0, {}, 1e-6 * Matrix6d::Identity()};
+  loop_.cross_gap(3, 1e-6 * Matrix6d::Identity(), 1);
+  EXPECT_FALSE(loop_.pose_across_gap({shifted(3, 0.02)}, body_, 5, map_));  // in its place
+  const auto carried = loop_.pose_across_gap(elsewhere, body_, 5, map_);
+  ASSERT_TRUE(carried);
+  // The body's axes are the map's where it saw the tag first, so it is as far behind.
+  EXPECT_LT(distance(*carried, body_ * Pose{{1, 0, 0, 0}, {-0.6, 0, 0}}), 1e-6);
+
+  // Once that is believed, the tag is in place within what the gap leaves open.
+  FrameFeatures seen = frame(100, elsewhere);
+  EXPECT_EQ(loop_.gate(seen, body_, 5, map_).size(), 1u);
+  EXPECT_EQ(loop_.open_gap(elsewhere, map_), 1);
+  EXPECT_GT(map_.keyframe(1).link->covariance(0, 0), 100);
+  seen = frame(101, elsewhere);
+  EXPECT_TRUE(loop_.gate(seen, *carried, 5, map_).empty());
+  EXPECT_TRUE(loop_.map_pose(elsewhere, map_));  // and it tells the place of a lost body again
 }
 
 TEST_F(TagJudgementTest, ATagTurnedOverIsRefused) {

@@ -37,8 +37,8 @@ TEST(PoseUncertaintyTest, GrowsFromKeyframeToKeyframe) {
   const Matrix6d information = 1e6 * Matrix6d::Identity();
   const Matrix6d one = PoseUncertainty::kInflation * 1e-6 * Matrix6d::Identity();
   EXPECT_LT((uncertainty.at({}, information) - one).norm(), 1e-18);
-  uncertainty.keyframe(sample_step(), information);
-  uncertainty.keyframe({}, information);
+  uncertainty.keyframe(sample_step(), information, Eigen::MatrixXd::Zero(6, 0));
+  uncertainty.keyframe({}, information, Eigen::MatrixXd::Zero(6, 0));
   EXPECT_LT((uncertainty.at({}, Matrix6d::Zero()) - 2 * one).norm(), 1e-18);
   // A heading's error of variance v gives a point 2 m ahead the lateral variance 4 v.
   const Matrix6d ahead =
@@ -46,6 +46,45 @@ TEST(PoseUncertaintyTest, GrowsFromKeyframeToKeyframe) {
   EXPECT_NEAR(ahead(1, 1), (1 + 4) * 2 * one(0, 0), 1e-18);
   uncertainty.start(one);
   EXPECT_LT((uncertainty.at({}, Matrix6d::Zero()) - one).norm(), 1e-18);
+}
+
+// Of two errors one makes each step 1 mm longer, one turns it by 2 mrad to the left: after three
+// steps of 1 m the first adds up to 3 mm ahead; the second turns by 6 mrad and moves to the left by
+// 2 mm for the step after the first turn and 4 mm for the one after the second.
+TEST(PoseUncertaintyTest, ErrorsOfTheCalibrationAddUpInALine) {
+  PoseUncertainty uncertainty;
+  uncertainty.start(Matrix6d::Zero());
+  Eigen::MatrixXd drift = Eigen::MatrixXd::Zero(6, 2);
+  drift(0, 0) = 0.001;
+  drift(5, 1) = 0.002;
+  const Pose ahead{Eigen::Quaterniond::Identity(), {1, 0, 0}};
+  for (int i = 0; i < 3; ++i) uncertainty.keyframe(ahead, 1e9 * Matrix6d::Identity(), drift);
+  const Matrix6d none = uncertainty.of_calibration({}, Eigen::MatrixXd::Zero(2, 2));
+  EXPECT_EQ(none.norm(), 0);
+  const Matrix6d added = uncertainty.of_calibration({}, Eigen::MatrixXd::Identity(2, 2));
+  EXPECT_NEAR(added(0, 0), 0.003 * 0.003, 1e-15);
+  EXPECT_NEAR(added(5, 5), 0.006 * 0.006, 1e-15);
+  EXPECT_NEAR(added(1, 1), 0.006 * 0.006, 1e-15);
+  EXPECT_NEAR(added(1, 5), 0.006 * 0.006, 1e-15);
+  // A frame 2 m further on is moved by 2 m times 6 mrad more.
+  const Pose further{Eigen::Quaterniond::Identity(), {2, 0, 0}};
+  EXPECT_NEAR(uncertainty.of_calibration(further, Eigen::MatrixXd::Identity(2, 2))(1, 1),
+              0.018 * 0.018, 1e-15);
+  // A tag that fixes the pose takes all of it away.
+  uncertainty.start(Matrix6d::Zero());
+  EXPECT_EQ(uncertainty.of_calibration({}, Eigen::MatrixXd::Identity(2, 2)).norm(), 0);
+}
+
+// Three keyframes before it is known that each is moved by 1 mm, and one after.
+TEST(PoseUncertaintyTest, ADriftThatIsFoundLateWasThereBefore) {
+  PoseUncertainty uncertainty;
+  uncertainty.start(Matrix6d::Zero());
+  Eigen::MatrixXd drift = Eigen::MatrixXd::Zero(6, 1);
+  for (int i = 0; i < 3; ++i) uncertainty.keyframe({}, 1e9 * Matrix6d::Identity(), drift);
+  drift(0, 0) = 0.001;
+  uncertainty.keyframe({}, 1e9 * Matrix6d::Identity(), drift);
+  EXPECT_NEAR(uncertainty.of_calibration({}, Eigen::MatrixXd::Identity(1, 1))(0, 0), 0.004 * 0.004,
+              1e-15);
 }
 
 }  // namespace

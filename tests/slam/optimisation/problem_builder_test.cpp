@@ -166,9 +166,50 @@ TEST_F(ProblemBuilderTest, InformationOfTheLastUnknownsIsTheirSchurComplement) {
   problem.add_factor(line, nullptr, {&landmark, &offset});
   problem.add_factor(slope, nullptr, {&landmark, &offset});
   const Eigen::MatrixXd information =
-      problem.marginal_information({ProblemBuilder::Group::kLenses});
+      problem.marginal({ProblemBuilder::Group::kLenses}).information;
   ASSERT_EQ(information.size(), 1);
   EXPECT_NEAR(information(0, 0), 11, 1e-7);  // the damping of unknowns that nothing holds: 1e-9
+}
+
+/// The residual p - offset a of a pose's position.
+class Tied : public ceres::SizedCostFunction<3, 7, 1> {
+ public:
+  explicit Tied(const Eigen::Vector3d& a) : a_(a) {}
+  bool Evaluate(double const* const* x, double* residual, double** jacobian) const override {
+    const Pose pose = from_block(x[0]);
+    Eigen::Map<Eigen::Vector3d>{residual} = pose.translation - x[1][0] * a_;
+    if (jacobian == nullptr) return true;
+    if (jacobian[0] != nullptr) {
+      Eigen::Map<Eigen::Matrix<double, 3, 7, Eigen::RowMajor>> by_pose(jacobian[0]);
+      by_pose.setZero();
+      by_pose.leftCols<3>() = pose.rotation.toRotationMatrix();
+    }
+    if (jacobian[1] != nullptr) Eigen::Map<Eigen::Vector3d>{jacobian[1]} = -a_;
+    return true;
+  }
+
+ private:
+  Eigen::Vector3d a_;
+};
+
+// An offset of 1 takes the pose by (3, 0, 1) along with it; steps are in the body's own axes. Of
+// the offset itself, only its own wish is left: 1.
+TEST_F(ProblemBuilderTest, TheLastPoseFollowsTheLastUnknowns) {
+  const Eigen::Vector3d a(3, 0, 1);
+  Tied tied(a);
+  Wish wish(1);
+  double offset = 0;
+  ProblemBuilder problem(map_, window_);
+  problem.add_block(&offset, 1, ProblemBuilder::Group::kLenses);
+  problem.add_factor(tied, nullptr, {problem.pose_of(window_.moved.back()), &offset});
+  problem.add_factor(wish, nullptr, {&offset});
+  const ProblemBuilder::Marginal marginal = problem.marginal({ProblemBuilder::Group::kLenses});
+  EXPECT_NEAR(marginal.information(0, 0), 1, 1e-7);  // damping, as above
+  ASSERT_EQ(marginal.of_last_pose.rows(), 6);
+  const Pose& last = map_.keyframe(window_.moved.back()).T_map_body;
+  const Eigen::Vector3d expected = last.rotation.conjugate() * a;
+  EXPECT_LT((marginal.of_last_pose.col(0).head<3>() - expected).norm(), 1e-7);
+  EXPECT_EQ(marginal.of_last_pose.col(0).tail<3>().norm(), 0);
 }
 
 TEST_F(ProblemBuilderTest, OnlyMovedKeyframesMoveAndAreWrittenBack) {
