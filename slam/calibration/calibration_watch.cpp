@@ -5,7 +5,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "slam/optimisation/pose_uncertainty.h"
@@ -39,9 +38,8 @@ constexpr double kExact = 1e-3;
 /// differ in looks like a calibration: on a real drive like 0.3 px that the truth does not have.
 constexpr double kLeastOfOnePair = 0.9;  // px
 
-/// Quantiles of the normal distribution: what happens by chance once in a hundred, a thousand and
-/// ten thousand looks.
-constexpr double kHundredth = 2.33;
+/// Quantiles of the normal distribution: what happens by chance once in a thousand and in ten
+/// thousand looks.
 constexpr double kThousandth = 3.09;
 constexpr double kTenThousandth = 3.72;
 
@@ -108,77 +106,11 @@ double freedom_of(const CalibrationBelief& part, const CalibrationBelief& prior)
   return (part + prior).information.ldlt().solve(part.information).trace();
 }
 
-/// Numbers that differ from the rig file together.
-using Cause = std::vector<Eigen::Index>;
-
-/// What may be wrong with a rig of so many unknowns. Of places, directions, times and baselines a
-/// drive shows by how much the pairs differ from each other, seldom which of them it is: they are
-/// wrong for all pairs or for none.
-std::vector<Cause> possible_causes(Eigen::Index unknowns) {
-  const auto of_all_pairs = [unknowns](Eigen::Index first, Eigen::Index count) {
-    Cause cause;
-    for (Eigen::Index pair = 0; pair < unknowns; pair += kPairUnknowns) {
-      for (Eigen::Index i = first; i < first + count; ++i) cause.push_back(pair + i);
-    }
-    return cause;
-  };
-  std::vector<Cause> causes{of_all_pairs(0, 3), of_all_pairs(3, 3), of_all_pairs(9, 1),
-                            of_all_pairs(10, 1)};
-  for (Eigen::Index pair = 0; pair < unknowns; pair += kPairUnknowns) {
-    for (const Eigen::Index number : {6, 7, 8, 11}) causes.push_back({pair + number});
-  }
-  return causes;
-}
-
-/// The mean of a belief where these numbers alone differ from the rig file.
-Eigen::VectorXd mean_of(const CalibrationBelief& belief, const std::vector<Eigen::Index>& free) {
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(belief.information_vector.size());
-  if (free.empty()) return mean;
-  const Eigen::MatrixXd information = belief.information(free, free);
-  const Eigen::VectorXd vector = belief.information_vector(free);
-  mean(free) = information.ldlt().solve(vector).eval();
-  return mean;
-}
-
 /// How much less likely a calibration is than the belief's mean: the difference of their
 /// chi-squares.
 double unlikeliness(const CalibrationBelief& belief, const Eigen::VectorXd& calibration) {
   const Eigen::VectorXd difference = calibration - belief.mean();
   return difference.dot(belief.information * difference);
-}
-
-std::vector<Eigen::Index> numbers_of(const std::vector<Cause>& causes) {
-  std::vector<Eigen::Index> numbers;
-  for (const Cause& cause : causes) numbers.insert(numbers.end(), cause.begin(), cause.end());
-  return numbers;
-}
-
-/// The likeliest calibration after the rig file's, with as few causes as explain it: one after the
-/// other goes that is missed least, while chance alone explains what is missed.
-Eigen::VectorXd simplest(const CalibrationBelief& belief) {
-  std::vector<Cause> causes = possible_causes(belief.information.rows());
-  Eigen::VectorXd found = mean_of(belief, numbers_of(causes));
-  while (!causes.empty()) {
-    const double now = unlikeliness(belief, found);
-    double least = std::numeric_limits<double>::infinity();
-    std::size_t dispensable = 0;
-    Eigen::VectorXd without;
-    for (std::size_t c = 0; c < causes.size(); ++c) {
-      std::vector<Cause> others = causes;
-      others.erase(others.begin() + static_cast<std::ptrdiff_t>(c));
-      const Eigen::VectorXd mean = mean_of(belief, numbers_of(others));
-      const double missed = (unlikeliness(belief, mean) - now) /
-                            chi_squared_at(kHundredth, static_cast<double>(causes[c].size()));
-      if (missed >= least) continue;
-      least = missed;
-      dispensable = c;
-      without = mean;
-    }
-    if (least > 1) break;
-    causes.erase(causes.begin() + static_cast<std::ptrdiff_t>(dispensable));
-    found = without;
-  }
-  return found;
 }
 
 }  // namespace
@@ -187,6 +119,7 @@ CalibrationWatch::CalibrationWatch(const CalibrationConfig& accuracy, double dis
                                    const EstimatorRig& rig)
     : prior_(belief_of(accuracy, disparity_sigma, rig)),
       parts_(CalibrationBelief::nothing(rig.rig.pairs.size())),
+      average_(average(prior_, prior_)),
       drift_(Eigen::MatrixXd::Zero(6, prior_.information.cols())) {}
 
 bool CalibrationWatch::due(const Map& map) const {
@@ -202,8 +135,9 @@ std::optional<std::vector<PairCalibration>> CalibrationWatch::look(
   if (of_last_pose.allFinite()) drift_ = of_last_pose / static_cast<double>(kPart - 1);
   add(part);
   const CalibrationBelief now = known();
+  average_ = average(now, prior_);
   if (rig.calibration.size() == 1) return look_at_one_pair(now, rig);
-  const Eigen::VectorXd better = simplest(now);
+  const Eigen::VectorXd& better = average_.mean;
   const double gain = unlikeliness(now, to_vector(rig.calibration)) - unlikeliness(now, better);
   if (gain < chi_squared_at(kThousandth, static_cast<double>(better.size()))) return std::nullopt;
   replaced_ = true;
@@ -213,7 +147,9 @@ std::optional<std::vector<PairCalibration>> CalibrationWatch::look(
 std::optional<std::vector<PairCalibration>> CalibrationWatch::look_at_one_pair(
     const CalibrationBelief& now, const EstimatorRig& rig) {
   if (replaced_) return std::nullopt;
-  const Eigen::VectorXd better = mean_of(now, {kDisparityOffset});
+  Eigen::VectorXd better = Eigen::VectorXd::Zero(now.information_vector.size());
+  better[kDisparityOffset] = now.information_vector[kDisparityOffset] /
+                             now.information(kDisparityOffset, kDisparityOffset);
   const double gain = unlikeliness(now, to_vector(rig.calibration)) - unlikeliness(now, better);
   const double change = better[kDisparityOffset] - rig.calibration.front().disparity_offset;
   if (std::abs(change) < kLeastOfOnePair || gain < chi_squared_at(kThousandth, 1)) {
@@ -225,7 +161,7 @@ std::optional<std::vector<PairCalibration>> CalibrationWatch::look_at_one_pair(
 
 std::optional<std::vector<PairCalibration>> CalibrationWatch::latest() const {
   if (!replaced_ || prior_.information.rows() == kPairUnknowns) return std::nullopt;
-  return from_vector(simplest(known()));
+  return from_vector(average_.mean);
 }
 
 CalibrationMarginal CalibrationWatch::measure(const Map& map, const EstimatorRig& rig,
@@ -274,21 +210,8 @@ CalibrationBelief CalibrationWatch::known() const {
 }
 
 Eigen::MatrixXd CalibrationWatch::error(const EstimatorRig& rig) const {
-  const CalibrationBelief now = known();
-  const Eigen::VectorXd missed = now.mean() - to_vector(rig.calibration);
-  const double probability = replaced_ ? 1 : file_is_wrong(now);
-  return probability * (now.covariance() + missed * missed.transpose());
-}
-
-/// By how much better a rig that is off by anything within the file's accuracy explains what was
-/// seen than one that is as the file says (Bayes factor of two Gaussians), as a probability.
-double CalibrationWatch::file_is_wrong(const CalibrationBelief& now) const {
-  const auto log_determinant = [](const Eigen::MatrixXd& information) {
-    return information.ldlt().vectorD().array().log().sum();
-  };
-  const double explained = now.information_vector.dot(now.mean());
-  const double vagueness = log_determinant(now.information) - log_determinant(prior_.information);
-  return 1 / (1 + std::exp(-0.5 * (explained - vagueness)));
+  const Eigen::VectorXd missed = average_.mean - to_vector(rig.calibration);
+  return average_.covariance + missed * missed.transpose();
 }
 
 }  // namespace vinebench::slam

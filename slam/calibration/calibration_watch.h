@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "slam/calibration/calibration_average.h"
 #include "slam/calibration/calibration_config.h"
 #include "slam/optimisation/bundle_adjustment.h"
 
@@ -49,9 +50,8 @@ class CalibrationWatch {
   /// What is known of the calibrations now.
   CalibrationBelief known() const;
 
-  /// Second moments of the error that the rig's calibrations have now, as far as is known: of
-  /// to_vector(). Of the rig file's own, that they have with the probability that it is wrong at
-  /// all, where every second one is.
+  /// Second moments of the error that the rig's calibrations have now, as far as is known
+  /// (CalibrationAverage): of to_vector().
   Eigen::MatrixXd error(const EstimatorRig& rig) const;
 
   /// By how much such errors move the body from one keyframe to the next, as the last look had it:
@@ -65,11 +65,11 @@ class CalibrationWatch {
                                                                const EstimatorRig& rig);
   void add(const CalibrationBelief& part);
   double spread() const;
-  double file_is_wrong(const CalibrationBelief& now) const;
 
   CalibrationBelief prior_;
   CalibrationBelief parts_;                    ///< sum of what the dozens say
   std::optional<CalibrationBelief> stranger_;  ///< the last one, if it contradicts the others
+  CalibrationAverage average_;                 ///< of what is known
   Eigen::MatrixXd drift_;
   double chi_squared_ = 0;  ///< of the dozens against those before
   double freedom_ = 0;      ///< numbers that these chi-squares are of

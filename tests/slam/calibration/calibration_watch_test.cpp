@@ -68,20 +68,21 @@ TEST_F(CalibrationWatchTest, ARightCalibrationStays) {
 
 // In each of these, what is found is a sum over some thousand pixels of 0.3 px: the bounds are five
 // standard deviations of what the watch itself says, which were 0.02 px, 0.02 %, 0.2 mm, 0.01
-// degrees, 0.3 ms and 1 ms or less. What is right by itself stays exactly.
+// degrees, 0.3 ms and 1 ms or less. What is right by itself stays, but for the few per cent of
+// probability that is left to its being wrong: within a tenth of these bounds.
 TEST_F(CalibrationWatchTest, FindsTheOffsetOfAPairsDisparities) {
   aisle_.calibration[1].disparity_offset = -0.5;
   drive(36);
   EXPECT_GE(changes_, 1);
   EXPECT_NEAR(back().disparity_offset, -0.5, 0.1);
-  EXPECT_EQ(front().disparity_offset, 0);
-  EXPECT_EQ(back().T_nominal_camera.translation, Eigen::Vector3d(0, 0, 0));
+  EXPECT_NEAR(front().disparity_offset, 0, 0.01);
+  EXPECT_LT(back().T_nominal_camera.translation.norm(), 1e-4);
 }
 
-// Before anything was seen the file is as likely right as wrong: half of the prior's variance, 1 px
-// squared.
+// Before anything was seen the file is as likely right as wrong, and a wrong one's offset likewise,
+// of 4095 sets of causes in 2048: of the prior's variance, 1 px squared.
 TEST_F(CalibrationWatchTest, AtFirstTheFileIsRightOrWrong) {
-  EXPECT_NEAR(watch_.error(made_.rig)(18, 18), 0.5, 1e-9);
+  EXPECT_NEAR(watch_.error(made_.rig)(18, 18), 0.5 * 2048 / 4095, 1e-9);
 }
 
 // A right one is borne out: what five dozens leave of the offset's error is less than a hundredth
@@ -111,7 +112,7 @@ TEST_F(CalibrationWatchTest, FindsEyesOfDifferentFocalLengths) {
   aisle_.calibration[0].disparity_slope = 0.004;
   drive(36);
   EXPECT_NEAR(front().disparity_slope, 0.004, 0.001);
-  EXPECT_EQ(back().disparity_slope, 0);
+  EXPECT_NEAR(back().disparity_slope, 0, 1e-4);
 }
 
 TEST_F(CalibrationWatchTest, FindsAFocalLength) {
