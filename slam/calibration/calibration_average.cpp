@@ -27,9 +27,11 @@ std::vector<Cause> possible_causes(Eigen::Index unknowns) {
     }
     return cause;
   };
-  std::vector<Cause> causes{of_all_pairs(0, 3), of_all_pairs(3, 3), of_all_pairs(9, 1),
-                            of_all_pairs(10, 1)};
-  for (const Eigen::Index number : {6, 7, 8, 11}) {
+  std::vector<Cause> causes{
+      of_all_pairs(PairNumber::kPlace, 3), of_all_pairs(PairNumber::kDirection, 3),
+      of_all_pairs(PairNumber::kBaseline, 1), of_all_pairs(PairNumber::kTime, 1)};
+  for (const Eigen::Index number : {PairNumber::kDisparityOffset, PairNumber::kDisparitySlope,
+                                    PairNumber::kFocal, PairNumber::kReadout}) {
     if (unknowns > kMostPairsApart * kPairUnknowns) {
       causes.push_back(of_all_pairs(number, 1));
       continue;

@@ -29,8 +29,6 @@ constexpr double kHeldTogether = 1e4;
 /// Numbers that covariances are trusted for beforehand, to estimate how far they are right.
 constexpr double kTrustedFreedom = 12;
 
-constexpr Eigen::Index kDisparityOffset = 6;
-
 /// Share of the accuracy to which numbers are held that are not to be estimated.
 constexpr double kExact = 1e-3;
 
@@ -72,7 +70,7 @@ CalibrationBelief belief_of(const CalibrationConfig& accuracy, double disparity_
       accuracy.disparity_slope, accuracy.focal, accuracy.baseline, accuracy.time, accuracy.readout;
   if (rig.rig.pairs.size() == 1) {
     sigma *= kExact;
-    sigma[kDisparityOffset] = disparity_sigma;
+    sigma[PairNumber::kDisparityOffset] = disparity_sigma;
   }
   CalibrationBelief belief = CalibrationBelief::nothing(rig.rig.pairs.size());
   belief.information.diagonal() = sigma.cwiseAbs2().cwiseInverse().replicate(
@@ -148,10 +146,12 @@ std::optional<std::vector<PairCalibration>> CalibrationWatch::look_at_one_pair(
     const CalibrationBelief& now, const EstimatorRig& rig) {
   if (replaced_) return std::nullopt;
   Eigen::VectorXd better = Eigen::VectorXd::Zero(now.information_vector.size());
-  better[kDisparityOffset] = now.information_vector[kDisparityOffset] /
-                             now.information(kDisparityOffset, kDisparityOffset);
+  better[PairNumber::kDisparityOffset] =
+      now.information_vector[PairNumber::kDisparityOffset] /
+      now.information(PairNumber::kDisparityOffset, PairNumber::kDisparityOffset);
   const double gain = unlikeliness(now, to_vector(rig.calibration)) - unlikeliness(now, better);
-  const double change = better[kDisparityOffset] - rig.calibration.front().disparity_offset;
+  const double change =
+      better[PairNumber::kDisparityOffset] - rig.calibration.front().disparity_offset;
   if (std::abs(change) < kLeastOfOnePair || gain < chi_squared_at(kThousandth, 1)) {
     return std::nullopt;
   }

@@ -14,6 +14,20 @@ namespace vinebench::slam {
 inline constexpr int kPairUnknowns = 12;
 inline constexpr int kLensUnknowns = 6;
 
+/// Where each of them begins among the pair's.
+struct PairNumber {
+  enum : Eigen::Index {
+    kPlace = 0,
+    kDirection = 3,
+    kDisparityOffset = 6,
+    kDisparitySlope,
+    kFocal,
+    kBaseline,
+    kTime,
+    kReadout
+  };
+};
+
 /// The calibrations of all pairs as one vector and back; kPairUnknowns numbers each.
 Eigen::VectorXd to_vector(const std::vector<PairCalibration>& pairs);
 std::vector<PairCalibration> from_vector(const Eigen::VectorXd& unknowns);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/optimisation/calibration_unknowns.h"
 
+#include <algorithm>
+
 namespace vinebench::slam {
 namespace {
 
@@ -16,10 +18,10 @@ std::vector<Pose> nominal_cameras(const EstimatorRig& rig) {
 CalibrationUnknowns::CalibrationUnknowns(const EstimatorRig& rig, const CalibrationBelief& belief)
     : T_body_nominal_(nominal_cameras(rig)), factor_(T_body_nominal_, belief) {
   for (std::size_t v = 0; v < rig.calibration.size(); ++v) {
-    const PairCalibration& pair = rig.calibration[v];
     cameras_.push_back(to_block(rig.T_body_cams[v]));
-    lenses_.push_back({pair.disparity_offset, pair.disparity_slope, pair.focal, pair.baseline,
-                       pair.time, pair.readout});
+    const Eigen::VectorXd numbers = to_vector({rig.calibration[v]});
+    Lens& lens = lenses_.emplace_back();
+    std::copy_n(numbers.data() + PairNumber::kDisparityOffset, kLensUnknowns, lens.begin());
   }
 }
 
@@ -37,9 +39,10 @@ void CalibrationUnknowns::add_to(ProblemBuilder& problem, const Map&) {
 std::vector<PairCalibration> CalibrationUnknowns::found() const {
   std::vector<PairCalibration> pairs;
   for (std::size_t v = 0; v < cameras_.size(); ++v) {
-    const std::array<double, kLensUnknowns>& lens = lenses_[v];
-    pairs.push_back({T_body_nominal_[v].inverse() * from_block(cameras_[v].data()), lens[0],
-                     lens[1], lens[2], lens[3], lens[4], lens[5]});
+    Eigen::VectorXd numbers = Eigen::VectorXd::Zero(kPairUnknowns);
+    std::ranges::copy(lenses_[v], numbers.data() + PairNumber::kDisparityOffset);
+    pairs.push_back(from_vector(numbers).front());
+    pairs.back().T_nominal_camera = T_body_nominal_[v].inverse() * from_block(cameras_[v].data());
   }
   return pairs;
 }

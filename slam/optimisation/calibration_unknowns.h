@@ -31,10 +31,12 @@ class CalibrationUnknowns : public FactorSource {
   CalibrationMarginal marginal(ProblemBuilder& problem) const;
 
  private:
+  using Lens = std::array<double, kLensUnknowns>;
+
   std::vector<Pose> T_body_nominal_;
   CalibrationFactor factor_;
   std::vector<PoseBlock> cameras_;
-  std::vector<std::array<double, kLensUnknowns>> lenses_;
+  std::vector<Lens> lenses_;
 };
 
 }  // namespace vinebench::slam

@@ -134,10 +134,18 @@ bool Tracker::match_anywhere(const Map& map, const EstimatorRig& rig, const Pose
 
 /// Takes the frame's velocity to be that of the step to its pose as far as it is known.
 void Tracker::update_velocity(TrackedFrame& tracked) const {
+  if (const auto velocity = velocity_to(tracked)) tracked.frame->velocity = *velocity;
+}
+
+/// Of the step from the last frame. None after an odometry gap: the step also has the gap's error,
+/// and the old velocity is truer.
+std::optional<Vector6d> Tracker::velocity_to(const TrackedFrame& tracked) const {
   const double dt = to_seconds(tracked.frame->stamp - stamp_);
-  if (dt <= 0 || dead_reckoning_.active()) return;
+  if (dt <= 0 || dead_reckoning_.active()) return std::nullopt;
   const Pose step = T_map_body_.inverse() * tracked.motion.T_map_body;
-  tracked.frame->velocity << step.translation / dt, log_so3(step.rotation) / dt;
+  Vector6d velocity;
+  velocity << step.translation / dt, log_so3(step.rotation) / dt;
+  return velocity;
 }
 
 void Tracker::adjust_motion(const Map& map, const EstimatorRig& rig, TrackedFrame& tracked) const {
@@ -234,13 +242,7 @@ bool Tracker::is_credible(const Map& map, const EstimatorRig& rig, const Tracked
 }
 
 void Tracker::accept(const TrackedFrame& tracked) {
-  const double dt = to_seconds(tracked.frame->stamp - stamp_);
-  // After an odometry gap the step also has the error of the gap: the old velocity is
-  // truer.
-  if (dt > 0 && !dead_reckoning_.active()) {
-    const Pose step = T_map_body_.inverse() * tracked.motion.T_map_body;
-    velocity_ << step.translation / dt, log_so3(step.rotation) / dt;
-  }
+  velocity_ = velocity_to(tracked).value_or(velocity_);
   T_map_body_ = tracked.motion.T_map_body;
   stamp_ = tracked.frame->stamp;
   last_landmarks_ = landmark_ids(tracked.associations);

@@ -73,6 +73,7 @@ class Tracker {
   /// Matches, places and follows the landmarks nearby, each round from a better pose.
   void refine_on_local_map(const Map& map, const EstimatorRig& rig, TrackedFrame& tracked) const;
   void update_velocity(TrackedFrame& tracked) const;
+  std::optional<Vector6d> velocity_to(const TrackedFrame& tracked) const;
   void adjust_motion(const Map& map, const EstimatorRig& rig, TrackedFrame& tracked) const;
   /// Whether the body may be so far from where it is thought to be that vines there look alike.
   bool may_be_elsewhere(const TrackedFrame& tracked, const Pose& predicted, bool by_looks) const;
