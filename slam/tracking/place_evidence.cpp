@@ -30,7 +30,7 @@ constexpr int kMinExpected = 60;
 /// Of what a view is to see it must find so many, and this share; and of what resembles it, this
 /// share must be where it is to be. Between vines of two kinds that repeat (many-rows, seed 101)
 /// and in an aisle (kidnapped, seed 1) right places had at least 5 and 63 %; places 0.5 to 3 m
-/// beside them at most 5 and, in 95 of 100 cases, 39 %, and seldom both.
+/// beside them at most 5 and, in 95 of 100 cases, 46 %, and seldom both.
 constexpr int kLeastSeen = 25;
 constexpr double kLeastShare = 0.04;
 constexpr double kLeastFitting = 0.5;

@@ -90,7 +90,7 @@ def check_view(url, size):
               "wider than the window")
         press(page, "Go on")
         page.wait("document.querySelector('.result').textContent.startsWith('PASSED')", 120)
-        page.wait("document.querySelector('.verdict.live') === null")
+        page.wait("document.querySelector('.verdict.live') === null", 120)  # the report is made and drawn
         check(len(page.find("figure.chart")) == 5, "the report has no charts")
         page.check_quiet(url, *(url + name for name in ["events", "control", "report"]))
 
