@@ -43,8 +43,9 @@ class PoseUncertainty {
 
  private:
   Matrix6d keyframe_ = Matrix6d::Zero();
-  Eigen::MatrixXd by_calibration_;  ///< the keyframe's step by each error; empty for none
-  int without_drift_ = 0;           ///< keyframes
+  /// The keyframe's step by each error; no columns for none.
+  Eigen::Matrix<double, 6, Eigen::Dynamic> by_calibration_;
+  int without_drift_ = 0;  ///< keyframes
 };
 
 /// The step of b that a step of a makes, where T_a_b does not change: as a matrix, the adjoint of

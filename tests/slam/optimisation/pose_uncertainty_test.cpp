@@ -87,5 +87,12 @@ TEST(PoseUncertaintyTest, ADriftThatIsFoundLateWasThereBefore) {
               1e-15);
 }
 
+TEST(PoseUncertaintyTest, AGapMayComeBeforeAnyKeyframe) {
+  PoseUncertainty uncertainty;
+  uncertainty.cross_gap(sample_step(), Matrix6d::Identity());
+  EXPECT_EQ(uncertainty.at({}, Matrix6d::Zero()), Matrix6d::Identity());
+  EXPECT_EQ(uncertainty.of_calibration({}, Eigen::MatrixXd::Zero(2, 2)).norm(), 0);
+}
+
 }  // namespace
 }  // namespace vinebench::slam
