@@ -55,6 +55,13 @@ struct AisleMap {
   std::map<int, int> landmark_of;  ///< by point of the aisle
 };
 
+/// Along the aisle, a pose every 0.25 m.
+inline std::vector<Pose> straight_way() {
+  std::vector<Pose> poses;
+  for (int i = 0; i < 14; ++i) poses.push_back({Eigen::Quaterniond::Identity(), {0.25 * i, 0, 0}});
+  return poses;
+}
+
 /// Distance of two poses' origins, m, and angle between them, rad.
 inline double distance(const Pose& a, const Pose& b) {
   return (a.translation - b.translation).norm();

@@ -21,6 +21,15 @@ CalibrationBelief loose() {
   return belief;
 }
 
+void solve(ProblemBuilder& problem) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_SCHUR;
+  options.max_num_iterations = 50;
+  options.function_tolerance = 1e-12;
+  options.logging_type = ceres::SILENT;
+  problem.solve(options);
+}
+
 // Poses are exact and disparities of the second pair 0.4 px too small: some hundred pixels, good to
 // 3e-5 px, tell it to better than 1e-3 px, of which a belief of 0 with a deviation of 1 px takes
 // nothing to speak of.
@@ -38,11 +47,7 @@ TEST(CalibrationUnknownsTest, AreFoundWithTheLandmarks) {
   unknowns.add_to(problem, made.map);
   LandmarkFactors factors(made.rig, 2, &unknowns);
   factors.add_to(problem, made.map);
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_SCHUR;
-  options.max_num_iterations = 50;
-  options.logging_type = ceres::SILENT;
-  problem.solve(options);
+  solve(problem);
   EXPECT_NEAR(unknowns.found()[0].disparity_offset, 0, 1e-2);
   EXPECT_NEAR(unknowns.found()[1].disparity_offset, 0.4, 1e-2);
   // What is known afterwards has its mean there.
@@ -61,12 +66,7 @@ std::pair<double, double> last_place(double offset, AisleMap& made) {
   unknowns.add_to(problem, made.map);
   LandmarkFactors factors(made.rig, 2, &unknowns);
   factors.add_to(problem, made.map);
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_SCHUR;
-  options.max_num_iterations = 50;
-  options.function_tolerance = 1e-12;
-  options.logging_type = ceres::SILENT;
-  problem.solve(options);
+  solve(problem);
   return {from_block(problem.pose_of(3)).translation.x(),
           unknowns.marginal(problem).of_last_pose(0, 18)};
 }

@@ -16,12 +16,6 @@ using test::SyntheticAisle;
 constexpr int kPlaceLandmarks = 1500;
 constexpr double kPlaceNoise = 0.5;  // px
 
-std::vector<Pose> way() {
-  std::vector<Pose> poses;
-  for (int i = 0; i < 14; ++i) poses.push_back({Eigen::Quaterniond::Identity(), {0.25 * i, 0, 0}});
-  return poses;
-}
-
 class PlaceEvidenceTest : public testing::Test {
  protected:
   PlaceEvidence look(const FrameFeatures& frame, const Pose& T_map_body) const {
@@ -29,7 +23,7 @@ class PlaceEvidenceTest : public testing::Test {
   }
 
   SyntheticAisle aisle_{kPlaceNoise, 1, kPlaceLandmarks};
-  AisleMap made_{aisle_, way()};
+  AisleMap made_{aisle_, test::straight_way()};
   const Pose truth_{exp_so3({0, 0, 0.15}), {1.6, 0.08, 0}};
 };
 

@@ -17,12 +17,6 @@ using test::SyntheticAisle;
 constexpr int kLandmarks = 1500;
 constexpr double kNoise = 0.5;  // px
 
-std::vector<Pose> long_way() {
-  std::vector<Pose> poses;
-  for (int i = 0; i < 14; ++i) poses.push_back({Eigen::Quaterniond::Identity(), {0.25 * i, 0, 0}});
-  return poses;
-}
-
 /// Replaces this share of a frame's descriptors by those of random landmarks: wrong matches.
 void mislead(FrameFeatures& frame, const Map& map, int percent) {
   const RandomStream random(9, "mislead");
@@ -57,7 +51,7 @@ class RelocaliserTest : public testing::Test {
   }
 
   SyntheticAisle aisle_{kNoise, 1, kLandmarks};
-  AisleMap made_{aisle_, long_way()};
+  AisleMap made_{aisle_, test::straight_way()};
   const Pose truth_{exp_so3({0, 0, 0.15}), {1.6, 0.08, 0}};
 };
 
@@ -115,7 +109,7 @@ TEST_F(RelocaliserTest, FindsNothingWhereTwoPlacesLookTheSame) {
   Map map(OrbConfig{}.scale);
   for (const double shift : {0.0, 20.0}) {
     std::map<int, int> landmark_of;
-    for (const Pose& pose : long_way()) {
+    for (const Pose& pose : test::straight_way()) {
       const auto frame = aisle_.frame(static_cast<std::int64_t>(map.keyframes().size()), pose);
       Pose moved = pose;
       moved.translation.x() += shift;
@@ -151,7 +145,7 @@ TEST_F(RelocaliserTest, FramesThatDisagreeAreNotBelieved) {
   Relocaliser relocaliser;
   EXPECT_FALSE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(100, truth_)));
   // 1.1 m within 67 ms.
-  EXPECT_FALSE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(101, long_way()[2])));
+  EXPECT_FALSE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(101, test::straight_way()[2])));
   // A gap of a blind frame restarts the confirmation.
   EXPECT_FALSE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(102, truth_, {0, 1})));
   EXPECT_FALSE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(103, truth_)));
