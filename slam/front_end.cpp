@@ -29,6 +29,7 @@ FrontEnd::FrontEnd(const FrontEndSettings& settings, const StereoRig& rig,
   right_.resize(rig_.pairs.size());
   right_images_.resize(rig_.pairs.size());
   balances_.resize(rig_.pairs.size());
+  for (const RectifiedPair& pair : rig_.pairs) alignments_.emplace_back(pair.lens);
   sightings_.resize(rig_.tag_cameras.size());
 }
 
@@ -53,9 +54,11 @@ cv::Mat FrontEnd::grey(const Frame& frame, int camera) const {
   return converted;
 }
 
-Extraction FrontEnd::extract_right(const cv::Mat& image, double gain) const {
+Extraction FrontEnd::extract_right(std::size_t p, double gain) const {
+  const cv::Mat& image = right_images_[p];
+  if (image.empty()) return {};
   if (stereo_.search == StereoSearch::kFeatures) return extractor_.extract(image);
-  return {{}, extractor_.pyramid(EyeBalance::balanced(image, gain))};
+  return {{}, extractor_.pyramid(EyeBalance::balanced(alignments_[p].aligned(image), gain))};
 }
 
 void FrontEnd::extract(const Frame& frame, StageTimes& times) {
@@ -81,8 +84,8 @@ void FrontEnd::extract(const Frame& frame, StageTimes& times) {
       if (rectify != nullptr && !right.empty()) right = rectify->right(right);
       left_[p] = left.empty() ? Extraction{} : extractor_.extract(left);
       if (rectify != nullptr) rectify->drop_unseen(left_[p].features, extractor_);
-      right_[p] = right.empty() ? Extraction{} : extract_right(right, balances_[p].gain());
       right_images_[p] = right;
+      right_[p] = extract_right(p, balances_[p].gain());
     }
     spent[job] = milliseconds_since(start);
   });
@@ -98,21 +101,26 @@ void FrontEnd::extract(const Frame& frame, StageTimes& times) {
 std::vector<StereoMatch> FrontEnd::match_pair(std::size_t p) {
   const Extraction& left = left_[p];
   const RectifiedPair& pair = rig_.pairs[p];
-  const auto search = [&](const Extraction& right) {
-    return match_stereo(left, right, pair.lens, pair.baseline, extractor_, stereo_);
+  const auto search = [&](const Extraction& of_left, const Extraction& of_right) {
+    return match_stereo(of_left, of_right, pair.lens, pair.baseline, extractor_, stereo_);
   };
-  std::vector<StereoMatch> matches = search(right_[p]);
-  if (stereo_.search == StereoSearch::kFeatures) return matches;  // compares no grey levels
+  std::vector<StereoMatch> matches = search(left, right_[p]);
+  if (stereo_.search == StereoSearch::kFeatures) return matches;  // looks on the rows about, too
+  if (alignments_[p].search_shift(left, right_[p].pyramid, matches, search)) {
+    right_[p] = extract_right(p, balances_[p].gain());
+    matches = search(left, right_[p]);
+  }
   EyeBalance& balance = balances_[p];
   if (const auto gain = balance.suspect(left.pyramid.front(), right_images_[p], matches)) {
-    Extraction right = extract_right(right_images_[p], *gain);
-    std::vector<StereoMatch> with_gain = search(right);
+    Extraction right = extract_right(p, *gain);
+    std::vector<StereoMatch> with_gain = search(left, right);
     if (balance.believe(*gain, matches, with_gain)) {
       matches = std::move(with_gain);
       right_[p] = std::move(right);
     }
   }
   balance.measure(left, right_[p].pyramid, matches, extractor_);
+  alignments_[p].measure(left, right_[p].pyramid, matches, extractor_);
   return matches;
 }
 

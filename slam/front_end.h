@@ -12,6 +12,7 @@
 #include "slam/features/orb_extractor.h"
 #include "slam/frame/frame_features.h"
 #include "slam/odometry/wheel_odometry.h"
+#include "slam/stereo/eye_alignment.h"
 #include "slam/stereo/eye_balance.h"
 #include "slam/stereo/stereo_matcher.h"
 #include "slam/tags/tag_detector.h"
@@ -39,7 +40,7 @@ class FrontEnd {
 
  private:
   cv::Mat grey(const Frame& frame, int camera) const;
-  Extraction extract_right(const cv::Mat& image, double gain) const;
+  Extraction extract_right(std::size_t pair, double gain) const;
   void extract(const Frame& frame, StageTimes& times);
   void match(FrameFeatures& features, StageTimes& times);
   std::vector<StereoMatch> match_pair(std::size_t pair);
@@ -50,10 +51,11 @@ class FrontEnd {
   std::optional<WheelOdometry> odometry_;
   std::vector<TagDetector> detectors_;  ///< one for each tag camera
   WorkerPool& pool_;
-  std::vector<Extraction> left_;       ///< of each pair
-  std::vector<Extraction> right_;      ///< of each pair; without features where none are needed
-  std::vector<cv::Mat> right_images_;  ///< of each pair, rectified, as bright as they were taken
-  std::vector<EyeBalance> balances_;   ///< of each pair
+  std::vector<Extraction> left_;          ///< of each pair
+  std::vector<Extraction> right_;         ///< of each pair; without features where none are needed
+  std::vector<cv::Mat> right_images_;     ///< of each pair, rectified by the rig file, as taken
+  std::vector<EyeBalance> balances_;      ///< of each pair
+  std::vector<EyeAlignment> alignments_;  ///< of each pair
   std::vector<std::vector<TagSighting>> sightings_;  ///< of each tag camera
 };
 

@@ -24,15 +24,11 @@ constexpr int kMinFeatures = 50;
 constexpr double kFewShare = 0.3;
 
 /// A gain is borne out by this many times the matches.
-constexpr int kClearlyMore = 2;
-constexpr int kMinMatches = 25;
+constexpr std::size_t kBearsOut = 2;
+constexpr std::size_t kMinMatches = 25;
 
 constexpr std::size_t kWindows = 200;  ///< measured of a frame, at most
 constexpr int kRadius = 5;             // px, of a window
-
-std::ptrdiff_t count_found(const std::vector<StereoMatch>& matches) {
-  return std::ranges::count_if(matches, [](const StereoMatch& m) { return m.x_right >= 0; });
-}
 
 using Histogram = std::array<int, 256>;
 
@@ -117,8 +113,8 @@ std::optional<double> EyeBalance::suspect(const cv::Mat& left, const cv::Mat& ri
 
 bool EyeBalance::believe(double gain, const std::vector<StereoMatch>& without,
                          const std::vector<StereoMatch>& with) {
-  const auto found = count_found(with);
-  if (found < kMinMatches || found < kClearlyMore * count_found(without)) return false;
+  const std::size_t found = count_found(with);
+  if (found < kMinMatches || found < kBearsOut * count_found(without)) return false;
   gain_ = gain;
   return true;
 }
@@ -126,7 +122,7 @@ bool EyeBalance::believe(double gain, const std::vector<StereoMatch>& without,
 void EyeBalance::measure(const Extraction& left, const std::vector<cv::Mat>& right,
                          const std::vector<StereoMatch>& matches, const OrbExtractor& extractor) {
   const double saturated_right = std::min<double>(kSaturated, gain_ * kSaturated);
-  const auto found = static_cast<std::size_t>(count_found(matches));
+  const std::size_t found = count_found(matches);
   const std::size_t every = std::max<std::size_t>(1, found / kWindows);
   std::vector<double> ratios;
   std::size_t seen = 0;

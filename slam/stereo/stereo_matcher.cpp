@@ -69,6 +69,11 @@ struct WindowSearch {
 
 }  // namespace
 
+std::size_t count_found(const std::vector<StereoMatch>& matches) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(matches, [](const StereoMatch& m) { return m.x_right >= 0; }));
+}
+
 std::vector<StereoMatch> match_stereo(const Extraction& left, const Extraction& right,
                                       const PinholeCamera& camera, double baseline,
                                       const OrbExtractor& extractor, const StereoConfig& config) {

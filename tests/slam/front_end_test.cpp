@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstring>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "core/util/error.h"
 #include "tests/support/synthetic_plane.h"
@@ -79,6 +80,12 @@ class FrontEndTest : public testing::Test {
   StageTimes times_;
 };
 
+/// Features that are found where the wall is: 200 px * 0.12 m / 16 px = 1.5 m.
+std::ptrdiff_t on_the_wall(const StereoView& view) {
+  return std::ranges::count_if(
+      view.stereo, [](const StereoMatch& m) { return std::abs(m.depth - 1.5F) < 0.03F; });
+}
+
 /// All results, byte by byte.
 std::string bytes_of(const FrameFeatures& features) {
   std::string bytes;
@@ -107,9 +114,7 @@ TEST_F(FrontEndTest, GivesEachPairItsFeaturesAndEachTagItsSighting) {
   for (const StereoView& view : features->views) {
     ASSERT_GT(view.features.size(), 200u);
     ASSERT_EQ(view.stereo.size(), view.features.size());
-    int right = 0;
-    for (const StereoMatch& match : view.stereo) right += std::abs(match.depth - 1.5F) < 0.03F;
-    EXPECT_GT(right, 150);  // 200 px * 0.12 m / 16 px = 1.5 m
+    EXPECT_GT(on_the_wall(view), 150);
     std::vector<int> near;
     view.grid.query(160, 100, 400, 0, 7, near);
     EXPECT_EQ(near.size(), view.features.size());
@@ -128,13 +133,23 @@ TEST_F(FrontEndTest, MatchesAPairWhoseEyesDifferInBrightness) {
   }
   const auto unlike = process(frame_);
   for (std::size_t v = 0; v < 2; ++v) {
-    const auto found = [&](const FrameFeatures& features) {
-      return std::ranges::count_if(features.views[v].stereo, [](const StereoMatch& m) {
-        return std::abs(m.depth - 1.5F) < 0.03F;
-      });
-    };
     // What is dimmer by half has half the corners' contrast, and some fall below a threshold.
-    EXPECT_GT(found(*unlike), found(*alike) * 8 / 10);
+    EXPECT_GT(on_the_wall(unlike->views[v]), on_the_wall(alike->views[v]) * 8 / 10);
+  }
+}
+
+TEST_F(FrontEndTest, MatchesAPairWhoseEyesAreOnOtherRows) {
+  const auto straight = process(frame_);
+  for (const auto& [camera, rows] : {std::pair{1U, 2}, std::pair{3U, -3}}) {
+    cv::Mat& image = frame_.images[camera];
+    cv::Mat lower;
+    const cv::Mat shift = (cv::Mat_<double>(2, 3) << 1, 0, 0, 0, 1, rows);
+    cv::warpAffine(image, lower, shift, image.size(), cv::INTER_NEAREST, cv::BORDER_REPLICATE);
+    image = lower;
+  }
+  const auto crooked = process(frame_);
+  for (std::size_t v = 0; v < 2; ++v) {
+    EXPECT_GT(on_the_wall(crooked->views[v]), on_the_wall(straight->views[v]) * 9 / 10);
   }
 }
 
