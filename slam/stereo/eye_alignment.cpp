@@ -3,6 +3,7 @@
 #include "slam/stereo/eye_alignment.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
