@@ -9,6 +9,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "slam/stereo/match_sample.h"
+
 namespace vinebench::slam {
 namespace {
 
@@ -26,7 +28,7 @@ constexpr double kExpectedShare = 0.01;
 /// Share of what the frames before said that still counts in the next one.
 constexpr double kMemory = 0.95;
 
-constexpr std::size_t kMostWindows = 200;  ///< measured of a frame
+constexpr std::size_t kWindowsMeasured = 200;  ///< of a frame, up to twice as many
 constexpr std::size_t kFewestWindows = 25;
 constexpr int kHalfWindow = 5;      // px, of a window
 constexpr double kWindowNoise = 2;  // grey levels, at least
@@ -45,6 +47,7 @@ constexpr std::size_t kSample = 150;
 constexpr std::size_t kClearlyMore = 2;
 constexpr int kPause = 10;  ///< frames after a search in vain
 
+/// By how much a window lies on another row.
 struct StepAcross {
   double shift;     ///< px of its level
   double variance;  ///< px^2 of its level
@@ -227,11 +230,8 @@ bool EyeAlignment::search_shift(const Extraction& left, const std::vector<cv::Ma
 
 void EyeAlignment::measure(const Extraction& left, const std::vector<cv::Mat>& right,
                            const std::vector<StereoMatch>& matches, const OrbExtractor& extractor) {
-  const std::size_t every = std::max<std::size_t>(1, count_found(matches) / kMostWindows);
   std::vector<WindowRow> windows;
-  std::size_t seen = 0;
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    if (matches[i].x_right < 0 || seen++ % every != 0) continue;
+  for (const std::size_t i : sample_found(matches, kWindowsMeasured)) {
     const Keypoint& keypoint = left.features.keypoints[i];
     const auto level = static_cast<std::size_t>(keypoint.level);
     const double pixel = extractor.scale_of(keypoint.level);

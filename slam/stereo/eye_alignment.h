@@ -26,13 +26,6 @@ namespace vinebench::slam {
 /// that next to nothing matches, a shift is searched for.
 class EyeAlignment {
  public:
-  /// On which other row a window was found.
-  struct WindowRow {
-    double x, y;       ///< px, in the left image
-    double disparity;  ///< px
-    double shift;      ///< px, row in the right image less that in the left one
-    double variance;   ///< px^2
-  };
   /// Stereo matches of a left extraction in a right one.
   using Search = std::function<std::vector<StereoMatch>(const Extraction&, const Extraction&)>;
 
@@ -56,6 +49,14 @@ class EyeAlignment {
                const std::vector<StereoMatch>& matches, const OrbExtractor& extractor);
 
  private:
+  /// On which other row a window was found.
+  struct WindowRow {
+    double x, y;       ///< px, in the left image
+    double disparity;  ///< px
+    double shift;      ///< px, row in the right image less that in the left one
+    double variance;   ///< px^2
+  };
+
   static constexpr int kUnknowns = 6;
   using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
+#include "slam/stereo/match_sample.h"
+
 namespace vinebench::slam {
 namespace {
 
@@ -27,7 +29,7 @@ constexpr double kFewShare = 0.3;
 constexpr std::size_t kBearsOut = 2;
 constexpr std::size_t kMinMatches = 25;
 
-constexpr std::size_t kWindows = 200;  ///< measured of a frame, at most
+constexpr std::size_t kWindows = 200;  ///< measured of a frame, up to twice as many
 constexpr int kRadius = 5;             // px, of a window
 
 using Histogram = std::array<int, 256>;
@@ -122,12 +124,8 @@ bool EyeBalance::believe(double gain, const std::vector<StereoMatch>& without,
 void EyeBalance::measure(const Extraction& left, const std::vector<cv::Mat>& right,
                          const std::vector<StereoMatch>& matches, const OrbExtractor& extractor) {
   const double saturated_right = std::min<double>(kSaturated, gain_ * kSaturated);
-  const std::size_t found = count_found(matches);
-  const std::size_t every = std::max<std::size_t>(1, found / kWindows);
   std::vector<double> ratios;
-  std::size_t seen = 0;
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    if (matches[i].x_right < 0 || seen++ % every != 0) continue;
+  for (const std::size_t i : sample_found(matches, kWindows)) {
     const Keypoint& keypoint = left.features.keypoints[i];
     const auto level = static_cast<std::size_t>(keypoint.level);
     const double pixel = extractor.scale_of(keypoint.level);

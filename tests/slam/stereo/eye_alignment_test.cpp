@@ -20,26 +20,24 @@ constexpr double kEyeNoise = 1.5;  // grey levels
 const SyntheticPlane kFacade{15.8, 0.02, 0.01, 640, 400, 3};
 const PinholeCamera kEyeLens{640, 400, 263, 263, 320, 200, {}};
 
-/// A right eye that is off: lower by `shift` px, turned, with a longer lens.
+/// A right eye that is off: lower by `shift` px and turned.
 struct CrookedEye {
   double shift = 0;
-  double turn = 0;   // rad
-  double scale = 0;  // share
+  double turn = 0;  // rad
 
   /// By how much it has things lower at a pixel of the straight image.
-  double lower(double x, double y) const { return shift + turn * (x - 320) + scale * (y - 200); }
+  double lower(double x) const { return shift + turn * (x - 320); }
 
   cv::Mat see() const {
-    // x' = (1 + scale) x - turn y and y' = turn x + (1 + scale) y + shift about the centre, solved
-    // for what it sees at a pixel.
-    const double norm = (1 + scale) * (1 + scale) + turn * turn;
+    // x' = x - turn y and y' = turn x + y + shift about the centre, solved for what it sees at a
+    // pixel.
+    const double norm = 1 + turn * turn;
     return test::render_image(
         640, 400,
         [&](double x, double y) {
           const double u = x - 320;
           const double v = y - 200 - shift;
-          return kFacade.right_grey(320 + ((1 + scale) * u + turn * v) / norm,
-                                    200 + ((1 + scale) * v - turn * u) / norm);
+          return kFacade.right_grey(320 + (u + turn * v) / norm, 200 + (v - turn * u) / norm);
         },
         kEyeNoise, 2);
   }
@@ -67,7 +65,7 @@ class EyeAlignmentTest : public testing::Test {
     double most = 0;
     for (const double x : {0, 640}) {
       for (const double y : {0, 400}) {
-        most = std::max(most, std::abs(alignment_.correction(x, y) - eye.lower(x, y)));
+        most = std::max(most, std::abs(alignment_.correction(x, y) - eye.lower(x)));
       }
     }
     return most;
@@ -99,13 +97,13 @@ TEST_F(EyeAlignmentTest, EyesThatAgreeAreLeftAlone) {
 }
 
 TEST_F(EyeAlignmentTest, LeavesAloneWhatWholeRowsCannotFollow) {
-  const cv::Mat right = CrookedEye{0.4, 0, 0}.see();
+  const cv::Mat right = CrookedEye{0.4, 0}.see();
   for (int frame = 0; frame < 5; ++frame) EXPECT_GT(count_found(see(right)), 500u);
   EXPECT_EQ(alignment_.aligned(right).data, right.data);
 }
 
 TEST_F(EyeAlignmentTest, FindsALowerAndTurnedEye) {
-  const CrookedEye eye{0.9, 0.0005, 0};  // at a corner 0.9 + 0.16 = 1.06 px
+  const CrookedEye eye{0.9, 0.0005};  // at a corner 0.9 + 0.16 = 1.06 px
   const cv::Mat right = eye.see();
   const double before = disparity_error(see(right));
   for (int frame = 0; frame < 20; ++frame) see(right);
@@ -118,12 +116,12 @@ TEST_F(EyeAlignmentTest, FindsALowerAndTurnedEye) {
 TEST_F(EyeAlignmentTest, SearchesForAShiftThatLeavesNothingToMatch) {
   for (const double shift : {-2.3, 3.6}) {
     alignment_ = EyeAlignment(kEyeLens);
-    const CrookedEye eye{shift, 0, 0};
+    const CrookedEye eye{shift, 0};
     const cv::Mat right = eye.see();
     EXPECT_LT(count_found(match(left_, {{}, extractor_.pyramid(right)})), 50u);
     EXPECT_GT(count_found(see(right)), 500u);
     for (int frame = 0; frame < 20; ++frame) see(right);
-    EXPECT_LT(error(eye), 0.08);  // px, half of what is left alone
+    EXPECT_LT(error(eye), 0.08);  // px, a sixth of what is left alone
   }
 }
 
@@ -136,7 +134,7 @@ TEST_F(EyeAlignmentTest, BelievesNothingOfAnEyeThatSeesSomethingElse) {
 }
 
 TEST_F(EyeAlignmentTest, KeepsWhatItKnowsBehindACover) {
-  const CrookedEye eye{1.2, 0, 0};
+  const CrookedEye eye{1.2, 0};
   const cv::Mat right = eye.see();
   for (int frame = 0; frame < 5; ++frame) see(right);
   const double known = alignment_.correction(320, 200);
