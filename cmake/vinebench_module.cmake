@@ -29,6 +29,12 @@ function(vinebench_flags target)
   vinebench_options(${target})
 endfunction()
 
+# Of targets in which no time is spent but in libraries, where they compute no picture and no
+# estimate: less optimisation takes a third off the time to compile them.
+function(vinebench_compile_quickly target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 # Libraries' headers that most files include.
 set(VINEBENCH_COMMON_HEADERS <algorithm> <filesystem> <functional> <map> <memory> <optional> <string> <vector>
     <fmt/format.h> <Eigen/Core> <Eigen/Geometry> <opencv2/core.hpp>)
@@ -112,6 +118,7 @@ function(vinebench_tests folder)
   target_link_libraries(${name}_test PRIVATE ${ARGN} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name}_test PRIVATE VINEBENCH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   vinebench_flags(${name}_test)
+  vinebench_compile_quickly(${name}_test)
   # GCC 12 warns of std::string's own functions, depending on the length of a path (GCC bug 105651).
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${name}_test PRIVATE -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow)

@@ -53,6 +53,8 @@ struct SlamConfig {
   KeyframeConfig keyframes;
   MappingConfig mapping;
   DeadReckoningConfig dead_reckoning;
+  std::optional<InertialConfig> inertial;   ///< where an inertial unit takes part
+  std::optional<WheelFusionConfig> wheels;  ///< where the wheels take part beside it
   TagDetectorConfig tags;
   LoopConfig loop;
   ResidualLoss loss = ResidualLoss::kCauchy;  ///< of reprojection errors in adjustments
@@ -72,9 +74,13 @@ struct SlamConfig {
     archive("keyframes", keyframes);
     archive("mapping", mapping);
     archive("dead_reckoning", dead_reckoning);
+    archive("inertial", inertial);
+    archive("wheels", wheels);
     archive("tags", tags);
     archive("loop", loop);
     archive("loss", loss);
+    archive.require(!wheels || inertial, "wheels",
+                    "expected an inertial unit beside them (inertial: {})");
     archive.require(preset == Preset::kDefault || has_paper_setting(*this), "preset",
                     "expected some of the keys that it sets to be left to it; all are given, as in "
                     "settings that a run has written out");

@@ -154,6 +154,7 @@ std::shared_ptr<FrameFeatures> FrontEnd::process(const Frame& frame, StageTimes&
   features->pyramids.resize(rig_.pairs.size());
   features->right_pyramids.resize(rig_.pairs.size());
   if (odometry_) features->wheels = odometry_->step(frame.wheels);
+  features->imu = frame.imu;
   extract(frame, times);
   match(*features, times);
   for (const std::vector<TagSighting>& seen : sightings_) {

@@ -53,7 +53,8 @@ struct Rover::Physics {
   Pose pose() const;
   WheelArray angles() const;
   Pose pose_at(Stamp stamp) const { return interpolate(previous_pose, pose(), fraction(stamp)); }
-  ImuSample imu_at(Stamp stamp) const;
+  ImuSample felt() const;
+  ImuSample next_imu(Stamp stamp);
   WheelSample wheels_at(Stamp stamp) const;
   double fraction(Stamp stamp) const {
     return 1.0 - static_cast<double>(time - stamp) / static_cast<double>(step_length);
@@ -81,6 +82,8 @@ struct Rover::Physics {
   Stamp now = 0;
   Pose previous_pose;  ///< one step before `time`
   WheelArray previous_angles{};
+  ImuSample felt_since;        ///< sums over the steps since the last inertial reading
+  int steps_since = 0;         ///< that many
   std::int64_t imu_count = 0;  ///< samples taken so far
   std::int64_t wheel_count = 0;
 };
@@ -156,6 +159,8 @@ void Rover::Physics::settle(const Eigen::Vector3d& start) {
   previous_angles = angles();
   previous_pose = pose();
   time = 0;
+  felt_since = {};
+  steps_since = 0;
 }
 
 /// Places it just above uneven ground, tilted as the ground below its wheels.
@@ -246,6 +251,10 @@ void Rover::Physics::step() {
   }
   world.step();
   time += step_length;
+  const ImuSample in_step = felt();
+  felt_since.angular_velocity += in_step.angular_velocity;
+  felt_since.specific_force += in_step.specific_force;
+  ++steps_since;
 }
 
 /// The hands: a critically damped hold at the reference. The weight is theirs from the first
@@ -294,7 +303,7 @@ void Rover::Physics::sample(Stamp until, std::vector<ImuSample>& imu,
   for (;; ++imu_count) {
     const Stamp stamp = stamp_of_frame(imu_count + 1, config.imu_rate_hz);
     if (stamp > until) break;
-    imu.push_back(imu_at(stamp));
+    imu.push_back(next_imu(stamp));
   }
   for (;; ++wheel_count) {
     const Stamp stamp = stamp_of_frame(wheel_count + 1, config.wheel_rate_hz);
@@ -316,11 +325,24 @@ WheelArray Rover::Physics::angles() const {
   return result;
 }
 
-/// Velocity and acceleration are constant during a step, so the reading does not depend on its
-/// instant within the step.
-ImuSample Rover::Physics::imu_at(Stamp stamp) const {
+/// What an inertial unit feels in the latest step, in which velocity and acceleration are constant.
+ImuSample Rover::Physics::felt() const {
   const mjtNum* data = world.state().sensordata;
-  return {stamp, vector_of(data + gyro), vector_of(data + accelerometer)};
+  return {now, vector_of(data + gyro), vector_of(data + accelerometer)};
+}
+
+/// The mean since the reading before, as a unit's own filter gives it, so that readings sum up to
+/// the motion: rollers shake the body at frequencies that single readings would alias.
+ImuSample Rover::Physics::next_imu(Stamp stamp) {
+  ImuSample reading = steps_since > 0 ? felt_since : felt();
+  reading.stamp = stamp;
+  if (steps_since > 0) {
+    reading.angular_velocity /= steps_since;
+    reading.specific_force /= steps_since;
+  }
+  felt_since = {};
+  steps_since = 0;
+  return reading;
 }
 
 WheelSample Rover::Physics::wheels_at(Stamp stamp) const {
@@ -382,7 +404,7 @@ Pose Rover::T_world_body() const {
 }
 
 ImuSample Rover::inertial_reading() const {
-  return physics_->imu_at(physics_->now);
+  return physics_->felt();
 }
 
 bool Rover::touches_obstacle() const {

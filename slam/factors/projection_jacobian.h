@@ -4,19 +4,13 @@
 
 #include <Eigen/Core>
 
+#include "core/geometry/cross_matrix.h"
 #include "slam/camera/stereo_camera.h"
 
 namespace vinebench::slam {
 
 /// Nearer than this the projection says nothing.
 inline constexpr double kMinDepth = 0.02;  // m
-
-/// [v]x, so that [v]x w = v x w.
-inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 /// Rows: d(u, v, u_right) / d(p_cam), px per m.
 inline Eigen::Matrix3d projection_jacobian(const StereoCameraModel& camera,

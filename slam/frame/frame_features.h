@@ -12,6 +12,7 @@
 #include "core/time.h"
 #include "slam/features/feature_grid.h"
 #include "slam/features/features.h"
+#include "slam/odometry/wheel_odometry.h"
 #include "slam/stereo/stereo_matcher.h"
 
 namespace vinebench::slam {
@@ -57,7 +58,8 @@ struct FrameFeatures {
   std::vector<StereoView> views;  ///< of each pair of the StereoRig
   std::vector<TagSighting> tags;
   Vector6d velocity = Vector6d::Zero();  ///< of the body in its own frame, m/s and rad/s
-  std::optional<Pose> wheels;            ///< T_before_now since the frame before, by the wheels
+  std::optional<WheelStep> wheels;       ///< since the frame before
+  std::vector<ImuSample> imu;            ///< since the frame before, oldest first
   /// Left and right pyramid of each pair, while the frame is being tracked; dropped afterwards.
   std::vector<std::vector<cv::Mat>> pyramids;
   std::vector<std::vector<cv::Mat>> right_pyramids;

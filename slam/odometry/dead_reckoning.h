@@ -6,6 +6,7 @@
 
 #include "core/config/config_field.h"
 #include "core/geometry/pose.h"
+#include "slam/odometry/inertial_filter.h"
 #include "slam/odometry/wheel_odometry.h"
 
 namespace vinebench::slam {
@@ -30,17 +31,39 @@ struct DeadReckoningConfig {
   }
 };
 
-/// A odometry gap: what was done in it, and how uncertain that is.
+/// An odometry gap: what was done in it, and how uncertain that is. Where an inertial unit takes
+/// part, that is what its filter says.
 class DeadReckoning {
  public:
-  explicit DeadReckoning(const DeadReckoningConfig& config) : config_(config) {}
+  explicit DeadReckoning(const DeadReckoningConfig& config,
+                         const std::optional<InertialConfig>& inertial = {},
+                         const std::optional<WheelFusionConfig>& wheels = {});
+
+  /// A frame's inertial readings and the wheels' motion, before it is looked at.
+  void arrive(const std::vector<ImuSample>& imu, const std::optional<WheelStep>& wheels,
+              Stamp stamp);
+
+  /// Where the body is by its inertial unit, if one takes part and knows.
+  std::optional<Pose> T_map_body() const;
 
   /// Sight is back, or begins.
   void reset();
 
+  /// Cameras saw the body there, in the frame that has arrived: step of step_of.
+  void see(const Pose& T_map_body, const Matrix6d& covariance);
+
+  /// The body is there, and moves on as before.
+  void place(const Pose& T_map_body);
+
+  /// The map moved about the body.
+  void move_map(const Pose& T_new_old);
+
   /// One more frame without sight, `dt` s after the one before. Returns T_before_now: by the wheels
   /// where there are any, else by the velocity (body frame; m/s, rad/s) of the last seen motion.
-  Pose advance(const std::optional<Pose>& wheels, const Vector6d& velocity, double dt);
+  Pose advance(const std::optional<WheelStep>& wheels, const Vector6d& velocity, double dt);
+
+  /// The body's velocity by its inertial unit (body frame; m/s, rad/s), if one takes part.
+  std::optional<Vector6d> velocity() const;
 
   bool active() const { return frames_ > 0; }
   int frames() const { return frames_; }
@@ -52,7 +75,10 @@ class DeadReckoning {
   Matrix6d covariance() const;
 
  private:
+  bool is_inertial() const { return inertial_ && inertial_->running(); }
+
   DeadReckoningConfig config_;
+  std::optional<InertialFilter> inertial_;
   int frames_ = 0;
   double seconds_on_velocity_ = 0;
   double way_ = 0;   ///< m, by the wheels

@@ -16,16 +16,18 @@ Pose WheelOdometry::step_between(const WheelSample& from, const WheelSample& to)
   return {exp_so3({0, 0, turn}), exp_so3({0, 0, turn / 2}) * way};
 }
 
-std::optional<Pose> WheelOdometry::step(const std::vector<WheelSample>& readings) {
-  std::optional<Pose> T_before_now;
+std::optional<WheelStep> WheelOdometry::step(const std::vector<WheelSample>& readings) {
+  std::optional<WheelStep> motion;
   for (const WheelSample& reading : readings) {
     if (last_) {
       const Pose step = step_between(*last_, reading);
-      T_before_now = T_before_now ? *T_before_now * step : step;
+      motion =
+          motion ? WheelStep{motion->T_before_now * step, motion->seconds} : WheelStep{step, 0};
+      motion->seconds += to_seconds(reading.stamp - last_->stamp);
     }
     last_ = reading;
   }
-  return T_before_now;
+  return motion;
 }
 
 }  // namespace vinebench::slam

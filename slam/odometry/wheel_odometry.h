@@ -25,6 +25,12 @@ struct MecanumWheels {
   }
 };
 
+/// The body's motion since the frame before by its wheels.
+struct WheelStep {
+  Pose T_before_now;
+  double seconds = 0;  ///< between the readings that it is told from: near those of the frames
+};
+
 /// The body's motion between two frames by its wheels: steps of forward, sideways and turning
 /// motion from the encoders' angles (Taheri et al., "Kinematic model of a four mecanum wheeled
 /// mobile robot", 2015, with free rollers at 45 degrees), chained. Knows no slip.
@@ -32,9 +38,9 @@ class WheelOdometry {
  public:
   explicit WheelOdometry(const MecanumWheels& wheels) : wheels_(wheels) {}
 
-  /// Takes the readings since the frame before; gives T_before_now, or nothing where there are no
+  /// Takes the readings since the frame before; gives the motion, or nothing where there are no
   /// readings to tell it from (none at all, or the first).
-  std::optional<Pose> step(const std::vector<WheelSample>& readings);
+  std::optional<WheelStep> step(const std::vector<WheelSample>& readings);
 
  private:
   Pose step_between(const WheelSample& from, const WheelSample& to) const;

@@ -4,6 +4,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "core/geometry/cross_matrix.h"
+
 namespace vinebench::slam {
 namespace {
 
@@ -21,11 +23,9 @@ Matrix6d carried_step(const Pose& T_a_b) {
   // A step (rho, theta) of a moves b by R_ba (rho + theta x t) and turns it by R_ba theta.
   const Eigen::Matrix3d R_b_a = T_a_b.rotation.toRotationMatrix().transpose();
   const Eigen::Vector3d& t = T_a_b.translation;
-  Eigen::Matrix3d cross;
-  cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
   Matrix6d J = Matrix6d::Zero();
   J.topLeftCorner<3, 3>() = R_b_a;
-  J.topRightCorner<3, 3>() = -R_b_a * cross;
+  J.topRightCorner<3, 3>() = -R_b_a * cross_matrix(t);
   J.bottomRightCorner<3, 3>() = R_b_a;
   return J;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/tracking/tracker.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <numbers>
 
@@ -31,6 +32,20 @@ constexpr double kLookAlike = 0.5;  // m
 /// blackouts of 1 to 5 s between rows of plants that repeat, poses that were right found 19 to 27 %
 /// of them, wrong ones, with up to 73 inliers, 3 to 4 % (many-rows-short).
 constexpr double kMinFound = 0.1;
+
+/// How well a seen pose is known against those of the frames before and after it: better than the
+/// map about it is known, which is the same for all of them.
+Matrix6d seen_covariance(const Matrix6d& information) {
+  constexpr double kPosition = 5e-4;    // m
+  constexpr double kRotation = 1.5e-4;  // rad
+  constexpr double kWeakest = 1e-2;     // m and rad, where a direction is not held at all
+  Matrix6d regular = information;
+  regular.diagonal().array() += 1 / (kWeakest * kWeakest);
+  Matrix6d covariance = regular.inverse();
+  covariance.diagonal().head<3>().array() += kPosition * kPosition;
+  covariance.diagonal().tail<3>().array() += kRotation * kRotation;
+  return covariance;
+}
 
 void add_landmarks_of(const Keyframe& keyframe, std::vector<char>& wanted) {
   for (const std::vector<int>& view : keyframe.landmarks) {
@@ -81,15 +96,18 @@ void Tracker::start(const Pose& T_map_body, Stamp stamp, bool guessed) {
   stamp_ = stamp;
   velocity_.setZero();
   last_landmarks_.clear();
+  dead_reckoning_.place(T_map_body);
   dead_reckoning_.reset();
 }
 
 void Tracker::correct(const Pose& T_map_body) {
+  dead_reckoning_.move_map(T_map_body * T_map_body_.inverse());
   T_map_body_ = T_map_body;
 }
 
 Pose Tracker::predict(const FrameFeatures& frame) const {
-  if (dead_reckoning_.active() && frame.wheels) return T_map_body_ * *frame.wheels;
+  if (const auto inertial = dead_reckoning_.T_map_body()) return *inertial;
+  if (dead_reckoning_.active() && frame.wheels) return T_map_body_ * frame.wheels->T_before_now;
   return T_map_body_ * step_of(velocity_ * to_seconds(frame.stamp - stamp_));
 }
 
@@ -174,7 +192,8 @@ TrackedFrame Tracker::track(std::shared_ptr<FrameFeatures> frame, const Map& map
                             const EstimatorRig& rig) {
   TrackedFrame tracked;
   tracked.frame = std::move(frame);
-  tracked.frame->velocity = velocity_;
+  dead_reckoning_.arrive(tracked.frame->imu, tracked.frame->wheels, tracked.frame->stamp);
+  tracked.frame->velocity = dead_reckoning_.velocity().value_or(velocity_);
   const Pose predicted = predict(*tracked.frame);
   tracked.motion.T_map_body = predicted;
   const bool from_map = dead_reckoning_.active() || last_landmarks_.empty();
@@ -246,16 +265,21 @@ void Tracker::accept(const TrackedFrame& tracked) {
   T_map_body_ = tracked.motion.T_map_body;
   stamp_ = tracked.frame->stamp;
   last_landmarks_ = landmark_ids(tracked.associations);
+  dead_reckoning_.see(T_map_body_, seen_covariance(tracked.motion.information));
   dead_reckoning_.reset();
   guessed_ = false;
 }
 
 void Tracker::reckon(const FrameFeatures& frame) {
   const double dt = to_seconds(frame.stamp - stamp_);
-  T_map_body_ = T_map_body_ * dead_reckoning_.advance(frame.wheels, velocity_, dt);
+  const Pose step = dead_reckoning_.advance(frame.wheels, velocity_, dt);
+  T_map_body_ = dead_reckoning_.T_map_body().value_or(T_map_body_ * step);
   stamp_ = frame.stamp;
-  if (frame.wheels && dt > 0) {
-    velocity_ << frame.wheels->translation / dt, log_so3(frame.wheels->rotation) / dt;
+  if (const auto inertial = dead_reckoning_.velocity()) {
+    velocity_ = *inertial;
+  } else if (frame.wheels && dt > 0) {
+    const Pose& rolled = frame.wheels->T_before_now;
+    velocity_ << rolled.translation / dt, log_so3(rolled.rotation) / dt;
   }
   if (dead_reckoning_.is_lost()) velocity_.setZero();
 }

@@ -21,6 +21,8 @@ struct TrackerSettings {
   DeadReckoningConfig dead_reckoning;
   RefinementConfig refinement;
   StereoConfig stereo;
+  std::optional<InertialConfig> inertial{};   ///< of a unit that takes part
+  std::optional<WheelFusionConfig> wheels{};  ///< that take part beside it
 };
 
 /// What tracking made of one frame.
@@ -40,7 +42,7 @@ class Tracker {
   explicit Tracker(const TrackerSettings& settings)
       : config_(settings.tracking),
         follow_{settings.refinement, settings.stereo},
-        dead_reckoning_(settings.dead_reckoning) {}
+        dead_reckoning_(settings.dead_reckoning, settings.inertial, settings.wheels) {}
 
   /// Starts at a pose, standing still. A pose that is `guessed`, by the looks of the place, must be
   /// borne out by most of what the map has there.

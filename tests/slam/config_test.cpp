@@ -43,6 +43,15 @@ TEST_F(SlamConfigTest, APresetOverSettingsThatAreWrittenOutIsAnError) {
                                           testing::HasSubstr("preset: expected some of the keys")));
 }
 
+TEST_F(SlamConfigTest, WheelsAreFusedBesideAnInertialUnitOnly) {
+  EXPECT_FALSE(read("preset: default\n").inertial.has_value());
+  const SlamConfig fused = read("inertial: {gyroscope: {bias: 0.01}}\nwheels: {slip: 0.1}\n");
+  EXPECT_EQ(fused.inertial->gyroscope.bias, 0.01);
+  EXPECT_EQ(fused.wheels->slip, 0.1);
+  EXPECT_THAT([&] { read("wheels: {}\n"); }, testing::ThrowsMessage<Error>(testing::HasSubstr(
+                                                 "wheels: expected an inertial unit beside them")));
+}
+
 TEST_F(SlamConfigTest, WrittenOutAndReadAgainIsTheSame) {
   for (const char* text : {"preset: default\n", "preset: paper\nloss: cauchy\n"}) {
     SlamConfig config = read(text);

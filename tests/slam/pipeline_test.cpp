@@ -146,10 +146,10 @@ TEST(PipelineTest, FindsThatAPairsDisparitiesAreShort) {
 }
 
 /// Wheel readings of a frame's motion with the given slip.
-Pose wheels(std::int64_t frame, double slip) {
+WheelStep wheels(std::int64_t frame, double slip) {
   Pose step = driving(frame - 1).inverse() * driving(frame);
   step.translation *= 1 + slip;
-  return step;
+  return {step, 1.0 / 15};
 }
 
 TEST(PipelineTest, ReckonsThroughABlackoutOfHalfASecond) {
@@ -214,7 +214,7 @@ TEST(PipelineTest, ACarriedBodyKnowsThePlaceAgain) {
     const bool dark = i >= 60 && i < 70;
     truth.push_back(driving(i < 60 ? i : dark ? 60 : i - 50));
     const auto frame = dark ? aisle.frame(i, truth.back(), {0, 1}) : aisle.frame(i, truth.back());
-    if (i > 0) frame->wheels = dark || i == 70 ? Pose{} : wheels(i < 60 ? i : i - 50, 0);
+    if (i > 0) frame->wheels = dark || i == 70 ? WheelStep{} : wheels(i < 60 ? i : i - 50, 0);
     const Estimate estimate = pipeline.process(frame);
     // Two frames in a row have to agree.
     if (i >= 71) {
@@ -269,8 +269,8 @@ class CarriedTest : public testing::Test {
         frame->tags = there->tags;
       }
       if (i > 0) {
-        frame->wheels = Pose{};
-        if (i < 30 || i > 40) frame->wheels->translation.x() = i < 30 ? 0.02 : -0.04;
+        frame->wheels = WheelStep{};
+        if (i < 30 || i > 40) frame->wheels->T_before_now.translation.x() = i < 30 ? 0.02 : -0.04;
       }
       const Estimate estimate = pipeline.process(frame);
       loops_ += estimate.loop_closure.has_value();

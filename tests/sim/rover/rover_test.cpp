@@ -103,6 +103,30 @@ TEST(RoverTest, TruthIsOfTheInstantHoweverItIsReached) {
   EXPECT_LT((in_one.T_world_body().translation - before.translation).norm(), 1e-8);
 }
 
+/// Rollers shake the rover; what the unit reads sums up to its motion all the same.
+TEST(RoverTest, InertialReadingsSumUpToTheMotion) {
+  Rover rover(test::csl_rover(), test::field(), {0, 0, 0}, 1);
+  std::vector<WheelSample> wheels;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d way = Eigen::Vector3d::Zero();
+  constexpr Stamp kPeriod = kNanosecondsPerSecond / 200;
+  const Eigen::Vector3d start = rover.T_world_body().translation;
+  rover.command({0.4, 0.1, 0});
+  for (Stamp t = kPeriod; t <= 3 * kNanosecondsPerSecond; t += kPeriod) {
+    std::vector<ImuSample> imu;
+    const Pose before = rover.T_world_body();
+    rover.advance_to(t, imu, wheels);
+    ASSERT_EQ(imu.size(), 1u);
+    velocity += (interpolate(before, rover.T_world_body(), 0.25).rotation * imu[0].specific_force -
+                 Eigen::Vector3d(0, 0, 9.81)) *
+                to_seconds(kPeriod);
+    way += velocity * to_seconds(kPeriod);
+  }
+  // In steps of 2.5 ms the body's acceleration is that at their beginning, in its axes there: a
+  // quarter of a reading in the mean.
+  EXPECT_LT((rover.T_world_body().translation - start - way).norm(), 0.01);  // m
+}
+
 TEST(RoverTest, SameInputsGiveTheSameBits) {
   std::vector<ImuSample> imu[3];
   std::vector<WheelSample> wheels[3];

@@ -28,7 +28,7 @@ TEST(DeadReckoningTest, KeepsTheVelocityAndDoubtsItMoreAndMore) {
 
 TEST(DeadReckoningTest, DoubtsWheelsByTheWayTheyWent) {
   DeadReckoning reckoning{DeadReckoningConfig{}};
-  const Pose step{Eigen::Quaterniond::Identity(), {0.1, 0, 0}};
+  const WheelStep step{{Eigen::Quaterniond::Identity(), {0.1, 0, 0}}, 0.1};
   for (int i = 0; i < 20; ++i) reckoning.advance(step, Vector6d::Zero(), 0.1);
   // 2 m: 5 % is 0.1 m of slip; 0.05 rad a metre is 0.1 rad, half of it over 2 m is 0.1 m sideways.
   EXPECT_NEAR(reckoning.sigma_position(), std::hypot(0.1, 0.1), 1e-9);

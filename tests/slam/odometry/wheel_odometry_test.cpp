@@ -7,8 +7,9 @@
 namespace vinebench::slam {
 namespace {
 
-WheelSample reading(std::array<double, 4> angle) {
+WheelSample reading(std::array<double, 4> angle, Stamp stamp = 0) {
   WheelSample sample;
+  sample.stamp = stamp;
   sample.angle = angle;
   return sample;
 }
@@ -18,7 +19,7 @@ TEST(WheelOdometryTest, TellsForwardSidewaysAndTurning) {
   const auto step = [&](std::array<double, 4> angle) {
     WheelOdometry odometry(wheels);
     EXPECT_FALSE(odometry.step({reading({})}));  // the first has no predecessor
-    return *odometry.step({reading(angle)});
+    return odometry.step({reading(angle)})->T_before_now;
   };
   // All wheels by 2 rad at 0.1 m: 0.2 m forward.
   EXPECT_LT((step({2, 2, 2, 2}).translation - Eigen::Vector3d(0.2, 0, 0)).norm(), 1e-12);
@@ -40,9 +41,12 @@ TEST(WheelOdometryTest, ChainsReadingsIntoAnArc) {
   for (int i = 1; i <= 100; ++i) {
     const double ahead = part * i / 0.1;
     const double turn = part * i * 0.35 / 0.1;
-    readings.push_back(reading({ahead - turn, ahead + turn, ahead - turn, ahead + turn}));
+    readings.push_back(reading({ahead - turn, ahead + turn, ahead - turn, ahead + turn},
+                               i * kNanosecondsPerSecond / 50));
   }
-  const Pose arc = *odometry.step(readings);
+  const auto step = odometry.step(readings);
+  EXPECT_NEAR(step->seconds, 2, 1e-9);
+  const Pose& arc = step->T_before_now;
   EXPECT_NEAR(log_so3(arc.rotation).z(), 3.14159265358979 / 2, 1e-9);
   // Chords instead of arcs: part^2 / 24 = 1e-5 of the path too long.
   EXPECT_LT((arc.translation - Eigen::Vector3d(1, 1, 0)).norm(), 3e-5);

@@ -33,7 +33,7 @@ class TrackerTest : public testing::Test {
                      const std::vector<std::size_t>& blind = {},
                      const std::optional<Pose>& wheels = std::nullopt) {
     auto frame = aisle_.frame(index, pose, blind);
-    frame->wheels = wheels;
+    if (wheels) frame->wheels = WheelStep{*wheels, 1.0 / 15};
     return tracker.track(frame, made_.map, made_.rig);
   }
   /// The same where only every n-th feature looks like a landmark of the map.
@@ -140,6 +140,36 @@ TEST_F(TrackerTest, SightThatComesBackMustAgreeWithDeadReckoning) {
   // 2 cm by the wheels with 5 % of slip, four deviations of it and 5 cm of the pose's own: 5.4 cm.
   EXPECT_FALSE(track(tracker, 7, ahead(0.14 + 0.15), {}, step).tracked);
   EXPECT_TRUE(track(tracker, 8, ahead(0.16 + 0.02), {}, step).tracked);
+}
+
+/// At 0.3 m/s for two seconds, then without sight to a stop, for a second.
+double braking(double t) {
+  const double since = std::clamp(t - 2, 0.0, 1.0);
+  return 0.3 * (std::min(t, 2.0) + since - since * since / 2);
+}
+
+TEST_F(TrackerTest, WithoutSightItsInertialUnitKnowsThatItBrakes) {
+  settings_.inertial = InertialConfig{};
+  Tracker tracker(settings_);
+  tracker.start(ahead(0), 0);
+  for (int i = 1; i <= 48; ++i) {
+    const Stamp before = stamp_of_frame(i - 1, 15);
+    const Stamp stamp = stamp_of_frame(i, 15);
+    const bool blind = i > 30;
+    auto frame = aisle_.frame(i, ahead(braking(to_seconds(stamp))),
+                              blind ? all_blind() : std::vector<std::size_t>{});
+    for (int k = 1; k <= 10; ++k) {
+      const Stamp t = before + (stamp - before) * k / 10;
+      const bool brakes = to_seconds(t) > 2 && to_seconds(t) <= 3;
+      frame->imu.push_back({t, Eigen::Vector3d::Zero(), {brakes ? -0.3 : 0, 0, 9.80665}});
+    }
+    EXPECT_EQ(tracker.track(frame, made_.map, made_.rig).tracked, !blind) << i;
+  }
+  // With the last velocity it would be 0.21 m too far. Biases are known to 5 mm/s^2 after two
+  // seconds of sight: half of that in 1.2 s, squared.
+  EXPECT_LT(distance(tracker.T_map_body(), ahead(braking(3.2))), 0.01);
+  EXPECT_LT(tracker.dead_reckoning().sigma_position(), 0.05);
+  EXPECT_GT(tracker.dead_reckoning().sigma_position(), 0.002);
 }
 
 // Twelve frames of 1/15 s with an unknown acceleration of 0.5 m/s^2: 0.16 m, and four times that
