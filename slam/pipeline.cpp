@@ -42,6 +42,19 @@ Matrix6d by_tag_covariance() {
   return sigma.cwiseAbs2().asDiagonal();
 }
 
+/// Whether somebody said how accurate the rig file is. The defaults are wide enough for any rig:
+/// taken for an error that it has, they would make the covariances of most useless until a dozen of
+/// keyframes tell better.
+bool is_accuracy_told(const SlamConfig& config) {
+  const CalibrationConfig& told = config.calibration;
+  const CalibrationConfig usual;
+  return told.position != usual.position || told.rotation_deg != usual.rotation_deg ||
+         told.disparity_slope != usual.disparity_slope || told.focal != usual.focal ||
+         told.baseline != usual.baseline || told.time != usual.time ||
+         told.readout != usual.readout ||
+         config.stereo.calibration_sigma != StereoConfig{}.calibration_sigma;
+}
+
 /// Whether a loaded map knows the place as well as a new keyframe would.
 bool is_covered(const TrackedFrame& tracked, const Map& map, const KeyframeConfig& config) {
   if (tracked.motion.inliers < config.min_inliers) return false;
@@ -406,7 +419,13 @@ void Pipeline::close_loop(int keyframe, Estimate& estimate) {
 
 /// Makes good an error of the pairs' calibration, in the map and from here on.
 void Pipeline::calibrate(Estimate& estimate) {
-  if (!config_.stereo.self_calibration || !calibration_.due(map_)) return;
+  if (!config_.stereo.self_calibration) return;
+  if (is_accuracy_told(config_) && calibration_.may_feel(map_)) {
+    const ScopedTimer timer(times_, "calibration");
+    calibration_.feel(map_, rig_, mapper_.adjustment_options());
+    calibration_error_ = calibration_.error(rig_);
+  }
+  if (!calibration_.due(map_)) return;
   const ScopedTimer timer(times_, "calibration");
   const auto found = calibration_.look(map_, rig_, mapper_.adjustment_options());
   if (found) {

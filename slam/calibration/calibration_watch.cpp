@@ -15,6 +15,11 @@ namespace {
 constexpr std::size_t kPart = 12;  // keyframes
 constexpr int kIterations = 8;
 
+/// Keyframes that show how errors move the body, and as many as there must be before: the first
+/// ones, beside a tag, are nearer to each other than those to come.
+constexpr std::size_t kFew = 4;
+constexpr std::size_t kBeforeFew = 2;
+
 /// Once so many dozens have been looked at, every fourth is enough.
 constexpr int kFrequentLooks = 8;
 constexpr std::size_t kLaterLooks = 48;  // keyframes
@@ -124,13 +129,24 @@ bool CalibrationWatch::due(const Map& map) const {
   return map.keyframes().size() >= looked_ + (looks_ < kFrequentLooks ? kPart : kLaterLooks);
 }
 
+bool CalibrationWatch::may_feel(const Map& map) const {
+  return !felt_ && looks_ == 0 && map.keyframes().size() >= begin_ + kBeforeFew + kFew;
+}
+
+void CalibrationWatch::feel(const Map& map, const EstimatorRig& rig,
+                            const AdjustmentOptions& options) {
+  felt_ = true;
+  keep_drift(measure(kFew, map, rig, options), kFew);
+}
+
 std::optional<std::vector<PairCalibration>> CalibrationWatch::look(
     const Map& map, const EstimatorRig& rig, const AdjustmentOptions& options) {
-  const auto [part, of_last_pose] = measure(map, rig, options);
+  const CalibrationMarginal found = measure(kPart, map, rig, options);
+  const CalibrationBelief& part = found.belief;
   looked_ = map.keyframes().size();
   ++looks_;
   if (!part.information.allFinite() || !part.information_vector.allFinite()) return std::nullopt;
-  if (of_last_pose.allFinite()) drift_ = of_last_pose / static_cast<double>(kPart - 1);
+  keep_drift(found, kPart);
   add(part);
   const CalibrationBelief now = known();
   average_ = average(now, prior_);
@@ -164,7 +180,8 @@ std::optional<std::vector<PairCalibration>> CalibrationWatch::latest() const {
   return from_vector(average_.mean);
 }
 
-CalibrationMarginal CalibrationWatch::measure(const Map& map, const EstimatorRig& rig,
+CalibrationMarginal CalibrationWatch::measure(std::size_t keyframes, const Map& map,
+                                              const EstimatorRig& rig,
                                               const AdjustmentOptions& options) const {
   AdjustmentOptions unknown = options;
   unknown.iterations = kIterations;
@@ -172,11 +189,16 @@ CalibrationMarginal CalibrationWatch::measure(const Map& map, const EstimatorRig
   unknown.min_keyframes = kMinKeyframes;
   unknown.calibration = prior_;
   const std::size_t end = map.keyframes().size();
-  AdjustmentJob job(map, keyframes_between(end - kPart, end), rig, unknown);
+  AdjustmentJob job(map, keyframes_between(end - keyframes, end), rig, unknown);
   job.solve();
   CalibrationMarginal found = job.calibration();
   found.belief = found.belief + prior_ * -1;
   return found;
+}
+
+void CalibrationWatch::keep_drift(const CalibrationMarginal& marginal, std::size_t keyframes) {
+  if (!marginal.of_last_pose.allFinite()) return;
+  drift_ = marginal.of_last_pose / static_cast<double>(keyframes - 1);
 }
 
 void CalibrationWatch::add(const CalibrationBelief& part) {

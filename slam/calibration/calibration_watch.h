@@ -36,8 +36,15 @@ class CalibrationWatch {
   /// Whether enough keyframes came since the last look: a dozen, later four.
   bool due(const Map& map) const;
 
+  /// Whether there are enough keyframes to see how errors of the calibrations move the body, once,
+  /// before the first look.
+  bool may_feel(const Map& map) const;
+
+  /// Finds drift() from a few keyframes. They tell too little of the calibrations themselves.
+  void feel(const Map& map, const EstimatorRig& rig, const AdjustmentOptions& options);
+
   /// Keyframes before this one are not looked at: those of a loaded map.
-  void begin(std::size_t keyframe) { looked_ = keyframe; }
+  void begin(std::size_t keyframe) { begin_ = looked_ = keyframe; }
 
   /// Looks at the latest keyframes. The calibrations, where they are now known to
   /// differ from the rig's; otherwise none. The map is not touched.
@@ -54,13 +61,15 @@ class CalibrationWatch {
   /// (CalibrationAverage): of to_vector().
   Eigen::MatrixXd error(const EstimatorRig& rig) const;
 
-  /// By how much such errors move the body from one keyframe to the next, as the last look had it:
-  /// steps of step_of in six rows, a column for each number of to_vector(). Zero before the first.
+  /// By how much such errors move the body from one keyframe to the next, as the last look had it,
+  /// or feel() before: steps of step_of in six rows, a column for each number of to_vector(). Zero
+  /// before either.
   const Eigen::MatrixXd& drift() const { return drift_; }
 
  private:
-  CalibrationMarginal measure(const Map& map, const EstimatorRig& rig,
+  CalibrationMarginal measure(std::size_t keyframes, const Map& map, const EstimatorRig& rig,
                               const AdjustmentOptions& options) const;
+  void keep_drift(const CalibrationMarginal& marginal, std::size_t keyframes);
   std::optional<std::vector<PairCalibration>> look_at_one_pair(const CalibrationBelief& now,
                                                                const EstimatorRig& rig);
   void add(const CalibrationBelief& part);
@@ -73,7 +82,9 @@ class CalibrationWatch {
   Eigen::MatrixXd drift_;
   double chi_squared_ = 0;  ///< of the dozens against those before
   double freedom_ = 0;      ///< numbers that these chi-squares are of
+  std::size_t begin_ = 0;   ///< keyframes that are not its own
   std::size_t looked_ = 0;  ///< keyframes
+  bool felt_ = false;
   int looks_ = 0;
   bool replaced_ = false;
 };

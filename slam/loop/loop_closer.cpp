@@ -167,12 +167,22 @@ Matrix6d LoopCloser::covariance(const TagSighting& sighting) const {
                         settings_.loop.corner_sigma);
 }
 
+/// Of a registered tag in the world, in its own frame; zero of others.
+Matrix6d LoopCloser::survey_covariance(const TagSighting& sighting) const {
+  if (registered(sighting) == nullptr) return Matrix6d::Zero();
+  const LoopConfig& told = settings_.loop;
+  Vector6d sigma;
+  sigma << Eigen::Vector3d::Constant(told.survey_position),
+      Eigen::Vector3d::Constant(told.survey_rotation_deg * std::numbers::pi / 180);
+  return sigma.cwiseAbs2().asDiagonal();
+}
+
 Matrix6d LoopCloser::localisation_covariance(const std::vector<TagSighting>& sightings) const {
   std::optional<Matrix6d> surest;
   for (const TagSighting& sighting : sightings) {
     if (sighting.ambiguous) continue;
-    const Matrix6d of_body =
-        carry_covariance(covariance(sighting), T_body_tag(sighting, cameras_).inverse());
+    const Matrix6d of_body = carry_covariance(covariance(sighting) + survey_covariance(sighting),
+                                              T_body_tag(sighting, cameras_).inverse());
     if (!surest || of_body.trace() < surest->trace()) surest = of_body;
   }
   return surest.value_or(Matrix6d::Zero());

@@ -47,7 +47,8 @@ class LoopCloser {
   std::optional<Pose> map_pose(const std::vector<TagSighting>& sightings, const Map& map) const;
 
   /// Covariance of the body's pose by the surest of the sightings, in the step of step_of: that
-  /// of the tag's corners. Zero where there is no sighting to go by.
+  /// of the tag's corners and, of a registered one, its survey. Zero where there is no sighting to
+  /// go by.
   Matrix6d localisation_covariance(const std::vector<TagSighting>& sightings) const;
 
   /// Leaves the frame those sightings that are to be believed; call it with every tracked frame
@@ -122,6 +123,7 @@ class LoopCloser {
 
   std::optional<PlacedSighting> placed(const TagSighting& sighting, const Map& map) const;
   Matrix6d covariance(const TagSighting& sighting) const;
+  Matrix6d survey_covariance(const TagSighting& sighting) const;
   Matrix6d drift(double since, double path_length) const;
   bool is_in_place(const TagSighting& sighting, const Pose& T_map_body, double path_length,
                    const Map& map) const;

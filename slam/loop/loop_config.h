@@ -13,6 +13,10 @@ struct LoopConfig {
   double away_distance = 1.0;  ///< m, the way driven meanwhile
   double corner_sigma =
       0.15;  ///< px, by which a tag's corner is off besides its noise: lens, print
+  /// Accuracy of registered tags' survey, standard deviations of each axis of a tag: part of what
+  /// the body's pose in the world is uncertain by.
+  double survey_position = 0;      ///< m
+  double survey_rotation_deg = 0;  ///< degrees
   /// A tag that is farther from its place in the map than this is not believed: a share of the way
   /// driven since a tag was seen, m, and degrees with degrees a metre.
   double max_drift = 0.02;
@@ -26,6 +30,8 @@ struct LoopConfig {
     archive("away_seconds", away_seconds, Range::non_negative());
     archive("away_distance", away_distance, Range::non_negative());
     archive("corner_sigma", corner_sigma, Range::positive());
+    archive("survey_position", survey_position, Range::between(0, 10));
+    archive("survey_rotation_deg", survey_rotation_deg, Range::between(0, 90));
     archive("max_drift", max_drift, Range::between(0, 1));
     archive("max_offset", max_offset, Range::positive());
     archive("max_turn_deg", max_turn_deg, Range::positive());

@@ -92,6 +92,22 @@ TEST_F(CalibrationWatchTest, ARightFileIsBorneOut) {
   EXPECT_LT(watch_.error(made_.rig)(18, 18), 0.01 * 0.05 * 0.05);
 }
 
+// How errors move the body is seen from a few keyframes, as a dozen shows it later: an offset makes
+// the way longer or shorter, by the same share. A fifth: four keyframes have few landmarks in
+// common.
+TEST_F(CalibrationWatchTest, FeelsBeforeItLooks) {
+  drive(5);
+  EXPECT_FALSE(watch_.may_feel(made_.map));
+  drive(1);
+  ASSERT_TRUE(watch_.may_feel(made_.map));
+  watch_.feel(made_.map, made_.rig, {});
+  EXPECT_FALSE(watch_.may_feel(made_.map));
+  const double felt = watch_.drift()(0, 18);
+  drive(10);
+  EXPECT_NE(watch_.drift()(0, 18), felt);
+  EXPECT_NEAR(watch_.drift()(0, 18), felt, 0.2 * std::abs(felt));
+}
+
 // What the watch says of its own error: that of the offset is within four standard deviations, and
 // less than the prior's 1 px.
 TEST_F(CalibrationWatchTest, KnowsItsError) {

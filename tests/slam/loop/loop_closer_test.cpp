@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <numbers>
 
 #include "core/util/error.h"
 #include "slam/optimisation/bundle_adjustment.h"
@@ -93,6 +94,25 @@ TEST_F(LoopCloserTest, TheFirstRegisteredTagGivesTheWorld) {
   EXPECT_LT(angle(T_world_seen, T_world_tag), 1e-7);  // acos near 1
   loop.record(*frame(2, {known}), Pose{}, 0, map_);
   EXPECT_EQ(distance(*loop.T_world_map(), *T_world_map), 0);
+}
+
+// A degree of the tag's survey turns the body about the tag: at the distance d of the tag's origin
+// that moves it by a degree times d across the line between them, twice (two axes): 2 d^2 of the
+// trace, beside 3 times the square of the position's own.
+TEST_F(LoopCloserTest, TheSurveyOfARegisteredTagIsPartOfWhereTheBodyIs) {
+  const TagSighting seen = with_corners(sighting(0, T_body_tag_));
+  const RegisteredTag tag{"tag36h11", 0, 0.161, Pose{}};
+  const Matrix6d by_corners = closer({tag}).localisation_covariance({seen});
+  settings_.loop.survey_position = 0.006;
+  settings_.loop.survey_rotation_deg = 1;
+  const Matrix6d survey = closer({tag}).localisation_covariance({seen}) - by_corners;
+  const double turn = std::numbers::pi / 180;
+  const double d = T_body_tag_.translation.norm();
+  EXPECT_NEAR((survey.topLeftCorner<3, 3>().trace()), 3 * 0.006 * 0.006 + 2 * turn * turn * d * d,
+              1e-12);
+  EXPECT_NEAR((survey.bottomRightCorner<3, 3>().trace()), 3 * turn * turn, 1e-12);
+  // A tag that nobody surveyed lies where the map has it.
+  EXPECT_EQ(closer().localisation_covariance({seen}), by_corners);
 }
 
 TEST_F(LoopCloserTest, AnUnregisteredTagIsMappedAtFirstSight) {
