@@ -93,6 +93,18 @@ function(vinebench_shards program)
   endforeach()
 endfunction()
 
+# vinebench_suites(PROGRAM): each of its suites as a test, because a process for each single test takes longer to
+# start than most of them to run.
+function(vinebench_suites program)
+  set(list ${CMAKE_CURRENT_BINARY_DIR}/${program}_suites.cmake)
+  add_custom_command(TARGET ${program} POST_BUILD BYPRODUCTS ${list} VERBATIM
+    COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${program}> -D LIST=${list}
+            -P ${PROJECT_SOURCE_DIR}/cmake/list_suites.cmake)
+  file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/${program}_tests.cmake
+       "if(EXISTS ${list})\n  include(${list})\nelse()\n  add_test(${program}_not_built ${program})\nendif()\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/${program}_tests.cmake)
+endfunction()
+
 # vinebench_library(NAME): a module that is linked into shared objects too.
 function(vinebench_library name)
   set_target_properties(vinebench_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
@@ -128,6 +140,6 @@ function(vinebench_tests folder)
   if(VINEBENCH_SANITIZE AND (VINEBENCH_SLAM_ONLY OR VINEBENCH_FUZZ))
     vinebench_shards(${name}_test)
   else()
-    gtest_discover_tests(${name}_test PROPERTIES LABELS unit DISCOVERY_TIMEOUT 60)
+    vinebench_suites(${name}_test)
   endif()
 endfunction()

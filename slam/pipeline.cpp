@@ -8,30 +8,14 @@
 #include "core/util/error.h"
 #include "slam/camera/rectification.h"
 #include "slam/frame/measurements.h"
-#include "slam/loop/loop_correction.h"
 #include "slam/tracking/keyframe_selector.h"
-#include "slam/tracking/place_evidence.h"
 
 namespace vinebench::slam {
 namespace {
 
-/// A map begins with at least this many stereo points.
-constexpr int kMinFirstPoints = 100;
-
-/// Frames in a row that see that many and find nothing of the map: a new map part starts.
-constexpr int kFramesBeforeRestart = 3;
-
-/// As many where they resemble a place that the map has.
-constexpr int kFramesOfDoubt = 10;
-
 /// While a tag is in view keyframes are this near to each other, so that it is seen from several
 /// places.
 constexpr double kTagKeyframeDistance = 0.05;  // m
-
-int count_stereo(const StereoView& view) {
-  return static_cast<int>(std::count_if(view.stereo.begin(), view.stereo.end(),
-                                        [](const StereoMatch& m) { return m.depth > 0; }));
-}
 
 /// What a pose by a tag is uncertain by besides its corners: the tag's print, the lens.
 Matrix6d by_tag_covariance() {
@@ -83,6 +67,7 @@ Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
       scheduler_(config.mapping, one_thread),
       loop_closer_({config.loop, config.tags.size, config.mapping.global_iterations},
                    rig_.tag_cameras, tags),
+      recovery_(tracker_, loop_closer_, rig_, map_),
       calibration_(config.calibration, config.stereo.calibration_sigma, rig_) {
   rig_.wheels = config.dead_reckoning.wheels;
   rig_.noise.loss = config.loss;
@@ -149,7 +134,19 @@ void Pipeline::correct_stereo(FrameFeatures& frame) const {
 
 TrackedFrame Pipeline::locate(const std::shared_ptr<FrameFeatures>& frame) {
   if (started_) return track(frame);
-  return map_.keyframes().empty() ? initialise(frame) : relocalise(frame);
+  if (map_.keyframes().empty()) return initialise(frame);
+  const ScopedTimer timer(times_, "relocalisation");
+  TrackedFrame tracked = recovery_.relocalise(frame);
+  started_ = tracked.tracked;
+  return tracked;
+}
+
+/// Goes on where a tag says that the body was carried to.
+void Pipeline::find_carried(TrackedFrame& tracked) {
+  const auto T_map_body = recovery_.carried_to(tracked, path_length_);
+  if (!T_map_body) return;
+  if (scheduler_.busy()) join_mapping(&tracked);
+  records_.withdraw_reckoned(recovery_.move_to(*T_map_body, tracked));
 }
 
 /// Leaves the frame the sightings that are to be believed.
@@ -173,9 +170,7 @@ void Pipeline::record_tags(const TrackedFrame& tracked) {
 /// Keeps the frame's pose against the latest keyframe, and reports it.
 void Pipeline::record_pose(const TrackedFrame& tracked, Estimate& estimate) {
   if (!tracked.tracked && estimate.status != TrackingStatus::kDeadReckoning) return;
-  const Keyframe& last = map_.keyframes().back();
-  records_.push_back({estimate.stamp, last.id, last.T_map_body.inverse() * tracker_.T_map_body(),
-                      !tracked.tracked});
+  records_.add(estimate.stamp, map_.keyframes().back(), tracker_.T_map_body(), !tracked.tracked);
   estimate.T_map_body = tracker_.T_map_body();
   estimate.covariance = covariance(tracked, estimate.keyframe);
 }
@@ -190,10 +185,7 @@ SlamSummary Pipeline::finish() {
     tags_since_adjustment_ = false;
   }
   SlamSummary summary;
-  for (const FrameRecord& record : records_) {
-    summary.trajectory.push_back(
-        {record.stamp, map_.keyframe(record.keyframe).T_map_body * record.T_keyframe_body});
-  }
+  summary.trajectory = records_.trajectory(map_);
   for (const Keyframe& keyframe : map_.keyframes()) {
     if (keyframe.inherited()) continue;
     summary.keyframes.push_back({keyframe.frame->stamp, keyframe.T_map_body});
@@ -225,12 +217,12 @@ TrackedFrame Pipeline::initialise(const std::shared_ptr<FrameFeatures>& frame) {
     StereoView& view = frame->views[v];
     reach_farther(view.features, rig_.left_cameras[v].lens, rig_.left_cameras[v].baseline,
                   config_.stereo, view.stereo);
-    const int points = count_stereo(view);
+    const int points = count_with_depth(view.stereo);
     tracked.motion.matches_per_view.push_back(points);
     tracked.motion.inliers_per_view.push_back(points);
     tracked.motion.inliers += points;
   }
-  tracked.tracked = tracked.motion.inliers >= kMinFirstPoints;
+  tracked.tracked = sees_well(*frame);
   if (tracked.tracked) {
     const std::optional<Pose> by_tag = loop_closer_.world_pose(frame->tags);
     tracked.motion.T_map_body = by_tag.value_or(Pose{});
@@ -242,112 +234,20 @@ TrackedFrame Pipeline::initialise(const std::shared_ptr<FrameFeatures>& frame) {
   return tracked;
 }
 
-/// Where in a loaded map the body is: by a tag that the map knows, else by appearance of the place.
-/// Either must be borne out by tracking from there.
-TrackedFrame Pipeline::relocalise(const std::shared_ptr<FrameFeatures>& frame) {
-  const ScopedTimer timer(times_, "relocalisation");
-  std::optional<Pose> T_map_body = loop_closer_.map_pose(frame->tags, map_);
-  if (!T_map_body) T_map_body = relocaliser_.find(map_, rig_, *frame);
-  if (T_map_body) {
-    tracker_.start(*T_map_body, frame->stamp);
-    TrackedFrame tracked = tracker_.track(frame, map_, rig_);
-    started_ = tracked.tracked;
-    return tracked;
-  }
-  TrackedFrame tracked;
-  tracked.frame = frame;
-  tracked.motion.matches_per_view.assign(frame->views.size(), 0);
-  tracked.motion.inliers_per_view.assign(frame->views.size(), 0);
-  return tracked;
-}
-
 TrackedFrame Pipeline::track(const std::shared_ptr<FrameFeatures>& frame) {
   const ScopedTimer timer(times_, "tracking");
   const Pose before = tracker_.T_map_body();
   TrackedFrame tracked = tracker_.track(frame, map_, rig_);
-  if (!tracked.tracked) find_again(tracked);
+  if (!tracked.tracked && recovery_.find_again(tracked)) {
+    records_.withdraw_reckoned(map_.keyframes().back().id);
+  }
   if (tracked.tracked) {
-    seeing_frames_ = 0;
+    recovery_.tracked();
   } else {
-    tracked.tracked = restart_map(tracked);
+    recovery_.restart_map(tracked, path_length_);
   }
   path_length_ += (tracker_.T_map_body().translation - before.translation).norm();
   return tracked;
-}
-
-/// Whether a frame has enough to see a map by.
-bool Pipeline::sees_well(const FrameFeatures& frame) {
-  int points = 0;
-  for (const StereoView& view : frame.views) points += count_stereo(view);
-  return points >= kMinFirstPoints;
-}
-
-/// Goes on where the body is by a tag that the map knows or by the looks of the place. A tag is
-/// believed; a place must be borne out by tracking there and, as long as dead reckoning says that
-/// the body is elsewhere, by all cameras: then it was carried.
-void Pipeline::find_again(TrackedFrame& tracked) {
-  const std::shared_ptr<FrameFeatures> frame = tracked.frame;
-  if (const auto by_tag = loop_closer_.map_pose(frame->tags, map_)) {
-    tracker_.start(*by_tag, frame->stamp);
-    tracked = tracker_.track(frame, map_, rig_);
-    return;
-  }
-  const bool reckons = !tracker_.dead_reckoning().is_lost();
-  if (reckons && !sees_well(*frame)) return;
-  const auto by_looks = relocaliser_.find(map_, rig_, *frame);
-  if (!by_looks) return;
-  if (reckons && !bears_out(look_around(map_, rig_, *frame, *by_looks))) return;
-  Tracker there = tracker_;
-  there.start(*by_looks, frame->stamp, !reckons);
-  TrackedFrame found = there.track(frame, map_, rig_);
-  if (!found.tracked) return;
-  tracker_ = std::move(there);
-  tracked = std::move(found);
-  if (reckons) withdraw_reckoned(map_.keyframes().back().id);
-}
-
-/// Forgets what dead reckoning made of the frames after a keyframe: the body was carried meanwhile.
-void Pipeline::withdraw_reckoned(int keyframe) {
-  std::erase_if(records_, [&](const FrameRecord& record) {
-    return record.reckoned && record.keyframe == keyframe;
-  });
-}
-
-/// Believes a tag rather than dead reckoning over the last gap, where the map bears it out: the
-/// body was carried. The map from there on moves to where the tag says that it is.
-void Pipeline::find_carried(TrackedFrame& tracked) {
-  const FrameFeatures& frame = *tracked.frame;
-  const auto by_tag =
-      loop_closer_.pose_across_gap(frame.tags, tracked.motion.T_map_body, path_length_, map_);
-  if (!by_tag) return;
-  const PlaceEvidence evidence = look_around(map_, rig_, frame, *by_tag);
-  if (!bears_out(evidence)) return;
-  if (scheduler_.busy()) join_mapping(&tracked);
-  const int after = loop_closer_.open_gap(frame.tags, map_);
-  const Pose T_new_old = evidence.T_map_body * tracked.motion.T_map_body.inverse();
-  move_from(map_, after, T_new_old);
-  tracker_.correct(T_new_old * tracker_.T_map_body());
-  tracked.motion.T_map_body = T_new_old * tracked.motion.T_map_body;
-  withdraw_reckoned(map_.keyframe(after).link->from);
-}
-
-/// Makes a frame that sees well, but nothing of the map, the map's next keyframe where dead
-/// reckoning says that it is. False where that is not the case.
-bool Pipeline::restart_map(TrackedFrame& tracked) {
-  seeing_frames_ = sees_well(*tracked.frame) ? seeing_frames_ + 1 : 0;
-  const int frames = relocaliser_.has_candidate() ? kFramesOfDoubt : kFramesBeforeRestart;
-  if (seeing_frames_ < frames || tracker_.dead_reckoning().is_lost()) return false;
-  const Keyframe& last = map_.keyframes().back();
-  tracked.motion.T_map_body = tracker_.T_map_body();
-  tracked.link = OdometryLink{last.id, last.T_map_body.inverse() * tracker_.T_map_body(),
-                              tracker_.dead_reckoning().covariance()};
-  loop_closer_.cross_gap(path_length_, tracked.link->covariance,
-                         static_cast<int>(map_.keyframes().size()));
-  tracked.associations = no_associations(*tracked.frame);
-  tracked.motion.information.setZero();
-  tracker_.start(tracked.motion.T_map_body, tracked.frame->stamp);
-  seeing_frames_ = 0;
-  return true;
 }
 
 bool Pipeline::wants_new_keyframe(const TrackedFrame& tracked) const {
@@ -456,7 +356,7 @@ Estimate Pipeline::report(const TrackedFrame& tracked) const {
     const StereoView& view = frame.views[p];
     CameraCounts& left = estimate.cameras[static_cast<std::size_t>(pair.left_camera)];
     left.features = static_cast<int>(view.features.size());
-    for (const StereoMatch& match : view.stereo) left.stereo += match.depth > 0;
+    left.stereo = count_with_depth(view.stereo);
     left.matches = tracked.motion.matches_per_view[p];
     left.inliers = tracked.motion.inliers_per_view[p];
     // The right camera's part is where the left camera's features were found in it.

@@ -12,10 +12,11 @@
 #include "slam/config.h"
 #include "slam/loop/loop_closer.h"
 #include "slam/map/map.h"
+#include "slam/map/trajectory_record.h"
 #include "slam/mapping/local_mapper.h"
 #include "slam/optimisation/pose_uncertainty.h"
+#include "slam/recovery.h"
 #include "slam/runtime/mapping_scheduler.h"
-#include "slam/tracking/relocaliser.h"
 #include "slam/tracking/tracker.h"
 
 namespace vinebench::slam {
@@ -46,14 +47,6 @@ class Pipeline {
   const StageTimes& times() const { return times_; }
 
  private:
-  /// A frame's pose is kept against its keyframe, so that it moves with the map's corrections.
-  struct FrameRecord {
-    Stamp stamp;
-    int keyframe;
-    Pose T_keyframe_body;
-    bool reckoned = false;  ///< by dead reckoning alone
-  };
-
   void join_due_mapping();
   void correct_stereo(FrameFeatures& frame) const;
   TrackedFrame locate(const std::shared_ptr<FrameFeatures>& frame);
@@ -64,13 +57,8 @@ class Pipeline {
   void record_support(const TrackedFrame& tracked);
 
   TrackedFrame initialise(const std::shared_ptr<FrameFeatures>& frame);
-  TrackedFrame relocalise(const std::shared_ptr<FrameFeatures>& frame);
   TrackedFrame track(const std::shared_ptr<FrameFeatures>& frame);
-  static bool sees_well(const FrameFeatures& frame);
-  void find_again(TrackedFrame& tracked);
-  void withdraw_reckoned(int keyframe);
   void find_carried(TrackedFrame& tracked);
-  bool restart_map(TrackedFrame& tracked);
   bool wants_new_keyframe(const TrackedFrame& tracked) const;
   void join_mapping(TrackedFrame* tracked = nullptr);
   void map_keyframe(TrackedFrame& tracked, Estimate& estimate);
@@ -88,15 +76,14 @@ class Pipeline {
   LocalMapper mapper_;
   MappingScheduler scheduler_;
   LoopCloser loop_closer_;
-  Relocaliser relocaliser_;
+  Recovery recovery_;
   CalibrationWatch calibration_;
   PoseUncertainty uncertainty_;        ///< of the latest keyframe
   Eigen::MatrixXd calibration_error_;  ///< second moments, as CalibrationWatch has them
   StageTimes times_;
-  std::vector<FrameRecord> records_;
+  TrajectoryRecord records_;
   std::vector<std::vector<Eigen::Vector2f>> supporting_;  ///< px, of the last frame's views
-  int seeing_frames_ = 0;   ///< in a row, that see enough and find nothing of the map
-  double path_length_ = 0;  ///< m
+  double path_length_ = 0;                                ///< m
   int closures_ = 0;
   bool started_ = false;
   bool tags_since_adjustment_ = false;  ///< tags were seen after the last global adjustment

@@ -7,10 +7,10 @@
 # `thread`:
 #   fuzz     with clang: address and undefined behaviour, but for the checks for null and misaligned
 #            pointers and the sizes of objects, which address errors and Eigen's own assertions tell
-#            of, and which take most of the time; the tests of core and slam without the long drives,
-#            and the fuzzers of all readers, 6 s each
+#            of, and which take most of the time; the tests of core, and those of slam that go through
+#            most of it, without the long drives; and the fuzzers of all readers, 6 s each
 #   thread   what has threads in slam
-#   address  the same tests as in `fuzz`, with the default compiler
+#   address  all tests of core and slam but the long drives, with the default compiler
 #   sanitize everything, with all checks
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

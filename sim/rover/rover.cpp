@@ -9,6 +9,7 @@
 
 #include "core/util/error.h"
 #include "core/util/random.h"
+#include "sim/rover/inertial_average.h"
 #include "sim/rover/physics_world.h"
 #include "sim/rover/wheel_controller.h"
 #include "sim/world/world_layout.h"
@@ -54,7 +55,6 @@ struct Rover::Physics {
   WheelArray angles() const;
   Pose pose_at(Stamp stamp) const { return interpolate(previous_pose, pose(), fraction(stamp)); }
   ImuSample felt() const;
-  ImuSample next_imu(Stamp stamp);
   WheelSample wheels_at(Stamp stamp) const;
   double fraction(Stamp stamp) const {
     return 1.0 - static_cast<double>(time - stamp) / static_cast<double>(step_length);
@@ -82,8 +82,7 @@ struct Rover::Physics {
   Stamp now = 0;
   Pose previous_pose;  ///< one step before `time`
   WheelArray previous_angles{};
-  ImuSample felt_since;        ///< sums over the steps since the last inertial reading
-  int steps_since = 0;         ///< that many
+  InertialAverage inertial;
   std::int64_t imu_count = 0;  ///< samples taken so far
   std::int64_t wheel_count = 0;
 };
@@ -159,8 +158,7 @@ void Rover::Physics::settle(const Eigen::Vector3d& start) {
   previous_angles = angles();
   previous_pose = pose();
   time = 0;
-  felt_since = {};
-  steps_since = 0;
+  inertial = {};
 }
 
 /// Places it just above uneven ground, tilted as the ground below its wheels.
@@ -251,10 +249,7 @@ void Rover::Physics::step() {
   }
   world.step();
   time += step_length;
-  const ImuSample in_step = felt();
-  felt_since.angular_velocity += in_step.angular_velocity;
-  felt_since.specific_force += in_step.specific_force;
-  ++steps_since;
+  inertial.add(felt());
 }
 
 /// The hands: a critically damped hold at the reference. The weight is theirs from the first
@@ -303,7 +298,7 @@ void Rover::Physics::sample(Stamp until, std::vector<ImuSample>& imu,
   for (;; ++imu_count) {
     const Stamp stamp = stamp_of_frame(imu_count + 1, config.imu_rate_hz);
     if (stamp > until) break;
-    imu.push_back(next_imu(stamp));
+    imu.push_back(inertial.take(stamp, felt()));
   }
   for (;; ++wheel_count) {
     const Stamp stamp = stamp_of_frame(wheel_count + 1, config.wheel_rate_hz);
@@ -329,20 +324,6 @@ WheelArray Rover::Physics::angles() const {
 ImuSample Rover::Physics::felt() const {
   const mjtNum* data = world.state().sensordata;
   return {now, vector_of(data + gyro), vector_of(data + accelerometer)};
-}
-
-/// The mean since the reading before, as a unit's own filter gives it, so that readings sum up to
-/// the motion: rollers shake the body at frequencies that single readings would alias.
-ImuSample Rover::Physics::next_imu(Stamp stamp) {
-  ImuSample reading = steps_since > 0 ? felt_since : felt();
-  reading.stamp = stamp;
-  if (steps_since > 0) {
-    reading.angular_velocity /= steps_since;
-    reading.specific_force /= steps_since;
-  }
-  felt_since = {};
-  steps_since = 0;
-  return reading;
 }
 
 WheelSample Rover::Physics::wheels_at(Stamp stamp) const {

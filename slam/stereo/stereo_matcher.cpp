@@ -74,6 +74,11 @@ std::size_t count_found(const std::vector<StereoMatch>& matches) {
       std::ranges::count_if(matches, [](const StereoMatch& m) { return m.x_right >= 0; }));
 }
 
+int count_with_depth(const std::vector<StereoMatch>& matches) {
+  return static_cast<int>(
+      std::ranges::count_if(matches, [](const StereoMatch& m) { return m.depth > 0; }));
+}
+
 std::vector<StereoMatch> match_stereo(const Extraction& left, const Extraction& right,
                                       const PinholeCamera& camera, double baseline,
                                       const OrbExtractor& extractor, const StereoConfig& config) {
@@ -110,9 +115,7 @@ std::vector<StereoMatch> match_stereo(const Extraction& left, const Extraction& 
 
 void reach_farther(const Features& left, const PinholeCamera& camera, double baseline,
                    const StereoConfig& config, std::vector<StereoMatch>& matches) {
-  const auto near =
-      std::ranges::count_if(matches, [](const StereoMatch& m) { return m.depth > 0; });
-  if (near >= config.few) return;
+  if (count_with_depth(matches) >= config.few) return;
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (matches[i].depth > 0 || matches[i].x_right < 0) continue;
     const float disparity = left.keypoints[i].x - matches[i].x_right;

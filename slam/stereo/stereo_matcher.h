@@ -70,6 +70,9 @@ struct StereoMatch {
 /// How many features were found in the right image, however far away.
 std::size_t count_found(const std::vector<StereoMatch>& matches);
 
+/// How many of them have a depth.
+int count_with_depth(const std::vector<StereoMatch>& matches);
+
 /// Finds the left image's keypoints in the right one of a rectified pair (same lens, same rows):
 /// search of the window about each along the epipolar line on its pyramid level, accepted where the
 /// place is unique and the search back from there finds the keypoint again; then sub-pixel

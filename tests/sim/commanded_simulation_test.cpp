@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "sim/config_files.h"
+#include "tests/support/shared_plants.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::sim {
@@ -42,7 +43,7 @@ class CommandedSimulationTest : public testing::Test {
                                                   WorkerPool& pool) const {
     CapturePlan plan;
     plan.depth = true;
-    return make_commanded_simulation(config, 1, folder_ / "cache", pool, plan);
+    return make_commanded_simulation(config, 1, test::shared_plants(), pool, plan);
   }
 
   test::TestFolder folder_;

@@ -6,7 +6,7 @@
 
 #include "sim/config_files.h"
 #include "sim/sim.h"
-#include "tests/support/test_folder.h"
+#include "tests/support/shared_plants.h"
 
 namespace vinebench::sim {
 namespace {
@@ -21,8 +21,7 @@ SimulationConfig config() {
 }
 
 TEST(DrawnSceneTest, ServesWhatIsDrawnTheSame) {
-  const test::TestFolder folder;
-  const DrawnScene drawn(config(), 1, folder / "cache", 1);
+  const DrawnScene drawn(config(), 1, test::shared_plants(), 1);
   EXPECT_TRUE(drawn.serves(config(), 1));
   SimulationConfig noisy = config();
   noisy.sensors.camera.noise.read_noise = 100;

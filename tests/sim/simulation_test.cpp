@@ -11,6 +11,7 @@
 #include "core/util/error.h"
 #include "sim/config_files.h"
 #include "sim/render/gl/gl_renderer.h"
+#include "tests/support/shared_plants.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::sim {
@@ -54,7 +55,7 @@ class SimulationTest : public testing::Test {
   }
   std::vector<Sample> run(const SimulationConfig& config, int threads = 1) const {
     WorkerPool pool(threads);
-    const auto source = make_simulation(config, 1, folder_ / "cache", pool);
+    const auto source = make_simulation(config, 1, test::shared_plants(), pool);
     std::vector<Sample> samples;
     while (auto sample = source->next()) samples.push_back(std::move(*sample));
     return samples;
@@ -162,7 +163,7 @@ TEST_F(SimulationTest, PerfectSensorsGiveTheTruth) {
   ASSERT_EQ(samples.size(), 10u);
   // The same images, rendered by hand.
   const Rig rig = load_rig(perfect.rover.rig);
-  GlRenderer renderer(build_scene(perfect.world, 1, folder_ / "cache"), perfect.renderer);
+  GlRenderer renderer(build_scene(perfect.world, 1, test::shared_plants()), perfect.renderer);
   for (const std::size_t i : {0u, 9u}) {
     const Pose T_world_cam = samples[i].truth.T_world_body * rig.cameras[2].T_body_cam;
     const RenderedImage image = renderer.render(rig.cameras[2].model, T_world_cam, {});
@@ -245,7 +246,7 @@ TEST_F(SimulationTest, TheRigThatIsToldHasNoCalibrationError) {
   SimulationConfig off_true = config();
   off_true.sensors.calibration.rotation_deg = 1;
   WorkerPool pool(1);
-  const auto source = make_simulation(off_true, 1, folder_ / "cache", pool);
+  const auto source = make_simulation(off_true, 1, test::shared_plants(), pool);
   const Rig nominal = load_rig(off_true.rover.rig);
   EXPECT_EQ(source->rig().cameras[0].T_body_cam.matrix(), nominal.cameras[0].T_body_cam.matrix());
   EXPECT_FALSE(same(source->next()->frame.images[0], run(config())[0].frame.images[0]));

@@ -9,6 +9,7 @@
 
 #include "harness/datasets/formats.h"
 #include "harness/jobs/record.h"
+#include "tests/support/shared_plants.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::test {
@@ -21,7 +22,7 @@ inline constexpr double kBaseline = 0.12;  // m
 class SmallScenario : public testing::Test {
  protected:
   SmallScenario() {
-    request_.machine.plant_cache = folder_ / "cache";
+    request_.machine.plant_cache = shared_plants();
     folder_.write("rig.yaml", R"(name: small
 rate_hz: 15
 cameras:

@@ -8,7 +8,7 @@ set -euo pipefail
 vinebench=$1 root=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-export VINEBENCH_CACHE=$work/cache
+export VINEBENCH_CACHE=$(dirname "$vinebench")/test-plants
 
 cat >"$work/rig.yaml" <<'YAML'
 name: small

@@ -4,7 +4,7 @@
 later ones (ENOSPC, a full disk). Expects exit code 2 with one message, and that whatever has a
 final name is whole, or of a growing list a beginning.
 Usage: fault_test.py VINEBENCH SHIM ROOT [--every K] [--first A] [--last B]
-  --every K  at every K-th file operation (default: 60)
+  --every K  at every K-th file operation (default: 180)
   --first A, --last B  of the operations A to B of each command (default: all)"""
 import json
 import pathlib
@@ -131,6 +131,6 @@ def main():
     return 1 if failures else 0
 
 
-arguments = parse_arguments(every=90, first=1, last=0)
+arguments = parse_arguments(every=180, first=1, last=0)
 vinebench, shim, root = arguments.vinebench, arguments.shim, arguments.root
 sys.exit(main())

@@ -3,9 +3,9 @@
 """Kills recordings and sets of them, at file operations and at random times, and expects that
 `check` says what there is and that `record --resume` gives the bytes of an uninterrupted one.
 Usage: kill_test.py VINEBENCH SHIM ROOT [--every K] [--first A] [--last B] [--times N] [--seed S]
-  --every K  at every K-th file operation (default: 160)
+  --every K  at every K-th file operation (default: 480)
   --first A, --last B  of the operations A to B of each recording (default: all)
-  --times N  at N random times, half of them in a set (default: 6)
+  --times N  at N random times, half of them in a set (default: 4)
   --seed S   of these times (default: 1)"""
 import pathlib
 import random
@@ -138,6 +138,6 @@ def main():
     return 1 if failures else 0
 
 
-arguments = parse_arguments(every=240, first=1, last=0, times=6, seed=1)
+arguments = parse_arguments(every=480, first=1, last=0, times=4, seed=1)
 vinebench, shim, root = arguments.vinebench, arguments.shim, arguments.root
 sys.exit(main())

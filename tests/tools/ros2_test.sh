@@ -9,7 +9,7 @@ set -euo pipefail
 vinebench=$1 root=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-export VINEBENCH_CACHE=$work/cache
+export VINEBENCH_CACHE=$(dirname "$vinebench")/test-plants
 . "$root/tests/tools/ros_scenario.sh"
 
 record=("$vinebench" record "$work/small.yaml" --out)

@@ -17,6 +17,7 @@
 #include "sim/world/world.h"
 #include "sim/world/world_layout.h"
 #include "tests/support/tag_reading.h"
+#include "tests/support/shared_plants.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::sim {
@@ -64,7 +65,7 @@ class SceneTest : public testing::Test {
 
 TEST_F(SceneTest, VinesAndPostsStandWhereTheWorldHasThem) {
   const WorldConfig world = small_world();
-  const Scene scene = build_scene(world, 1, folder_ / "cache");
+  const Scene scene = build_scene(world, 1, test::shared_plants());
   const std::vector<Eigen::Vector2d> vines = lay_out(world).vine_feet(),
                                      posts = lay_out(world).post_feet();
   const std::vector<Instance> plants = instances_of(scene, Label::kBunch);
@@ -88,7 +89,7 @@ TEST_F(SceneTest, VinesAndPostsStandWhereTheWorldHasThem) {
 
 TEST_F(SceneTest, TheTagsPrintLiesInItsPlaneWithItsBlackSquareToSize) {
   const WorldConfig world = small_world();
-  const Scene scene = build_scene(world, 1, folder_ / "cache");
+  const Scene scene = build_scene(world, 1, test::shared_plants());
   const std::vector<Instance> tags = instances_of(scene, Label::kTag);
   ASSERT_EQ(tags.size(), 1u);
   const Primitive& print =
@@ -111,7 +112,7 @@ TEST_F(SceneTest, TheTagsPrintLiesInItsPlaneWithItsBlackSquareToSize) {
 
 TEST_F(SceneTest, TheBoxStandsAtItsPose) {
   const WorldConfig world = small_world();
-  const Scene scene = build_scene(world, 1, folder_ / "cache");
+  const Scene scene = build_scene(world, 1, test::shared_plants());
   const std::vector<Instance> boxes = instances_of(scene, Label::kBox);
   ASSERT_EQ(boxes.size(), 1u);
   const Pose foot = occluder_pose(world.occluders[0], lay_out(world).terrain);
@@ -128,7 +129,7 @@ TEST_F(SceneTest, TheBoxStandsAtItsPose) {
 
 TEST_F(SceneTest, WiresRunAlongTheRowsAtTheirHeights) {
   const WorldConfig world = small_world();
-  const Scene scene = build_scene(world, 1, folder_ / "cache");
+  const Scene scene = build_scene(world, 1, test::shared_plants());
   // Four wires over the spans between 3 posts of the first row (0, 2, 3) and 2 of the second.
   ASSERT_EQ(scene.wires.size(), 4u * 3u);
   for (const Wire& wire : scene.wires) {
@@ -143,7 +144,7 @@ TEST_F(SceneTest, TheSunStandsWhereTheWorldSays) {
   WorldConfig world = small_world();
   world.sun.azimuth_deg = 90;  // east
   world.sun.elevation_deg = 30;
-  const Scene scene = build_scene(world, 1, folder_ / "cache");
+  const Scene scene = build_scene(world, 1, test::shared_plants());
   const Eigen::Vector3f expected(std::sqrt(0.75f), 0, 0.5f);
   EXPECT_LT((scene.light.towards_sun - expected).norm(), 1e-6f);
 }
@@ -154,7 +155,7 @@ TEST_F(SceneTest, SomePlacesAreEmptyOrHaveAYoungVine) {
   world.ground_size = 4;  // no grass is needed
   world.vines.missing = 0.2;
   world.vines.young = 0.3;
-  const Scene scene = build_scene(world, 1, folder_ / "cache");
+  const Scene scene = build_scene(world, 1, test::shared_plants());
   // Adult vines have bunches, young ones do not; all have a trunk.
   const std::size_t grown = instances_of(scene, Label::kBunch).size();
   const std::vector<Instance> all = instances_of(scene, Label::kTrunk);
@@ -173,7 +174,7 @@ TEST_F(SceneTest, WoodLedToOneSidePointsTheSameWayAllAlongTheRow) {
   WorldConfig world = small_world();
   world.vines.training = Training::kSingleGuyot;
   for (const Instance& plant :
-       instances_of(build_scene(world, 1, folder_ / "cache"), Label::kBunch)) {
+       instances_of(build_scene(world, 1, test::shared_plants()), Label::kBunch)) {
     const Eigen::Vector3d along = plant.T_world_model.rotation * Eigen::Vector3d::UnitX();
     EXPECT_NEAR(plant.id < 3 ? along.x() : along.y(), 1, 1e-9);
   }
@@ -246,7 +247,7 @@ TEST_F(SceneTest, ADamagedPlantIsGrownAnew) {
 }
 
 TEST_F(SceneTest, IsTheSameWithoutACache) {
-  const Scene first = build_scene(small_world(), 1, folder_ / "cache");
+  const Scene first = build_scene(small_world(), 1, test::shared_plants());
   CacheFolder none{folder_.write("file", "not a folder")};
   std::string notice;
   none.notice = [&](const std::string& text) { notice = text; };

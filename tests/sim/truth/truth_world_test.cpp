@@ -17,7 +17,7 @@
 #include "sim/world/terrain.h"
 #include "sim/world/world_layout.h"
 #include "tests/support/image_warp.h"
-#include "tests/support/test_folder.h"
+#include "tests/support/shared_plants.h"
 #include "tests/support/test_scene.h"
 
 namespace vinebench::sim {
@@ -42,7 +42,7 @@ class TruthWorldTest : public testing::Test {
     return world;
   }
   const Scene& grow(const WorldConfig& world) {
-    return scene_ = build_scene(world, 1, folder_ / "cache");
+    return scene_ = build_scene(world, 1, test::shared_plants());
   }
   /// In the aisle, turned slightly to one row.
   static Pose in_aisle(double x = -0.3, double y = 0.02, double yaw = 0.15, double pitch = 0) {
@@ -58,7 +58,6 @@ class TruthWorldTest : public testing::Test {
     return v.T_world_cam * (depth * camera_.unproject({x, y}));
   }
 
-  TestFolder folder_;
   Scene scene_;
   PinholeCamera camera_ = small_camera();
 };
