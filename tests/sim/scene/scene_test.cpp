@@ -16,8 +16,8 @@
 #include "sim/world/tag_family.h"
 #include "sim/world/world.h"
 #include "sim/world/world_layout.h"
-#include "tests/support/tag_reading.h"
 #include "tests/support/shared_plants.h"
+#include "tests/support/tag_reading.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::sim {
