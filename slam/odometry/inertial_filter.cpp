@@ -93,7 +93,7 @@ void InertialFilter::integrate(const ImuSample& reading, Stamp until) {
   const Eigen::Vector3d acceleration = half * force + gravity_;
   const Eigen::Matrix3d R = T_map_body_.rotation.toRotationMatrix();
 
-  Covariance F = Covariance::Identity();
+  Eigen::MatrixXd F = Eigen::MatrixXd::Identity(kSize, kSize);
   F.block<3, 3>(kPosition, kVelocity).diagonal().setConstant(dt);
   F.block<3, 3>(kVelocity, kRotation) = -dt * R * cross_matrix(force);
   F.block<3, 3>(kVelocity, kAccelerometer) = -dt * R;
@@ -131,7 +131,7 @@ void InertialFilter::believe_wheels(const Pose& before, const WheelStep& wheels,
   innovation.head<2>() +=
       rolled.head<2>().cwiseProduct((wheel_errors_.head<2>().array() + 1).matrix()) +
       wheel_errors_.tail<2>();
-  Eigen::Matrix<double, 3, kSize> H = Eigen::Matrix<double, 3, kSize>::Zero();
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(3, kSize);
   H.block<3, 3>(0, kVelocity) = R.transpose();
   H.block<3, 3>(0, kRotation) = cross_matrix(gone);
   H.block<2, 2>(0, kWheels) = -Eigen::Vector2d(rolled.head<2>()).asDiagonal().toDenseMatrix();
@@ -143,7 +143,7 @@ void InertialFilter::believe_wheels(const Pose& before, const WheelStep& wheels,
   const Eigen::Matrix3d noise = sigma.cwiseAbs2().asDiagonal();
   const Eigen::Matrix3d expected = H * covariance_ * H.transpose() + noise;
   if (innovation.dot(expected.llt().solve(innovation)) > kWheelGate) return;
-  update<3>(innovation, H, noise);
+  update(innovation, H, noise);
 }
 
 void InertialFilter::see(const Pose& T_map_body, const Matrix6d& covariance) {
@@ -155,23 +155,20 @@ void InertialFilter::see(const Pose& T_map_body, const Matrix6d& covariance) {
   Vector6d innovation;
   innovation << T_map_body.translation - T_map_body_.translation,
       log_so3(T_map_body_.rotation.conjugate() * T_map_body.rotation);
-  Eigen::Matrix<double, 6, kSize> H = Eigen::Matrix<double, 6, kSize>::Zero();
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(6, kSize);
   H.block<3, 3>(0, kPosition).setIdentity();
   H.block<3, 3>(3, kRotation).setIdentity();
   Matrix6d to_map = Matrix6d::Identity();
   to_map.topLeftCorner<3, 3>() = R;
-  update<6>(innovation, H, to_map * covariance * to_map.transpose());
+  update(innovation, H, to_map * covariance * to_map.transpose());
 }
 
-template <int kRows>
-void InertialFilter::update(const Eigen::Matrix<double, kRows, 1>& innovation,
-                            const Eigen::Matrix<double, kRows, kSize>& H,
-                            const Eigen::Matrix<double, kRows, kRows>& noise) {
-  const Eigen::Matrix<double, kRows, kRows> S = H * covariance_ * H.transpose() + noise;
-  const Eigen::Matrix<double, kRows, kSize> HP = H * covariance_;
-  const Eigen::Matrix<double, kSize, kRows> K = S.llt().solve(HP).transpose();
-  const State step = K * innovation;
-  const Covariance kept = Covariance::Identity() - K * H;
+void InertialFilter::update(const Eigen::VectorXd& innovation, const Eigen::MatrixXd& H,
+                            const Eigen::MatrixXd& noise) {
+  const Eigen::MatrixXd S = H * covariance_ * H.transpose() + noise;
+  const Eigen::MatrixXd K = S.llt().solve(H * covariance_).transpose();
+  const Eigen::VectorXd step = K * innovation;
+  const Eigen::MatrixXd kept = Eigen::MatrixXd::Identity(kSize, kSize) - K * H;
   covariance_ = kept * covariance_ * kept.transpose() + K * noise * K.transpose();
   T_map_body_.translation += step.segment<3>(kPosition);
   velocity_ += step.segment<3>(kVelocity);
@@ -192,7 +189,7 @@ void InertialFilter::move_map(const Pose& T_new_old) {
   T_map_body_ = T_new_old * T_map_body_;
   velocity_ = T_new_old.rotation * velocity_;
   gravity_ = T_new_old.rotation * gravity_;
-  Covariance turn = Covariance::Identity();
+  Eigen::MatrixXd turn = Eigen::MatrixXd::Identity(kSize, kSize);
   const Eigen::Matrix3d R = T_new_old.rotation.toRotationMatrix();
   for (const Part part : {kPosition, kVelocity, kGravity}) turn.block<3, 3>(part, part) = R;
   covariance_ = turn * covariance_ * turn.transpose();

@@ -65,16 +65,12 @@ class InertialFilter {
     kWheels = 18,
     kSize = 22
   };
-  using State = Eigen::Matrix<double, kSize, 1>;
-  using Covariance = Eigen::Matrix<double, kSize, kSize>;
 
   void begin(const Pose& T_map_body, const Matrix6d& covariance);
   void integrate(const ImuSample& reading, Stamp until);
   void believe_wheels(const Pose& before, const WheelStep& wheels, double dt);
-  template <int kRows>
-  void update(const Eigen::Matrix<double, kRows, 1>& innovation,
-              const Eigen::Matrix<double, kRows, kSize>& H,
-              const Eigen::Matrix<double, kRows, kRows>& noise);
+  void update(const Eigen::VectorXd& innovation, const Eigen::MatrixXd& H,
+              const Eigen::MatrixXd& noise);
 
   InertialConfig config_;
   std::optional<WheelFusionConfig> wheel_config_;
@@ -88,7 +84,7 @@ class InertialFilter {
   Eigen::Vector3d accelerometer_bias_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d gravity_ = Eigen::Vector3d::Zero();
   Eigen::Vector4d wheel_errors_ = Eigen::Vector4d::Zero();  ///< scales, then creep
-  Covariance covariance_ = Covariance::Zero();
+  Eigen::MatrixXd covariance_ = Eigen::MatrixXd::Zero(kSize, kSize);
 };
 
 }  // namespace vinebench::slam
