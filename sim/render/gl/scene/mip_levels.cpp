@@ -30,11 +30,30 @@ std::array<float, 255> byte_limits() {
   return limits;
 }
 
-std::uint8_t byte_of(float light) {
-  static const std::array<float, 255> limits = byte_limits();
-  return static_cast<std::uint8_t>(std::upper_bound(limits.begin(), limits.end(), light) -
-                                   limits.begin());
-}
+/// Finds the byte of a light: from the least one of the light's cell on, which leaves few limits to
+/// compare with.
+class ByteTable {
+ public:
+  ByteTable() {
+    for (int cell = 0; cell < kCells; ++cell) {
+      const float least = static_cast<float>(cell) / kCells;
+      least_[static_cast<std::size_t>(cell)] = static_cast<std::uint8_t>(
+          std::upper_bound(limits_.begin(), limits_.end(), least) - limits_.begin());
+    }
+  }
+
+  std::uint8_t byte_of(float light) const {
+    const auto cell = static_cast<int>(std::clamp(light * kCells, 0.0f, kCells - 1.0f));
+    std::size_t byte = least_[static_cast<std::size_t>(cell)];
+    while (byte < limits_.size() && limits_[byte] <= light) ++byte;
+    return static_cast<std::uint8_t>(byte);
+  }
+
+ private:
+  static constexpr int kCells = 1024;
+  std::array<float, 255> limits_ = byte_limits();
+  std::array<std::uint8_t, kCells> least_;
+};
 
 /// Linear light, weighted by alpha so that a cut-out's background does not bleed into its edge.
 cv::Mat to_light(const cv::Mat& rgba, bool cutout) {
@@ -54,13 +73,14 @@ cv::Mat to_light(const cv::Mat& rgba, bool cutout) {
 }
 
 cv::Mat to_bytes(const cv::Mat& light, bool cutout, float alpha_scale) {
+  static const ByteTable table;
   cv::Mat rgba(light.size(), CV_8UC4);
   for (int y = 0; y < light.rows; ++y) {
     for (int x = 0; x < light.cols; ++x) {
       const cv::Vec4f& from = light.at<cv::Vec4f>(y, x);
       cv::Vec4b& to = rgba.at<cv::Vec4b>(y, x);
       const float weight = cutout ? from[3] : 1.0f;
-      for (int c = 0; c < 3; ++c) to[c] = byte_of(from[c] / weight);
+      for (int c = 0; c < 3; ++c) to[c] = table.byte_of(from[c] / weight);
       to[3] = cv::saturate_cast<std::uint8_t>(255.0f * alpha_scale * from[3]);
     }
   }
