@@ -326,7 +326,7 @@ expect 0 "render with a cache" -- "${view[@]}" --out kept.png --cache plants
 expect_notices 0 "render with a cache"
 [[ -n $(ls plants/*.glb) ]] || report "render with a cache: nothing is kept"
 [[ $(stat -c %a plants) == 700 ]] || report "render with a cache: the folder is not private"
-for cache in "$work/file/below" /proc/none; do
+for cache in "$work/file" "$work/file/below" /proc/none; do
   expect 0 "render with the cache $cache" -- "${view[@]}" --out unkept.png --cache "$cache"
   expect_notices 1 "render with the cache $cache"
   cmp -s kept.png unkept.png || report "render with the cache $cache: another image"

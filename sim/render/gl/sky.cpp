@@ -106,10 +106,9 @@ Eigen::Vector3d clear_sky(const Light& light, const RandomStream& stream,
 /// Linear light from that direction.
 Eigen::Vector3d sky_light(const Light& light, const RandomStream& stream,
                           const Eigen::Vector3d& ray) {
-  const Eigen::Vector3d haze = horizon_light(light).cast<double>();
   const Eigen::Vector3d land =
       light.haze > 0
-          ? haze
+          ? horizon_light(light).cast<double>().eval()
           : light.bounce.cast<double>().cwiseProduct(Eigen::Vector3d(0.8, 0.95, 0.8)).eval();
   const double above = smooth_step(-0.05, 0.015, ray.z());
   if (above == 0) return land;
@@ -125,7 +124,7 @@ Eigen::Vector3d sky_light(const Light& light, const RandomStream& stream,
   if (light.haze > 0) {
     // The air thins upwards within about a kilometre.
     const double thickness = 1000 * static_cast<double>(light.haze) / std::max(0.02, ray.z());
-    c += (haze - c) * (1 - std::exp(-thickness));
+    c += (land - c) * (1 - std::exp(-thickness));
   }
   return c + (land - c) * (1 - above);
 }
