@@ -9,6 +9,11 @@ set(VINEBENCH_MUJOCO_ROOT "" CACHE PATH "Folder of a MuJoCo to use in place of t
 
 if(NOT VINEBENCH_MUJOCO_ROOT)
   find_package(mujoco REQUIRED)
+  # Debian's names a folder that its header does not include from; without it, what does not use MuJoCo is compiled
+  # by the same command with and without the simulation.
+  get_target_property(mujoco_folders mujoco::mujoco INTERFACE_INCLUDE_DIRECTORIES)
+  list(FILTER mujoco_folders EXCLUDE REGEX qhull)
+  set_property(TARGET mujoco::mujoco PROPERTY INTERFACE_INCLUDE_DIRECTORIES ${mujoco_folders})
   return()
 endif()
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -22,6 +23,16 @@
 
 namespace vinebench::tools {
 namespace {
+
+/// Memory of images that were freed stays with the program: asking the system for it anew costs a
+/// tenth of a start's CPU time and a twentieth of a run's.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // bytes, the most that it takes
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+  mallopt(M_TOP_PAD, 64 << 20);
+#endif
+}
 
 /// The running program's own file, for its data beside it.
 std::filesystem::path program_file() {
@@ -46,6 +57,7 @@ int print_completions(const Command& program, std::vector<std::string> words,
 }
 
 int main(const std::vector<std::string>& arguments) {
+  keep_freed_memory();
   Surroundings surroundings{harness::Catalogue(harness::data_folders(program_file())),
                             harness::machine_of_environment()};
   surroundings.machine.plant_cache.notice = print_notice;

@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 // A picture costs some ms; a viewer that has not read the last one gets none.
 constexpr std::chrono::milliseconds kPicture{150};
 constexpr int kAloneHeight = 480;            // px, of a camera that is shown alone
-constexpr std::chrono::seconds kLinger{10};  // for the report to be fetched
+constexpr std::chrono::seconds kLinger{30};  // for the report to be fetched, at most
 
 std::string waiting_page() {
   const Json report{{"title", "vinebench"},     {"version", kVersion},   {"live", true},

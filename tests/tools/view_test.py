@@ -5,12 +5,13 @@
 
 Usage: view_test.py VINEBENCH ROOT
 
-A run of a few seconds is watched in headless Chromium from its beginning: it is paused, stepped,
-gone on with and looked back at, a camera is shown alone, and in the end the page is the run's report.
+A run of a few seconds is watched in headless Chromium from its beginning, where it is held until the
+browser is there: it is gone on with, paused, stepped and looked back at, a camera is shown alone, and in the end the page is the run's report.
 The run's hash is that of the same run without a view. A port in use is one clear message. Exit code
 77 (skipped) where a browser is missing.
 """
 
+import json
 import pathlib
 import re
 import socket
@@ -18,6 +19,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import urllib.request
 
 from browser import SIZES, By, Keys, Page, check
 
@@ -28,6 +30,11 @@ def hash_of(text):
     found = re.search(r"hash ([0-9a-f]{32})", text)
     check(found, f"no hash in {text}")
     return found.group(1)
+
+
+def wish(url, **values):
+    request = urllib.request.Request(url + "control", json.dumps(values).encode(), method="POST")
+    urllib.request.urlopen(request, timeout=30).close()
 
 
 def frames_of(page):
@@ -83,11 +90,14 @@ def check_view(url, size):
     with Page(url, size) as page:
         page.wait("document.querySelectorAll('figure.chart').length === 5", 60)
         page.wait("document.querySelector('.view canvas').dataset.drawn")
+        check(frames_of(page) < FRAMES / 2, "it did not wait")
+        press(page, "Go on")
         check_pause(page)
         check_looking_back(page)
         check_camera(page)
         check(page.run("return document.documentElement.scrollWidth <= window.innerWidth"),
               "wider than the window")
+        wish(url, speed=0)  # as fast as it can
         press(page, "Go on")
         page.wait("document.querySelector('.result').textContent.startsWith('PASSED')", 120)
         page.wait("document.querySelector('.verdict.live') === null", 120)  # the report is made and drawn
@@ -104,6 +114,8 @@ def watch(vinebench, root, folder, size):
         url = re.fullmatch(r"view: (http://127\.0\.0\.1:\d+/[0-9a-f]{32}/)\n",
                            run.stdout.readline())
         check(url, "no address")
+        # A browser may take longer to start than the run takes: it waits, and then goes slowly.
+        wish(url.group(1), paused=True, speed=0.1)
         check_view(url.group(1), size)
         text = run.stdout.read()
         check(run.wait() == 0, f"exit code {run.returncode}")
