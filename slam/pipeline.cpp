@@ -63,10 +63,11 @@ Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
       tracker_({config.tracking, config.dead_reckoning, config.refinement, config.stereo,
                 config.inertial, config.wheels}),
       mapper_({config.mapping, config.refinement.enabled, config.tracking.max_hamming,
-               config.loop.corner_sigma}),
+               config.loop.corner_sigma, config.inertial}),
       scheduler_(config.mapping, one_thread),
-      loop_closer_({config.loop, config.tags.size, config.mapping.global_iterations},
-                   rig_.tag_cameras, tags),
+      loop_closer_(
+          {config.loop, config.tags.size, config.mapping.global_iterations, config.inertial},
+          rig_.tag_cameras, tags),
       recovery_(tracker_, loop_closer_, rig_, map_),
       calibration_(config.calibration, config.stereo.calibration_sigma, rig_) {
   rig_.wheels = config.dead_reckoning.wheels;
@@ -280,6 +281,8 @@ void Pipeline::map_keyframe(TrackedFrame& tracked, Estimate& estimate) {
   if (started_) grow_uncertainty(tracked);
   const int id = mapper_.insert(tracked, rig_, map_);
   map_.keyframe(id).link = tracked.link;
+  map_.keyframe(id).motion = tracker_.take_motion();
+  map_.gravity() = tracker_.dead_reckoning().gravity();
   tags_since_adjustment_ |= closures_ > 0 && !tracked.frame->tags.empty();
   if (loop) close_loop(id, estimate);
   if (started_ && !tracked.link) {

@@ -59,8 +59,8 @@ bool may_matter(const std::vector<double>& without, const Chance& chance, double
 }
 
 /// Whether something is taken away that is not little.
-bool matters(double effect, const Chance& chance, double least) {
-  return effect >= least && effect >= kLeastShare * chance.typical();
+bool matters(double effect, double typical, double least) {
+  return effect >= least && effect >= kLeastShare * typical;
 }
 
 }  // namespace
@@ -132,13 +132,22 @@ Effect effect_of(const AsItWas& was, const std::vector<StretchDrift>& without) {
   Effect effect;
   effect.metres = was.metres.typical() - percentile(metres, 0.5);
   effect.lost = was.lost.typical() - percentile(lost, 0.5);
-  const bool drift_matters = matters(effect.metres, was.metres, kLeastMetres);
-  const bool losses_matter = matters(effect.lost, was.lost, kLeastFrames);
+  const bool drift_matters = matters(effect.metres, was.metres.typical(), kLeastMetres);
+  const bool losses_matter = matters(effect.lost, was.lost.typical(), kLeastFrames);
   effect.drift_is_caused = drift_matters && was.metres.is_exceeded_by(metres);
   effect.losses_are_caused = losses_matter && was.lost.is_exceeded_by(lost);
   effect.is_open = !effect.is_cause() && (may_matter(metres, was.metres, kLeastMetres) ||
                                           may_matter(lost, was.lost, kLeastFrames));
   return effect;
+}
+
+bool leaves_more(const std::vector<StretchDrift>& some,
+                 const std::vector<StretchDrift>& without_all) {
+  const auto exceeds = [&](double StretchDrift::*value, double least) {
+    const double typical = percentile(values_of(some, value), 0.5);
+    return matters(typical - percentile(values_of(without_all, value), 0.5), typical, least);
+  };
+  return exceeds(&StretchDrift::metres, kLeastMetres) || exceeds(&StretchDrift::lost, kLeastFrames);
 }
 
 Interaction interaction_of(const Effect& one, const Effect& other, const Effect& both) {

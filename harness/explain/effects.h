@@ -84,6 +84,11 @@ AsItWas as_it_was(const std::vector<StretchDrift>& drifts);
 /// or two frames and a fifth of those lost. `without`: at least one rerun.
 Effect effect_of(const AsItWas& was, const std::vector<StretchDrift>& without);
 
+/// Whether there may be further causes than what `some` reruns are without: they have a millimetre
+/// and a fifth more of drift than those without any factor, or two frames and a fifth more lost.
+bool leaves_more(const std::vector<StretchDrift>& some,
+                 const std::vector<StretchDrift>& without_all);
+
 /// By how much a pair's effect exceeds the sum of the two. Negative: each alone takes away what
 /// both cause together only. Positive: each alone would do.
 struct Interaction {

@@ -33,6 +33,34 @@ void check_can_be_repeated(const ExplainRequest& request) {
   if (request.placebos < 2) fail("expected at least two placebos, found {}", request.placebos);
 }
 
+/// The larger share of drift and of lost frames that an effect causes.
+double share_of(const AsItWas& was, const Effect& effect) {
+  double most = 0;
+  if (effect.drift_is_caused) most = effect.metres / was.metres.typical();
+  if (effect.losses_are_caused) most = std::max(most, effect.lost / was.lost.typical());
+  return most;
+}
+
+/// Of causes, by factor: the share, and where those are equal (all frames come back without either)
+/// by how much less the drive drifts, m.
+using Shares = std::map<std::size_t, std::pair<double, double>>;
+
+Shares shares_of(const Normal& normal, const std::vector<FactorEffect>& singles) {
+  Shares shares;
+  for (const FactorEffect& single : singles) {
+    if (!single.effect.is_cause()) continue;
+    shares[single.factors[0]] = {share_of(normal.chance, single.effect), single.effect.metres};
+  }
+  return shares;
+}
+
+std::vector<std::size_t> strongest_first(const Shares& shares) {
+  std::vector<std::size_t> causes;
+  for (const auto& [factor, ignored] : shares) causes.push_back(factor);
+  std::ranges::stable_sort(causes, std::greater(), [&](std::size_t i) { return shares.at(i); });
+  return causes;
+}
+
 /// Repeats a run and parts of it.
 class Explainer {
  public:
@@ -94,16 +122,18 @@ class Explainer {
     std::vector<Job> jobs;
     const std::size_t count = result_.factors.size();
     for (std::size_t i = 0; i < count; ++i) jobs.push_back(without({i}));
-    explanation.singles = effects(jobs, explanation);
+    explanation.singles = effects(jobs, explanation, explanation.normal);
     if (count > 1) {
       std::vector<std::size_t> all(count);
       std::iota(all.begin(), all.end(), 0);
       std::vector<Job> together{without(all)};
-      explanation.all = effects(together, explanation)[0];
-      judge(explanation, explanation.singles);  // there may be more placebos by now
+      explanation.all = effects(together, explanation, explanation.normal)[0];
+      judge(explanation.normal, explanation.singles);  // there may be more placebos by now
       try_pairs(explanation);
     }
     explanation.causes = causes_of(explanation);
+    while (explain_remainder(explanation)) {
+    }
     return explanation;
   }
 
@@ -114,33 +144,37 @@ class Explainer {
     std::ranges::for_each(rerun.steps, [&](const Step& step) { runs_.known().check(step); });
     if (rerun.steps.empty()) fail("the drive ends before frame {}", runs_.next());
     explanation.was = drift(rerun, explanation);
-    explanation.as_it_was = {explanation.was};
+    explanation.normal.drifts = {explanation.was};
     result_.null_seconds += rerun.seconds / static_cast<double>(request_.stretches.size());
-    add_placebos(explanation);
+    add_placebos(explanation, explanation.normal, request_.placebos);
   }
 
-  /// As many as the request has.
-  void add_placebos(StretchExplanation& explanation) {
+  void add_placebos(const StretchExplanation& explanation, Normal& normal, int count) {
+    const Job plain = without(normal.without);
     std::vector<Job> jobs;
-    for (int i = 0; i < request_.placebos; ++i) {
-      const int number = static_cast<int>(explanation.as_it_was.size()) + i;
-      jobs.push_back({.name = fmt::format("placebo {}", number),
-                      .variant = with_other_noise(runs_.original(), number)});
+    for (int i = 0; i < count; ++i) {
+      const int number = static_cast<int>(normal.drifts.size()) + i;
+      jobs.push_back(plain);
+      jobs.back().name = normal.without.empty() ? fmt::format("placebo {}", number)
+                                                : fmt::format("{}, again {}", plain.name, number);
+      jobs.back().variant = with_other_noise(plain.variant, number);
     }
     for (const Rerun& rerun : runs_.make(jobs, explanation.stretch.last)) {
-      explanation.as_it_was.push_back(drift(rerun, explanation));
+      normal.drifts.push_back(drift(rerun, explanation));
     }
-    explanation.chance = as_it_was(explanation.as_it_was);
+    normal.chance = as_it_was(normal.drifts);
   }
 
-  std::vector<FactorEffect> effects(std::vector<Job>& jobs, StretchExplanation& explanation,
-                                    int rounds = kRounds) {
+  std::vector<FactorEffect> effects(std::vector<Job>& jobs, const StretchExplanation& explanation,
+                                    Normal& normal, int rounds = kRounds) {
     std::vector<FactorEffect> list(jobs.size());
-    add_reruns(jobs, explanation, list);
+    add_reruns(jobs, explanation, normal, list);
     for (int round = 0; request_.repeats > 0 && round < rounds; ++round) {
       if (std::ranges::none_of(list, is_open)) break;
-      if (std::ssize(explanation.as_it_was) <= request_.placebos + 1) add_placebos(explanation);
-      repeat(jobs, explanation, list);
+      if (std::ssize(normal.drifts) <= request_.placebos + 1) {
+        add_placebos(explanation, normal, request_.placebos);
+      }
+      repeat(jobs, explanation, normal, list);
     }
     return list;
   }
@@ -149,7 +183,7 @@ class Explainer {
 
   /// Those that are open, with other noise; all are judged again.
   void repeat(const std::vector<Job>& jobs, const StretchExplanation& explanation,
-              std::vector<FactorEffect>& list) {
+              const Normal& normal, std::vector<FactorEffect>& list) {
     std::vector<Job> again;
     std::vector<std::size_t> of;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
@@ -165,28 +199,60 @@ class Explainer {
     for (std::size_t i = 0; i < again.size(); ++i) {
       list[of[i]].without.push_back(drift(reruns[i], explanation));
     }
-    judge(explanation, list);
+    judge(normal, list);
   }
 
-  static void judge(const StretchExplanation& explanation, std::vector<FactorEffect>& list) {
-    for (FactorEffect& one : list) one.effect = effect_of(explanation.chance, one.without);
+  static void judge(const Normal& normal, std::vector<FactorEffect>& list) {
+    for (FactorEffect& one : list) one.effect = effect_of(normal.chance, one.without);
   }
 
   void add_reruns(std::vector<Job>& jobs, const StretchExplanation& explanation,
-                  std::vector<FactorEffect>& list) {
+                  const Normal& normal, std::vector<FactorEffect>& list) {
     const std::vector<Rerun> reruns = runs_.make(jobs, explanation.stretch.last);
     for (std::size_t i = 0; i < jobs.size(); ++i) {
       list[i].factors = jobs[i].factors;
       list[i].from_start = jobs[i].from_start;
       list[i].without.push_back(drift(reruns[i], explanation));
     }
-    judge(explanation, list);
+    judge(normal, list);
+  }
+
+  /// The stretch without the causes found so far becomes the normal one, and what makes that worse
+  /// than without any factor is looked for. False if there is nothing more to find.
+  bool explain_remainder(StretchExplanation& explanation) {
+    const std::vector<std::size_t>& found = explanation.causes;
+    if (found.empty() || found.size() == result_.factors.size()) return false;
+    Remainder rest{.normal = {.without = found, .drifts = reruns_without(found, explanation)}};
+    if (!leaves_more(rest.normal.drifts, explanation.all->without)) return false;
+    const int missing = request_.placebos + 1 - static_cast<int>(rest.normal.drifts.size());
+    add_placebos(explanation, rest.normal, std::max(0, missing));
+    std::vector<Job> jobs;
+    for (std::size_t i = 0; i < result_.factors.size(); ++i) {
+      if (std::ranges::count(found, i) > 0) continue;
+      std::vector<std::size_t> one_more = found;
+      one_more.push_back(i);
+      jobs.push_back(without(one_more));
+    }
+    rest.singles = effects(jobs, explanation, rest.normal);
+    for (FactorEffect& single : rest.singles) single.factors = {single.factors.back()};
+    rest.causes = strongest_first(shares_of(rest.normal, rest.singles));
+    explanation.causes.insert(explanation.causes.end(), rest.causes.begin(), rest.causes.end());
+    explanation.remainders.push_back(std::move(rest));
+    return !explanation.remainders.back().causes.empty();
+  }
+
+  /// Those that were made already, or one that is made now.
+  std::vector<StretchDrift> reruns_without(const std::vector<std::size_t>& factors,
+                                           const StretchExplanation& explanation) {
+    if (factors.size() == 1) return explanation.singles[factors[0]].without;
+    std::vector<Job> jobs{without(factors)};
+    return {drift(runs_.make(jobs, explanation.stretch.last)[0], explanation)};
   }
 
   void try_pairs(StretchExplanation& explanation) {
     std::vector<Effect> singles;
     for (const FactorEffect& single : explanation.singles) singles.push_back(single.effect);
-    if (!do_not_add_up(explanation.chance, singles, explanation.all->effect)) return;
+    if (!do_not_add_up(explanation.normal.chance, singles, explanation.all->effect)) return;
     std::vector<std::size_t> order(singles.size());
     std::iota(order.begin(), order.end(), 0);
     std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) {
@@ -200,8 +266,8 @@ class Explainer {
         jobs.push_back(without({order[a], order[b]}));
       }
     }
-    explanation.pairs = effects(jobs, explanation, 1);
-    judge(explanation, explanation.singles);
+    explanation.pairs = effects(jobs, explanation, explanation.normal, 1);
+    judge(explanation.normal, explanation.singles);
     for (FactorEffect& pair : explanation.pairs) {
       pair.interaction =
           interaction_of(singles[pair.factors[0]], singles[pair.factors[1]], pair.effect);
@@ -223,35 +289,23 @@ Explanation explain(const ExplainRequest& request) {
 }
 
 std::vector<std::size_t> causes_of(const StretchExplanation& stretch) {
-  const AsItWas& was = stretch.chance;
-  const auto share = [&](const Effect& effect) {
-    double most = 0;
-    if (effect.drift_is_caused) most = effect.metres / was.metres.typical();
-    if (effect.losses_are_caused) most = std::max(most, effect.lost / was.lost.typical());
-    return most;
-  };
-  // Of factors whose absence gives as much of the frames back, the one without which less drifts.
-  std::map<std::size_t, std::pair<double, double>> shares;
-  for (const FactorEffect& single : stretch.singles) {
-    if (!single.effect.is_cause()) continue;
-    shares[single.factors[0]] = {share(single.effect), single.effect.metres};
-  }
+  const AsItWas& was = stretch.normal.chance;
+  Shares shares = shares_of(stretch.normal, stretch.singles);
   const FactorEffect* joint = nullptr;
   for (const FactorEffect& pair : stretch.pairs) {
     const Effect& one = stretch.singles[pair.factors[0]].effect;
     const Effect& other = stretch.singles[pair.factors[1]].effect;
     if (!is_joint_cause(was, one, other, pair.effect)) continue;
-    if (joint == nullptr || share(pair.effect) > share(joint->effect)) joint = &pair;
+    if (joint == nullptr || share_of(was, pair.effect) > share_of(was, joint->effect)) {
+      joint = &pair;
+    }
   }
   if (joint != nullptr) {
     for (const std::size_t i : joint->factors) {
-      shares[i] = {share(joint->effect), joint->effect.metres};
+      shares[i] = {share_of(was, joint->effect), joint->effect.metres};
     }
   }
-  std::vector<std::size_t> causes;
-  for (const auto& [factor, ignored] : shares) causes.push_back(factor);
-  std::ranges::stable_sort(causes, std::greater(), [&](std::size_t i) { return shares[i]; });
-  return causes;
+  return strongest_first(shares);
 }
 
 }  // namespace vinebench::harness

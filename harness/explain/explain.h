@@ -19,16 +19,31 @@ struct FactorEffect {
   Interaction interaction{};  ///< of two
 };
 
+/// What reruns without a factor are compared with: others that differ in the noise alone.
+struct Normal {
+  std::vector<std::size_t> without{};  ///< factors that are absent in all of them
+  std::vector<StretchDrift> drifts{};
+  AsItWas chance{};
+};
+
+/// What is left of a drift without the causes that were found before. Beside a cause of half a
+/// metre one of a centimetre is not seen: here it is.
+struct Remainder {
+  Normal normal;
+  std::vector<FactorEffect> singles{};  ///< without one factor more each
+  std::vector<std::size_t> causes{};    ///< the strongest first
+};
+
 struct StretchExplanation {
   Stretch stretch;
-  std::int64_t aligned = 0;               ///< index of the frame since which drift is measured
-  StretchDrift was{};                     ///< of the run itself
-  std::vector<StretchDrift> as_it_was{};  ///< that, and those of the placebos
-  AsItWas chance{};                       ///< with the placebos
+  std::int64_t aligned = 0;  ///< index of the frame since which drift is measured
+  StretchDrift was{};        ///< of the run itself
+  Normal normal{};           ///< that, and the placebos
   std::vector<FactorEffect> singles{};
-  std::optional<FactorEffect> all{};  ///< without any of them; of two or more
-  std::vector<FactorEffect> pairs{};  ///< those that were tried
-  std::vector<std::size_t> causes{};  ///< factors, the strongest first
+  std::optional<FactorEffect> all{};    ///< without any of them; of two or more
+  std::vector<FactorEffect> pairs{};    ///< those that were tried
+  std::vector<Remainder> remainders{};  ///< each without all causes before it
+  std::vector<std::size_t> causes{};    ///< factors, the strongest first, then those of remainders
 };
 
 struct Explanation {
@@ -46,7 +61,7 @@ struct Explanation {
 Explanation explain(const ExplainRequest& request);
 
 /// The factors that cause the drift or the lost frames, the strongest first: singles, and the pair
-/// that takes away most of what its two do not take away alone.
+/// that takes away most of what its two do not take away alone. Without those of remainders.
 std::vector<std::size_t> causes_of(const StretchExplanation& stretch);
 
 }  // namespace vinebench::harness

@@ -12,8 +12,8 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-double share_of(const StretchExplanation& stretch, const Effect& effect) {
-  const double drift = stretch.chance.metres.typical();
+double share_of(const Normal& normal, const Effect& effect) {
+  const double drift = normal.chance.metres.typical();
   return drift > 0 ? effect.metres / drift : 0;
 }
 
@@ -43,11 +43,10 @@ const char* verdict_of(const Effect& effect) {
   return effect.is_open ? "chance could do it" : "";
 }
 
-std::string row(const Explanation& explanation, const StretchExplanation& stretch,
-                const FactorEffect& one) {
+std::string row(const Explanation& explanation, const Normal& normal, const FactorEffect& one) {
   std::string text =
       fmt::format("  {:<32} {:>9.1f} {:>7.0f} % {:>7.1f}   {}{}", names(explanation, one.factors),
-                  1e3 * one.effect.metres, 100 * share_of(stretch, one.effect), one.effect.lost,
+                  1e3 * one.effect.metres, 100 * share_of(normal, one.effect), one.effect.lost,
                   verdict_of(one.effect), one.from_start ? " (absent from the start)" : "");
   if (one.factors.size() == 2) {
     text += fmt::format("; interaction {:+.1f} mm", 1e3 * one.interaction.metres);
@@ -62,6 +61,26 @@ std::vector<FactorEffect> strongest_first(std::vector<FactorEffect> list) {
   return list;
 }
 
+std::string heading() {
+  return fmt::format("  {:<32} {:>9} {:>9} {:>7}\n", "without", "mm less", "share", "frames");
+}
+
+std::string format_remainder(const Explanation& explanation, const Remainder& rest) {
+  const AsItWas& chance = rest.normal.chance;
+  std::string text = fmt::format(
+      "  left without {}: {:.1f} +- {:.1f} mm, {:.0f} frames lost; {}\n",
+      names(explanation, rest.normal.without), 1e3 * chance.metres.typical(),
+      1e3 * chance.metres.deviation(), chance.lost.typical(),
+      rest.causes.empty()
+          ? "no factor explains it beyond chance"
+          : fmt::format("caused by {}", fmt::join(texts(explanation, rest.causes), ", and by ")));
+  text += heading();
+  for (const FactorEffect& one : strongest_first(rest.singles)) {
+    text += row(explanation, rest.normal, one);
+  }
+  return text;
+}
+
 std::string format_stretch(const Explanation& explanation, const StretchExplanation& stretch,
                            double rate_hz) {
   const auto seconds = [&](std::int64_t frame) { return static_cast<double>(frame) / rate_hz; };
@@ -71,26 +90,27 @@ std::string format_stretch(const Explanation& explanation, const StretchExplanat
   text += fmt::format(
       "  drift since {:.2f} s: {:.1f} mm (with other noise {:.1f} +- {:.1f} mm), {:.0f} frames "
       "lost; beyond chance: {:.1f} mm\n",
-      seconds(stretch.aligned), 1e3 * stretch.was.metres, 1e3 * stretch.chance.metres.typical(),
-      1e3 * stretch.chance.metres.deviation(), stretch.was.lost,
-      1e3 * stretch.chance.metres.limit());
+      seconds(stretch.aligned), 1e3 * stretch.was.metres,
+      1e3 * stretch.normal.chance.metres.typical(), 1e3 * stretch.normal.chance.metres.deviation(),
+      stretch.was.lost, 1e3 * stretch.normal.chance.metres.limit());
   if (!stretch.stretch.coincide.empty()) {
     text += fmt::format("  what coincides: {}\n", fmt::join(stretch.stretch.coincide, ", "));
   }
   if (stretch.singles.empty()) return text;
-  text += fmt::format("  {:<32} {:>9} {:>9} {:>7}\n", "without", "mm less", "share", "frames");
+  text += heading();
   for (const FactorEffect& one : strongest_first(stretch.singles)) {
-    text += row(explanation, stretch, one);
+    text += row(explanation, stretch.normal, one);
   }
   for (const FactorEffect& pair : strongest_first(stretch.pairs)) {
-    text += row(explanation, stretch, pair);
+    text += row(explanation, stretch.normal, pair);
   }
   if (stretch.all) {
     FactorEffect all = *stretch.all;
-    text +=
-        fmt::format("  {:<32} {:>9.1f} {:>7.0f} % {:>7.1f}\n", "all of them",
-                    1e3 * all.effect.metres, 100 * share_of(stretch, all.effect), all.effect.lost);
+    text += fmt::format("  {:<32} {:>9.1f} {:>7.0f} % {:>7.1f}\n", "all of them",
+                        1e3 * all.effect.metres, 100 * share_of(stretch.normal, all.effect),
+                        all.effect.lost);
   }
+  for (const Remainder& rest : stretch.remainders) text += format_remainder(explanation, rest);
   return text;
 }
 
@@ -111,6 +131,31 @@ OrderedJson effect_json(const Explanation& explanation, const FactorEffect& one)
   return json;
 }
 
+OrderedJson chance_json(const Chance& metres) {
+  return {{"runs", metres.runs()},
+          {"median_m", metres.typical()},
+          {"deviation_m", metres.deviation()},
+          {"limit_m", metres.limit()}};
+}
+
+OrderedJson names_json(const Explanation& explanation, const std::vector<std::size_t>& factors) {
+  OrderedJson json = OrderedJson::array();
+  for (const std::size_t i : factors) json.push_back(explanation.factors[i].name);
+  return json;
+}
+
+OrderedJson remainder_json(const Explanation& explanation, const Remainder& rest) {
+  OrderedJson json{{"without", names_json(explanation, rest.normal.without)},
+                   {"causes", names_json(explanation, rest.causes)},
+                   {"chance", chance_json(rest.normal.chance.metres)},
+                   {"median_lost_frames", rest.normal.chance.lost.typical()},
+                   {"factors", OrderedJson::array()}};
+  for (const FactorEffect& one : rest.singles) {
+    json["factors"].push_back(effect_json(explanation, one));
+  }
+  return json;
+}
+
 OrderedJson stretch_json(const Explanation& explanation, const StretchExplanation& stretch,
                          double rate_hz) {
   const auto seconds = [&](std::int64_t frame) { return static_cast<double>(frame) / rate_hz; };
@@ -118,21 +163,14 @@ OrderedJson stretch_json(const Explanation& explanation, const StretchExplanatio
                    {"from", seconds(stretch.stretch.first)},
                    {"until", seconds(stretch.stretch.last)},
                    {"drift_since", seconds(stretch.aligned)},
-                   {"causes", OrderedJson::array()},
+                   {"causes", names_json(explanation, stretch.causes)},
                    {"coincide", stretch.stretch.coincide},
                    {"drift_m", stretch.was.metres},
                    {"end_drift_m", stretch.was.end},
                    {"lost_frames", stretch.was.lost},
-                   {"chance",
-                    {{"runs", stretch.chance.metres.runs()},
-                     {"median_m", stretch.chance.metres.typical()},
-                     {"deviation_m", stretch.chance.metres.deviation()},
-                     {"limit_m", stretch.chance.metres.limit()}}},
+                   {"chance", chance_json(stretch.normal.chance.metres)},
                    {"factors", OrderedJson::array()},
                    {"pairs", OrderedJson::array()}};
-  for (const std::size_t i : stretch.causes) {
-    json["causes"].push_back(explanation.factors[i].name);
-  }
   for (const FactorEffect& one : stretch.singles) {
     json["factors"].push_back(effect_json(explanation, one));
   }
@@ -140,6 +178,9 @@ OrderedJson stretch_json(const Explanation& explanation, const StretchExplanatio
     json["pairs"].push_back(effect_json(explanation, one));
   }
   if (stretch.all) json["without_all"] = effect_json(explanation, *stretch.all);
+  for (const Remainder& rest : stretch.remainders) {
+    json["remainders"].push_back(remainder_json(explanation, rest));
+  }
   return json;
 }
 

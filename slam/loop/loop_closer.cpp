@@ -384,6 +384,7 @@ void LoopCloser::adjust_globally(const EstimatorRig& rig, Map& map) const {
   options.iterations = settings_.global_iterations;
   options.tag_corner_sigma = settings_.loop.corner_sigma;
   options.global = true;
+  options.inertial = settings_.inertial;
   adjust(map, global_window(map), rig, options);
   malloc_trim(0);  // of what a long drive's adjustment took, the C library would keep most
 }

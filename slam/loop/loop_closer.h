@@ -10,6 +10,7 @@
 #include "slam/camera/estimator_rig.h"
 #include "slam/loop/loop_config.h"
 #include "slam/map/map.h"
+#include "slam/odometry/inertial_config.h"
 #include "slam/optimisation/tag_localisation.h"
 
 namespace vinebench::slam {
@@ -17,8 +18,9 @@ namespace vinebench::slam {
 /// What LoopCloser is set by.
 struct LoopCloserSettings {
   LoopConfig loop;
-  double tag_size = 0.161;     ///< m, of tags that are not registered
-  int global_iterations = 25;  ///< of a global adjustment
+  double tag_size = 0.161;                   ///< m, of tags that are not registered
+  int global_iterations = 25;                ///< of a global adjustment
+  std::optional<InertialConfig> inertial{};  ///< of a unit that takes part
 };
 
 /// Loop closing by tags (paper, Sect. III-B): a tag that was seen, left, and is seen again ties the

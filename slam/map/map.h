@@ -14,6 +14,8 @@
 #include "core/slam_system.h"
 #include "core/time.h"
 #include "slam/frame/frame_features.h"
+#include "slam/odometry/map_gravity.h"
+#include "slam/odometry/preintegrated_motion.h"
 #include "slam/patches/patch_list.h"
 
 namespace vinebench::slam {
@@ -36,7 +38,8 @@ struct Keyframe {
   int id = 0;
   std::shared_ptr<const FrameFeatures> frame;
   Pose T_map_body;
-  std::optional<InertialState> inertial;  ///< where an inertial unit takes part
+  std::optional<InertialState> inertial;      ///< where an inertial unit takes part
+  std::optional<PreintegratedMotion> motion;  ///< likewise, since the keyframe before
   Associations landmarks;
   std::vector<PatchList> patches;    ///< of each view; none where it has no images
   std::optional<OdometryLink> link;  ///< to an earlier keyframe, after an odometry gap
@@ -94,6 +97,10 @@ class Map {
   const std::vector<PairCalibration>& calibration() const { return calibration_; }
   const MapTag* find_tag(const std::string& family, int id) const;
 
+  /// Known where an inertial unit takes part. Files of maps do not have it.
+  std::optional<MapGravity>& gravity() { return gravity_; }
+  const std::optional<MapGravity>& gravity() const { return gravity_; }
+
   /// Adds a keyframe; its associations become observations. Returns its id.
   int add_keyframe(std::shared_ptr<const FrameFeatures> frame, const Pose& T_map_body,
                    const Associations& associations);
@@ -130,6 +137,7 @@ class Map {
   std::vector<Landmark> landmarks_;
   std::vector<MapTag> tags_;
   std::vector<PairCalibration> calibration_;
+  std::optional<MapGravity> gravity_;
 };
 
 /// Number of different keyframes among a landmark's observations.

@@ -66,6 +66,7 @@ AdjustmentOptions LocalMapper::adjustment_options() const {
   AdjustmentOptions options;
   options.iterations = settings_.mapping.iterations;
   options.tag_corner_sigma = settings_.tag_corner_sigma;
+  options.inertial = settings_.inertial;
   return options;
 }
 

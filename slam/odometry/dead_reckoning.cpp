@@ -28,6 +28,15 @@ std::optional<Vector6d> DeadReckoning::velocity() const {
   return inertial_->velocity();
 }
 
+std::optional<PreintegratedMotion> DeadReckoning::take_motion() {
+  return inertial_ ? inertial_->take_motion() : std::nullopt;
+}
+
+std::optional<MapGravity> DeadReckoning::gravity() const {
+  if (!is_inertial()) return std::nullopt;
+  return inertial_->map_gravity();
+}
+
 void DeadReckoning::see(const Pose& T_map_body, const Matrix6d& covariance) {
   if (inertial_) inertial_->see(T_map_body, covariance);
 }

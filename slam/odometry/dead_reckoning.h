@@ -7,6 +7,7 @@
 #include "core/config/config_field.h"
 #include "core/geometry/pose.h"
 #include "slam/odometry/inertial_filter.h"
+#include "slam/odometry/map_gravity.h"
 #include "slam/odometry/wheel_odometry.h"
 
 namespace vinebench::slam {
@@ -64,6 +65,12 @@ class DeadReckoning {
 
   /// The body's velocity by its inertial unit (body frame; m/s, rad/s), if one takes part.
   std::optional<Vector6d> velocity() const;
+
+  /// What the inertial unit measured since the last call, if one takes part.
+  std::optional<PreintegratedMotion> take_motion();
+
+  /// Gravity by the inertial unit, if one takes part and knows.
+  std::optional<MapGravity> gravity() const;
 
   bool active() const { return frames_ > 0; }
   int frames() const { return frames_; }

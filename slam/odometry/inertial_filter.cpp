@@ -11,8 +11,7 @@
 namespace vinebench::slam {
 namespace {
 
-constexpr double kStandardGravity = 9.80665;  // m/s^2
-constexpr double kGravitySpread = 0.03;       // m/s^2, over the Earth
+constexpr double kGravitySpread = 0.03;  // m/s^2, over the Earth
 
 /// Of what is not known when a body is first seen: its velocity, and its acceleration, which is
 /// taken for gravity.
@@ -89,6 +88,8 @@ void InertialFilter::integrate(const ImuSample& reading, Stamp until) {
   stamp_ = until;
   turn_rate_ = reading.angular_velocity - gyroscope_bias_;
   const Eigen::Vector3d force = reading.specific_force - accelerometer_bias_;
+  motion_.add(turn_rate_, force, accelerometer_bias_, dt);
+  motion_is_whole_ &= dt <= kLongestStep;
   const Eigen::Quaterniond half = T_map_body_.rotation * exp_so3(turn_rate_ * (dt / 2));
   const Eigen::Vector3d acceleration = half * force + gravity_;
   const Eigen::Matrix3d R = T_map_body_.rotation.toRotationMatrix();
@@ -163,6 +164,14 @@ void InertialFilter::see(const Pose& T_map_body, const Matrix6d& covariance) {
   update(innovation, H, to_map * covariance * to_map.transpose());
 }
 
+std::optional<PreintegratedMotion> InertialFilter::take_motion() {
+  std::optional<PreintegratedMotion> taken;
+  if (running_ && motion_is_whole_) taken = motion_;
+  motion_ = {};
+  motion_is_whole_ = true;
+  return taken;
+}
+
 void InertialFilter::update(const Eigen::VectorXd& innovation, const Eigen::MatrixXd& H,
                             const Eigen::MatrixXd& noise) {
   const Eigen::MatrixXd S = H * covariance_ * H.transpose() + noise;
@@ -199,6 +208,14 @@ Vector6d InertialFilter::velocity() const {
   Vector6d velocity;
   velocity << T_map_body_.rotation.conjugate() * velocity_, turn_rate_;
   return velocity;
+}
+
+MapGravity InertialFilter::map_gravity() const {
+  const auto part = [&](Part row, Part column) { return covariance_.block<3, 3>(row, column); };
+  MapGravity known{gravity_, accelerometer_bias_};
+  known.covariance << part(kGravity, kGravity), part(kGravity, kAccelerometer),
+      part(kAccelerometer, kGravity), part(kAccelerometer, kAccelerometer);
+  return known;
 }
 
 Matrix6d InertialFilter::covariance() const {

@@ -9,6 +9,8 @@
 #include "core/frame.h"
 #include "core/geometry/pose.h"
 #include "slam/odometry/inertial_config.h"
+#include "slam/odometry/map_gravity.h"
+#include "slam/odometry/preintegrated_motion.h"
 #include "slam/odometry/wheel_odometry.h"
 
 namespace vinebench::slam {
@@ -39,6 +41,9 @@ class InertialFilter {
   /// The map moved about the body.
   void move_map(const Pose& T_new_old);
 
+  /// What was measured since the last call, or since it runs; none where readings were missing.
+  std::optional<PreintegratedMotion> take_motion();
+
   const Pose& T_map_body() const { return T_map_body_; }
   /// Of the body in its own frame, m/s and rad/s.
   Vector6d velocity() const;
@@ -47,6 +52,7 @@ class InertialFilter {
   const Eigen::Vector3d& gravity() const { return gravity_; }                ///< map frame, m/s^2
   const Eigen::Vector3d& gyroscope_bias() const { return gyroscope_bias_; }  ///< rad/s
   const Eigen::Vector3d& accelerometer_bias() const { return accelerometer_bias_; }  ///< m/s^2
+  MapGravity map_gravity() const;
   /// Share by which the body goes farther than its wheels say: forward, sideways.
   Eigen::Vector2d wheel_scale() const { return wheel_errors_.head<2>(); }
   /// m/s by which it goes beside that: forward, to the left.
@@ -84,6 +90,8 @@ class InertialFilter {
   Eigen::Vector3d accelerometer_bias_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d gravity_ = Eigen::Vector3d::Zero();
   Eigen::Vector4d wheel_errors_ = Eigen::Vector4d::Zero();  ///< scales, then creep
+  PreintegratedMotion motion_;                              ///< since take_motion()
+  bool motion_is_whole_ = true;
   Eigen::MatrixXd covariance_ = Eigen::MatrixXd::Zero(kSize, kSize);
 };
 

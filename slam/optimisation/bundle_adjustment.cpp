@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "slam/optimisation/calibration_unknowns.h"
+#include "slam/optimisation/gravity_factors.h"
 #include "slam/optimisation/landmark_factors.h"
 #include "slam/optimisation/odometry_factors.h"
 #include "slam/optimisation/problem_builder.h"
@@ -57,6 +58,7 @@ class AdjustmentJob::Impl {
         options_(options),
         calibration_(unknown_calibration(rig_, options)),
         landmarks_(rig_, options.min_keyframes, calibration_.get()),
+        gravity_(options.inertial, options.global),
         tags_(rig_.tag_cameras, options.tag_corner_sigma, options.global),
         problem_(map, window) {
     if (calibration_) calibration_->add_to(problem_, map);
@@ -82,8 +84,8 @@ class AdjustmentJob::Impl {
     return std::make_unique<CalibrationUnknowns>(rig, *options.calibration);
   }
   std::vector<FactorSource*> sources() {
-    if (!options_.tags) return {&landmarks_, &odometry_};
-    return {&landmarks_, &odometry_, &tags_};
+    if (!options_.tags) return {&landmarks_, &odometry_, &gravity_};
+    return {&landmarks_, &odometry_, &gravity_, &tags_};
   }
 
   const EstimatorRig rig_;  // a copy: calibration may change the estimator's own meanwhile
@@ -91,6 +93,7 @@ class AdjustmentJob::Impl {
   std::unique_ptr<CalibrationUnknowns> calibration_;
   LandmarkFactors landmarks_;
   OdometryFactors odometry_;
+  GravityFactors gravity_;
   TagFactors tags_;
   ProblemBuilder problem_;  // last: it must go before what it points to
 };

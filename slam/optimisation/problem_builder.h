@@ -21,7 +21,14 @@ class ProblemBuilder {
   /// orders those of a group by their addresses, so the blocks of a group must be parts of one
   /// array: those of two would be ordered by what was allocated before, and the last bits with
   /// them.
-  enum class Group { kLandmarks = 0, kPoses = 1, kTags = 2, kCameras = 3, kLenses = 4 };
+  enum class Group {
+    kLandmarks = 0,
+    kInertial = 1,
+    kPoses = 2,
+    kTags = 3,
+    kCameras = 4,
+    kLenses = 5
+  };
 
   ProblemBuilder(const Map& map, const AdjustmentWindow& window);
   ProblemBuilder(const ProblemBuilder&) = delete;

@@ -57,6 +57,9 @@ class Tracker {
   /// prediction rests on with it.
   void correct(const Pose& T_map_body);
 
+  /// What an inertial unit measured since the last keyframe; call it with each.
+  std::optional<PreintegratedMotion> take_motion() { return dead_reckoning_.take_motion(); }
+
   /// The landmarks to look for first in the next frame, ascending: those of a new keyframe.
   void expect(std::vector<int> landmarks) { last_landmarks_ = std::move(landmarks); }
 

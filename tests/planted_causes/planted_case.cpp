@@ -77,7 +77,8 @@ std::string run_case(const Case& one, int placebos, bool harm_only) {
     return Json{{"harmed", measured.is_done()}, {"harm", measured.text()}}.dump();
   });
   Json json = Json::parse(harm);
-  if (harm_only) return json.dump();
+  // A case that did no harm counts neither as right nor as wrong.
+  if (harm_only || (!one.causes.empty() && !json["harmed"])) return json.dump();
   const TemporaryFolder folder;
   json.update(Json::parse(
       harness::run_in_child("run", [&] { return run_drive(one, machine, folder.path()).dump(); })));

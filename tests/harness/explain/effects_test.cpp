@@ -154,5 +154,17 @@ TEST(EffectsTest, PairsAreCausesWhereSinglesAreNot) {
   EXPECT_NEAR(interaction_of(both, both, both).metres, -0.015, 1e-12);
 }
 
+// Without the first cause 30 mm of 500 are left, without any factor 6: 24 mm, four fifths, are for
+// others.
+TEST(EffectsTest, WhatACauseLeavesMayHaveOthers) {
+  const std::vector<StretchDrift> some{drifted(0.030), drifted(0.033), drifted(0.020)};
+  EXPECT_TRUE(leaves_more(some, {drifted(0.006)}));
+  EXPECT_FALSE(leaves_more(some, {drifted(0.0245)}));  // 5.5 mm of 30: less than a fifth
+  EXPECT_TRUE(leaves_more(some, {drifted(0.0235)}));
+  EXPECT_FALSE(leaves_more({drifted(0.0015)}, {drifted(0.0006)}));     // less than a millimetre
+  EXPECT_TRUE(leaves_more({drifted(0.001, 3)}, {drifted(0.001, 1)}));  // two of three frames
+  EXPECT_FALSE(leaves_more({drifted(0.001, 3)}, {drifted(0.001, 2)}));
+}
+
 }  // namespace
 }  // namespace vinebench::harness

@@ -24,13 +24,13 @@ StretchDrift drift_and_losses(double metres, double lost = 0) {
 class CausesTest : public testing::Test {
  protected:
   CausesTest() {
-    explanation_.chance = as_it_was(
+    explanation_.normal.chance = as_it_was(
         {drift_and_losses(0.02, 10), drift_and_losses(0.0205, 10), drift_and_losses(0.0195, 10)});
   }
 
   FactorEffect without(std::vector<std::size_t> factors, const StretchDrift& rest) const {
     FactorEffect one{.factors = std::move(factors), .without = {rest}};
-    one.effect = effect_of(explanation_.chance, one.without);
+    one.effect = effect_of(explanation_.normal.chance, one.without);
     return one;
   }
 
@@ -86,6 +86,16 @@ class ExplainTest : public test::CourtScenario {
     return longer;
   }
 
+  /// Three of them without images.
+  ScenarioConfig with_dropped_images() const {
+    ScenarioConfig config = ten_frames();
+    sim::FaultScope burst;
+    burst.from = 0.25;
+    burst.until = 0.45;
+    config.simulation.sensors.drops.bursts = {burst};
+    return config;
+  }
+
   ExplainRequest run(const ScenarioConfig& config, const StretchChoice& choice) const {
     RunOptions options;
     options.folder = folder_ / "out";
@@ -103,11 +113,7 @@ class ExplainTest : public test::CourtScenario {
 // Three of ten frames have no images: the factors are noise, drops and slip, of which drops alone
 // lose frames.
 TEST_F(ExplainTest, DroppedImagesLoseFrames) {
-  ScenarioConfig config = ten_frames();
-  sim::FaultScope burst;
-  burst.from = 0.25;
-  burst.until = 0.45;
-  config.simulation.sensors.drops.bursts = {burst};
+  const ScenarioConfig config = with_dropped_images();
   const Explanation explanation = explain(run(config, {.number = {}, .from = 0.2, .to = {}}));
   ASSERT_EQ(explanation.stretches.size(), 1u);
   const StretchExplanation& stretch = explanation.stretches[0];
@@ -123,6 +129,34 @@ TEST_F(ExplainTest, DroppedImagesLoseFrames) {
   }
   // As it was, two placebos, three factors, all of them: at least.
   EXPECT_GE(explanation.reruns, 7);
+}
+
+// With the right camera 40 of 120 mm aside no frame of a turn is tracked. Where it is as the rig
+// says, those without images are lost.
+TEST_F(ExplainTest, FindsWhatAStrongerCauseHides) {
+  ScenarioConfig config = with_dropped_images();
+  sim::CalibrationErrorConfig::Camera error;
+  error.name = "right";
+  error.position.y() = -0.04;
+  config.simulation.sensors.calibration.cameras = {error};
+  config.simulation.route.waypoints.back().heading_deg = 60;
+  config.simulation.duration = 1.01;
+  config.simulation.sensors.drops.bursts[0].until = 0.51;  // frames 5 to 7 of the stretch
+  ExplainRequest request = run(config, {.number = {}, .from = 0.3, .to = {}});
+  request.pairs = 0;
+  const Explanation explanation = explain(request);
+  const StretchExplanation& stretch = explanation.stretches.at(0);
+  EXPECT_EQ(stretch.was.lost, 11);  // frames 5 to 15
+  ASSERT_EQ(stretch.causes.size(), 2u);
+  EXPECT_EQ(explanation.factors[stretch.causes[0]].name, "calibration");
+  EXPECT_EQ(explanation.factors[stretch.causes[1]].name, "drops");
+  ASSERT_FALSE(stretch.remainders.empty());
+  const Remainder& rest = stretch.remainders[0];
+  EXPECT_THAT(rest.normal.without, ElementsAre(stretch.causes[0]));
+  EXPECT_THAT(rest.causes, ElementsAre(stretch.causes[1]));
+  EXPECT_EQ(rest.normal.drifts.size(), 3u);  // one rerun, two placebos
+  // Each other factor was tried once more.
+  EXPECT_EQ(rest.singles.size() + 1, explanation.factors.size());
 }
 
 TEST_F(ExplainTest, RefusesARunThatItCannotRepeat) {

@@ -29,9 +29,11 @@ Explanation windy() {
   stretch.stretch = {.number = 2, .first = 40, .last = 60, .coincide = {"little texture"}};
   stretch.aligned = 19;
   stretch.was = steady_drift(0.0205);
-  stretch.chance = as_it_was({steady_drift(0.02), steady_drift(0.0205), steady_drift(0.0195)});
-  stretch.singles = {without(stretch.chance, {0}, 0.021), without(stretch.chance, {1}, 0.004)};
-  stretch.all = without(stretch.chance, {0, 1}, 0.003);
+  stretch.normal.chance =
+      as_it_was({steady_drift(0.02), steady_drift(0.0205), steady_drift(0.0195)});
+  stretch.singles = {without(stretch.normal.chance, {0}, 0.021),
+                     without(stretch.normal.chance, {1}, 0.004)};
+  stretch.all = without(stretch.normal.chance, {0, 1}, 0.003);
   stretch.causes = {1};
   explanation.stretches = {stretch};
   return explanation;
@@ -45,6 +47,31 @@ TEST(ExplanationTextTest, NamesTheCauseFirstAndTheFactorsByStrength) {
   EXPECT_THAT(text, HasSubstr("what coincides: little texture"));
   EXPECT_THAT(text, HasSubstr("16.0      80 %"));
   EXPECT_LT(text.find("\n  wind"), text.find("\n  noise"));
+}
+
+/// Without the wind 4 mm are left, of which the noise is 3.5.
+Explanation windy_and_noisy() {
+  Explanation explanation = windy();
+  Remainder rest{.normal = {.without = {1}}};
+  rest.normal.chance = as_it_was({steady_drift(0.004), steady_drift(0.0042), steady_drift(0.0039)});
+  rest.singles = {without(rest.normal.chance, {0}, 0.0005)};
+  rest.causes = {0};
+  explanation.stretches[0].remainders = {rest};
+  explanation.stretches[0].causes = {1, 0};
+  return explanation;
+}
+
+TEST(ExplanationTextTest, SaysWhatIsLeftWithoutTheFirstCause) {
+  const std::string text = format_explanation(windy_and_noisy(), 10);
+  EXPECT_THAT(text, HasSubstr("caused by wind in the plants, and by noise of the images\n"));
+  const std::size_t rest = text.find(
+      "  left without wind: 4.0 +- 0.2 mm, 0 frames lost; caused by noise of the images\n");
+  ASSERT_NE(rest, std::string::npos) << text;
+  EXPECT_NE(text.find("3.5      88 %", rest), std::string::npos) << text;  // 3.5 of 4.0 mm
+  Explanation explanation = windy_and_noisy();
+  explanation.stretches[0].remainders[0].causes.clear();
+  EXPECT_THAT(format_explanation(explanation, 10),
+              HasSubstr("lost; no factor explains it beyond chance\n"));
 }
 
 TEST(ExplanationTextTest, SaysThatNothingExplainsIt) {
@@ -66,6 +93,17 @@ TEST(ExplanationTextTest, JsonHasMetresAndSeconds) {
   EXPECT_EQ(json.at("factors").at(1).at("without").at(0), "wind");
   EXPECT_EQ(json.at("factors").at(1).at("cause"), true);
   EXPECT_EQ(json.at("without_all").at("without").size(), 2u);
+  EXPECT_FALSE(json.contains("remainders"));
+}
+
+TEST(ExplanationTextTest, JsonHasWhatIsLeft) {
+  const auto json = to_json(windy_and_noisy(), 10).at("stretches").at(0);
+  EXPECT_EQ(json.at("causes"), nlohmann::ordered_json({"wind", "noise"}));
+  const auto& rest = json.at("remainders").at(0);
+  EXPECT_EQ(rest.at("without"), nlohmann::ordered_json({"wind"}));
+  EXPECT_EQ(rest.at("causes"), nlohmann::ordered_json({"noise"}));
+  EXPECT_NEAR(rest.at("chance").at("median_m").get<double>(), 0.004, 1e-9);
+  EXPECT_NEAR(rest.at("factors").at(0).at("caused_m").get<double>(), 0.0035, 1e-9);
 }
 
 }  // namespace

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/optimisation/gravity_factors.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <numbers>
+
+#include "tests/support/swinging_body.h"
+
+namespace vinebench::slam {
+namespace {
+
+using test::SwingingBody;
+
+/// Twelve keyframes of a swinging body, 0.3 s apart.
+class GravityFactorsTest : public testing::Test {
+ protected:
+  static constexpr int kKeyframes = 12;
+  static constexpr double kInterval = 0.3;  // s
+
+  GravityFactorsTest() {
+    for (int k = 0; k < kKeyframes; ++k) {
+      map_.add_keyframe(std::make_shared<FrameFeatures>(), truth(k), {});
+      if (k > 0) map_.keyframe(k).motion = body_.motion((k - 1) * kInterval, k * kInterval);
+    }
+    map_.gravity() =
+        MapGravity{body_.gravity, Eigen::Vector3d::Zero(), 1e-8 * Matrix6d::Identity()};
+  }
+
+  static Pose truth(int k) { return SwingingBody::pose(k * kInterval); }
+
+  AdjustmentWindow last_moves() const {
+    AdjustmentWindow window;
+    for (int k = 0; k < kKeyframes - 1; ++k) window.fixed.push_back(k);
+    window.moved = {kKeyframes - 1};
+    return window;
+  }
+
+  /// Cost reached, keyframes written back.
+  double adjusted(const AdjustmentWindow& window, const std::optional<InertialConfig>& inertial) {
+    ProblemBuilder problem(map_, window);
+    GravityFactors factors(inertial, false);
+    factors.add_to(problem, map_);
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_QR;
+    options.function_tolerance = 1e-16;
+    options.max_num_iterations = 100;
+    options.logging_type = ceres::SILENT;
+    const double cost = problem.solve(options);
+    problem.write_poses(map_);
+    return cost;
+  }
+
+  double tilt(int k) const {
+    const Eigen::Vector3d down = map_.keyframe(k).T_map_body.rotation.conjugate() * body_.gravity;
+    const Eigen::Vector3d truly = truth(k).rotation.conjugate() * body_.gravity;
+    return std::acos(std::min(1.0, down.normalized().dot(truly.normalized())));
+  }
+
+  SwingingBody body_;
+  Map map_{1.2};
+};
+
+// The last pose's place is determined by the two before it; its turn is not.
+TEST_F(GravityFactorsTest, TheLastKeyframeComesToItsPlace) {
+  map_.keyframe(kKeyframes - 1).T_map_body.translation += Eigen::Vector3d(0.02, -0.01, 0.03);
+  EXPECT_NEAR(adjusted(last_moves(), InertialConfig{}), 0, 1e-3);
+  const Pose last = map_.keyframe(kKeyframes - 1).T_map_body;
+  // 3e-5 m/s^2 over 0.3 s squared: 3 um.
+  EXPECT_NEAR((last.translation - truth(kKeyframes - 1).translation).norm(), 0, 1e-5);
+}
+
+// A keyframe in the middle that is tilted by half a degree, its place held by its neighbours':
+// gravity turns it back. About the vertical nothing holds it but how the force turns with it.
+TEST_F(GravityFactorsTest, AKeyframeIsTurnedUpright) {
+  const int k = 5;
+  const double half_degree = 0.5 * std::numbers::pi / 180;
+  map_.keyframe(k).T_map_body.rotation =
+      map_.keyframe(k).T_map_body.rotation * exp_so3({half_degree, 0, 0});
+  EXPECT_GT(tilt(k), 0.9 * half_degree);  // its axis is nearly level
+  AdjustmentWindow window = last_moves();
+  std::erase(window.fixed, k);
+  window.fixed.push_back(kKeyframes - 1);
+  window.moved = {k};
+  EXPECT_NEAR(adjusted(window, InertialConfig{}), 0, 1e-3);
+  EXPECT_LT(tilt(k), 2e-5);  // rad: 3e-5 of 9.8 m/s^2, and the solver's end
+}
+
+TEST_F(GravityFactorsTest, WithoutAUnitOrGravityThereIsNoFactor) {
+  const Pose off{Eigen::Quaterniond::Identity(), {1, 2, 3}};
+  map_.keyframe(kKeyframes - 1).T_map_body = off;
+  adjusted(last_moves(), std::nullopt);
+  EXPECT_EQ(map_.keyframe(kKeyframes - 1).T_map_body.translation, off.translation);
+  map_.gravity().reset();
+  adjusted(last_moves(), InertialConfig{});
+  EXPECT_EQ(map_.keyframe(kKeyframes - 1).T_map_body.translation, off.translation);
+}
+
+TEST_F(GravityFactorsTest, AnIntervalThatIsMissingOrLongIsLeftOut) {
+  const Pose off{Eigen::Quaterniond::Identity(), {1, 2, 3}};
+  map_.keyframe(kKeyframes - 1).T_map_body = off;
+  map_.keyframe(kKeyframes - 1).motion->seconds = 2.1;
+  adjusted(last_moves(), InertialConfig{});
+  EXPECT_EQ(map_.keyframe(kKeyframes - 1).T_map_body.translation, off.translation);
+  map_.keyframe(kKeyframes - 1).motion.reset();
+  adjusted(last_moves(), InertialConfig{});
+  EXPECT_EQ(map_.keyframe(kKeyframes - 1).T_map_body.translation, off.translation);
+}
+
+}  // namespace
+}  // namespace vinebench::slam
