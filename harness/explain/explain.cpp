@@ -34,7 +34,7 @@ void check_can_be_repeated(const ExplainRequest& request) {
 }
 
 /// The larger share of drift and of lost frames that an effect causes.
-double share_of(const AsItWas& was, const Effect& effect) {
+double caused_share(const AsItWas& was, const Effect& effect) {
   double most = 0;
   if (effect.drift_is_caused) most = effect.metres / was.metres.typical();
   if (effect.losses_are_caused) most = std::max(most, effect.lost / was.lost.typical());
@@ -49,12 +49,12 @@ Shares shares_of(const Normal& normal, const std::vector<FactorEffect>& singles)
   Shares shares;
   for (const FactorEffect& single : singles) {
     if (!single.effect.is_cause()) continue;
-    shares[single.factors[0]] = {share_of(normal.chance, single.effect), single.effect.metres};
+    shares[single.factors[0]] = {caused_share(normal.chance, single.effect), single.effect.metres};
   }
   return shares;
 }
 
-std::vector<std::size_t> strongest_first(const Shares& shares) {
+std::vector<std::size_t> by_share(const Shares& shares) {
   std::vector<std::size_t> causes;
   for (const auto& [factor, ignored] : shares) causes.push_back(factor);
   std::ranges::stable_sort(causes, std::greater(), [&](std::size_t i) { return shares.at(i); });
@@ -235,7 +235,7 @@ class Explainer {
     }
     rest.singles = effects(jobs, explanation, rest.normal);
     for (FactorEffect& single : rest.singles) single.factors = {single.factors.back()};
-    rest.causes = strongest_first(shares_of(rest.normal, rest.singles));
+    rest.causes = by_share(shares_of(rest.normal, rest.singles));
     explanation.causes.insert(explanation.causes.end(), rest.causes.begin(), rest.causes.end());
     explanation.remainders.push_back(std::move(rest));
     return !explanation.remainders.back().causes.empty();
@@ -296,16 +296,16 @@ std::vector<std::size_t> causes_of(const StretchExplanation& stretch) {
     const Effect& one = stretch.singles[pair.factors[0]].effect;
     const Effect& other = stretch.singles[pair.factors[1]].effect;
     if (!is_joint_cause(was, one, other, pair.effect)) continue;
-    if (joint == nullptr || share_of(was, pair.effect) > share_of(was, joint->effect)) {
+    if (joint == nullptr || caused_share(was, pair.effect) > caused_share(was, joint->effect)) {
       joint = &pair;
     }
   }
   if (joint != nullptr) {
     for (const std::size_t i : joint->factors) {
-      shares[i] = {share_of(was, joint->effect), joint->effect.metres};
+      shares[i] = {caused_share(was, joint->effect), joint->effect.metres};
     }
   }
-  return strongest_first(shares);
+  return by_share(shares);
 }
 
 }  // namespace vinebench::harness

@@ -30,9 +30,9 @@ std::string names(const Explanation& explanation, const std::vector<std::size_t>
   return fmt::format("{}", fmt::join(list, " + "));
 }
 
-std::string cause_sentence(const Explanation& explanation, const StretchExplanation& stretch) {
-  if (!stretch.causes.empty()) {
-    return fmt::format("caused by {}", fmt::join(texts(explanation, stretch.causes), ", and by "));
+std::string cause_sentence(const Explanation& explanation, const std::vector<std::size_t>& causes) {
+  if (!causes.empty()) {
+    return fmt::format("caused by {}", fmt::join(texts(explanation, causes), ", and by "));
   }
   return explanation.factors.empty() ? "the scenario has no factor that could be taken away"
                                      : "no factor explains it beyond chance";
@@ -67,13 +67,10 @@ std::string heading() {
 
 std::string format_remainder(const Explanation& explanation, const Remainder& rest) {
   const AsItWas& chance = rest.normal.chance;
-  std::string text = fmt::format(
-      "  left without {}: {:.1f} +- {:.1f} mm, {:.0f} frames lost; {}\n",
-      names(explanation, rest.normal.without), 1e3 * chance.metres.typical(),
-      1e3 * chance.metres.deviation(), chance.lost.typical(),
-      rest.causes.empty()
-          ? "no factor explains it beyond chance"
-          : fmt::format("caused by {}", fmt::join(texts(explanation, rest.causes), ", and by ")));
+  std::string text = fmt::format("  left without {}: {:.1f} +- {:.1f} mm, {:.0f} frames lost; {}\n",
+                                 names(explanation, rest.normal.without),
+                                 1e3 * chance.metres.typical(), 1e3 * chance.metres.deviation(),
+                                 chance.lost.typical(), cause_sentence(explanation, rest.causes));
   text += heading();
   for (const FactorEffect& one : strongest_first(rest.singles)) {
     text += row(explanation, rest.normal, one);
@@ -86,7 +83,7 @@ std::string format_stretch(const Explanation& explanation, const StretchExplanat
   const auto seconds = [&](std::int64_t frame) { return static_cast<double>(frame) / rate_hz; };
   std::string text = fmt::format("stretch {}, {:.2f} to {:.2f} s: {}\n", stretch.stretch.number,
                                  seconds(stretch.stretch.first), seconds(stretch.stretch.last),
-                                 cause_sentence(explanation, stretch));
+                                 cause_sentence(explanation, stretch.causes));
   text += fmt::format(
       "  drift since {:.2f} s: {:.1f} mm (with other noise {:.1f} +- {:.1f} mm), {:.0f} frames "
       "lost; beyond chance: {:.1f} mm\n",
