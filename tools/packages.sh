@@ -74,10 +74,16 @@ install_debs() {
     give_up "${packages[*]}: $(tail -n 5 "$root.log")"
 }
 
-# check_lintian ROOT DEBS: no errors and no warnings but those that packaging/debian/ overrides.
+# check_lintian SUITE DEBS: in a clean system it finds no errors and no warnings but those that
+# packaging/debian/ overrides.
 check_lintian() {
-  chroot_run "$1" "$2:/packages" -- sh -c 'apt-get install -y -qq --no-install-recommends lintian >/dev/null 2>&1 &&
-    lintian --allow-root --fail-on error,warning /packages/*.deb' | tee "$2/lintian.txt" || give_up "lintian found something"
+  local root=$CHROOTS/lintian
+  chroot_new "$1" "$root"
+  chroot_run "$root" -- sh -c 'apt-get update -qq && apt-get install -y -qq --no-install-recommends lintian' \
+    >"$root.log" 2>&1 || give_up "lintian of $1: $(tail -n 5 "$root.log")"
+  chroot_run "$root" "$2:/packages" -- sh -c 'lintian --allow-root --fail-on error,warning /packages/*.deb' |
+    tee "$2/lintian.txt" || give_up "lintian found something"
+  chroot_remove "$root"
 }
 
 # build_debs SUITE: the Dockerfile's stage `build` on that Debian; packages into out/packages/SUITE.
@@ -85,7 +91,7 @@ build_debs() {
   run_stages build "$1"
   rm -rf "${out:?}/$1"
   cp -r "$(stage_folder build)/packages" "$out/$1"
-  check_lintian "$(stage_folder build)" "$out/$1"
+  check_lintian "$1" "$out/$1"
   say "$(cd "$out/$1" && du -b ./*.deb | tr '\n' ' ')"
 }
 

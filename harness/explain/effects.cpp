@@ -63,6 +63,11 @@ bool matters(double effect, double typical, double least) {
   return effect >= least && effect >= kLeastShare * typical;
 }
 
+/// Whether something is left that singles do not explain.
+bool matters_jointly(double effect, double typical, double least) {
+  return effect >= least && effect >= kLeastJoint * typical;
+}
+
 }  // namespace
 
 StretchDrift drift_of(const std::vector<Step>& steps, const Stretch& stretch,
@@ -158,8 +163,8 @@ bool is_joint_cause(const AsItWas& was, const Effect& one, const Effect& other,
                     const Effect& both) {
   const double metres = both.metres - std::max(one.metres, other.metres);
   const double lost = both.lost - std::max(one.lost, other.lost);
-  return (both.drift_is_caused && metres >= kLeastJoint * was.metres.typical()) ||
-         (both.losses_are_caused && lost >= kLeastJoint * was.lost.typical());
+  return (both.drift_is_caused && matters_jointly(metres, was.metres.typical(), kLeastMetres)) ||
+         (both.losses_are_caused && matters_jointly(lost, was.lost.typical(), kLeastFrames));
 }
 
 bool do_not_add_up(const AsItWas& was, const std::vector<Effect>& singles, const Effect& all) {
@@ -169,8 +174,10 @@ bool do_not_add_up(const AsItWas& was, const std::vector<Effect>& singles, const
     metres -= std::max(0.0, single.metres);
     lost -= std::max(0.0, single.lost);
   }
-  return (all.drift_is_caused && std::abs(metres) >= kLeastJoint * was.metres.typical()) ||
-         (all.losses_are_caused && std::abs(lost) >= kLeastJoint * was.lost.typical());
+  return (all.drift_is_caused &&
+          matters_jointly(std::abs(metres), was.metres.typical(), kLeastMetres)) ||
+         (all.losses_are_caused &&
+          matters_jointly(std::abs(lost), was.lost.typical(), kLeastFrames));
 }
 
 }  // namespace vinebench::harness

@@ -98,12 +98,12 @@ struct Interaction {
 Interaction interaction_of(const Effect& one, const Effect& other, const Effect& both);
 
 /// Whether a pair is a cause that its two are not: together they take away more than either alone,
-/// by 30 % of the drift or of the lost frames, and more than chance could.
+/// by 30 % of the drift and a millimetre, or by 30 % of the lost frames and two, and more than
+/// chance could.
 bool is_joint_cause(const AsItWas& was, const Effect& one, const Effect& other, const Effect& both);
 
-/// Whether the effect of all together is one beyond chance and the singles' sum misses it by 30 %
-/// of the drift or of the lost frames: pairs are then tried. What is worse without a factor counts
-/// as no effect of it.
+/// Whether the effect of all together is one beyond chance and the singles' sum misses it by as
+/// much as that: pairs are then tried. What is worse without a factor counts as no effect of it.
 bool do_not_add_up(const AsItWas& was, const std::vector<Effect>& singles, const Effect& all);
 
 }  // namespace vinebench::harness

@@ -154,6 +154,21 @@ TEST(EffectsTest, PairsAreCausesWhereSinglesAreNot) {
   EXPECT_NEAR(interaction_of(both, both, both).metres, -0.015, 1e-12);
 }
 
+// Most frames are lost, and by the wheels the drive drifts by 1.3 mm all the same: 0.9 mm of it, or
+// one frame of three, is no cause that singles are not.
+TEST(EffectsTest, APairOfWhatIsNothingIsNothing) {
+  const AsItWas was = as_it_was({drifted(0.0013, 3), drifted(0.0013, 3), drifted(0.0013, 3)});
+  Effect both{.metres = 0.9e-3, .lost = 1, .drift_is_caused = true, .losses_are_caused = true};
+  EXPECT_FALSE(is_joint_cause(was, {}, {}, both));
+  EXPECT_FALSE(do_not_add_up(was, {Effect{}, Effect{}}, both));
+  both.metres = 1.1e-3;
+  EXPECT_TRUE(is_joint_cause(was, {}, {}, both));
+  EXPECT_TRUE(do_not_add_up(was, {Effect{}, Effect{}}, both));
+  both.metres = 0;
+  both.lost = 2;
+  EXPECT_TRUE(is_joint_cause(was, {}, {}, both));
+}
+
 // Without the first cause 30 mm of 500 are left, without any factor 6: 24 mm, four fifths, are for
 // others.
 TEST(EffectsTest, WhatACauseLeavesMayHaveOthers) {
