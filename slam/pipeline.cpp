@@ -314,10 +314,16 @@ void Pipeline::close_loop(int keyframe, Estimate& estimate) {
     estimate.calibration = *latest;
   }
   estimate.loop_closure = loop_closer_.close(keyframe, path_length_, rig_, map_);
+  believe_gravity();
   uncertainty_.start(by_tag_covariance() +
                      loop_closer_.localisation_covariance(map_.keyframe(keyframe).frame->tags));
   ++closures_;
   tags_since_adjustment_ = false;
+}
+
+/// As a global adjustment found it.
+void Pipeline::believe_gravity() {
+  if (map_.gravity()) tracker_.believe_gravity(map_.gravity()->gravity);
 }
 
 /// Makes good an error of the pairs' calibration, in the map and from here on.
@@ -334,6 +340,7 @@ void Pipeline::calibrate(Estimate& estimate) {
   if (found) {
     use_calibration(*found);
     loop_closer_.adjust_globally(rig_, map_);
+    believe_gravity();
     estimate.calibration = *found;
   }
   calibration_error_ = calibration_.error(rig_);

@@ -64,6 +64,7 @@ class Pipeline {
   void map_keyframe(TrackedFrame& tracked, Estimate& estimate);
   void grow_uncertainty(const TrackedFrame& tracked);
   void close_loop(int keyframe, Estimate& estimate);
+  void believe_gravity();
   void calibrate(Estimate& estimate);
   void use_calibration(const std::vector<PairCalibration>& pairs);
   Matrix6d covariance(const TrackedFrame& tracked, bool keyframe) const;

@@ -88,8 +88,14 @@ class LoopCloser {
   /// earlier visit onto the tag's constraint, then adjusts the whole map.
   LoopClosure close(int keyframe, double path_length, const EstimatorRig& rig, Map& map);
 
-  /// Global bundle adjustment of the map as it is.
+  /// Global bundle adjustment of the map, levelled first.
   void adjust_globally(const EstimatorRig& rig, Map& map) const;
+
+  /// Where an inertial unit takes part and one registered tag alone says how the map lies in the
+  /// world: turns the map about that tag until it feels gravity along the world's vertical, as far
+  /// as that is surer than the tag. Global adjustment would find this turn last, as all of its
+  /// factors but the tag's corners allow it.
+  void level(Map& map) const;
 
  private:
   /// When and where on the way a tag was last seen.
@@ -126,6 +132,7 @@ class LoopCloser {
   std::optional<PlacedSighting> placed(const TagSighting& sighting, const Map& map) const;
   Matrix6d covariance(const TagSighting& sighting) const;
   Matrix6d survey_covariance(const TagSighting& sighting) const;
+  std::optional<Matrix6d> place_covariance(const MapTag& tag, const Map& map) const;
   Matrix6d drift(double since, double path_length) const;
   bool is_in_place(const TagSighting& sighting, const Pose& T_map_body, double path_length,
                    const Map& map) const;

@@ -45,8 +45,12 @@ void DeadReckoning::place(const Pose& T_map_body) {
   if (is_inertial()) inertial_->place(T_map_body);
 }
 
-void DeadReckoning::move_map(const Pose& T_new_old) {
-  if (is_inertial()) inertial_->move_map(T_new_old);
+void DeadReckoning::correct(const Pose& T_new_old) {
+  if (is_inertial()) inertial_->place(T_new_old * inertial_->T_map_body());
+}
+
+void DeadReckoning::believe_gravity(const Eigen::Vector3d& gravity) {
+  if (is_inertial()) inertial_->believe_gravity(gravity);
 }
 
 void DeadReckoning::reset() {

@@ -56,8 +56,11 @@ class DeadReckoning {
   /// The body is there, and moves on as before.
   void place(const Pose& T_map_body);
 
-  /// The map moved about the body.
-  void move_map(const Pose& T_new_old);
+  /// Poses in the map were corrected, the body's by that: gravity stays as it lies in the map.
+  void correct(const Pose& T_new_old);
+
+  /// The map's gravity as something else knows it better, m/s^2.
+  void believe_gravity(const Eigen::Vector3d& gravity);
 
   /// One more frame without sight, `dt` s after the one before. Returns T_before_now: by the wheels
   /// where there are any, else by the velocity (body frame; m/s, rad/s) of the last seen motion.

@@ -11,8 +11,6 @@
 namespace vinebench::slam {
 namespace {
 
-constexpr double kGravitySpread = 0.03;  // m/s^2, over the Earth
-
 /// Of what is not known when a body is first seen: its velocity, and its acceleration, which is
 /// taken for gravity.
 constexpr double kFirstVelocity = 1;        // m/s
@@ -192,16 +190,6 @@ void InertialFilter::place(const Pose& T_map_body) {
   const Eigen::Quaterniond turn = T_map_body.rotation * T_map_body_.rotation.conjugate();
   velocity_ = turn * velocity_;
   T_map_body_ = T_map_body;
-}
-
-void InertialFilter::move_map(const Pose& T_new_old) {
-  T_map_body_ = T_new_old * T_map_body_;
-  velocity_ = T_new_old.rotation * velocity_;
-  gravity_ = T_new_old.rotation * gravity_;
-  Eigen::MatrixXd turn = Eigen::MatrixXd::Identity(kSize, kSize);
-  const Eigen::Matrix3d R = T_new_old.rotation.toRotationMatrix();
-  for (const Part part : {kPosition, kVelocity, kGravity}) turn.block<3, 3>(part, part) = R;
-  covariance_ = turn * covariance_ * turn.transpose();
 }
 
 Vector6d InertialFilter::velocity() const {

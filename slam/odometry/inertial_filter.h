@@ -38,8 +38,8 @@ class InertialFilter {
   /// The body is there; it moves, seen from itself, as before.
   void place(const Pose& T_map_body);
 
-  /// The map moved about the body.
-  void move_map(const Pose& T_new_old);
+  /// The map's gravity as something else knows it better, m/s^2.
+  void believe_gravity(const Eigen::Vector3d& gravity) { gravity_ = gravity; }
 
   /// What was measured since the last call, or since it runs; none where readings were missing.
   std::optional<PreintegratedMotion> take_motion();

@@ -21,13 +21,16 @@ namespace vinebench::slam {
 class GravityFactors : public FactorSource {
  public:
   /// None without an inertial unit. In a `global` adjustment what the map believes of gravity
-  /// hardly counts: it came from the same readings, and they say it anew.
+  /// hardly counts, unless the world says it: it came from the same readings, and they say it anew.
   GravityFactors(const std::optional<InertialConfig>& inertial, bool global);
   void add_to(ProblemBuilder& problem, const Map& map) override;
 
+  /// After a `global` adjustment the map's gravity is what was found; what comes of a few keyframes
+  /// is the filter's to know.
+  void write_back(Map& map) const override;
+
  private:
   void believe(const MapGravity& known, ProblemBuilder& problem);
-  double sigma(const PreintegratedMotion& before, const PreintegratedMotion& after) const;
 
   std::optional<InertialConfig> inertial_;
   bool global_;

@@ -101,7 +101,7 @@ void Tracker::start(const Pose& T_map_body, Stamp stamp, bool guessed) {
 }
 
 void Tracker::correct(const Pose& T_map_body) {
-  dead_reckoning_.move_map(T_map_body * T_map_body_.inverse());
+  dead_reckoning_.correct(T_map_body * T_map_body_.inverse());
   T_map_body_ = T_map_body;
 }
 

@@ -60,6 +60,9 @@ class Tracker {
   /// What an inertial unit measured since the last keyframe; call it with each.
   std::optional<PreintegratedMotion> take_motion() { return dead_reckoning_.take_motion(); }
 
+  /// The map's gravity as something else knows it better, m/s^2.
+  void believe_gravity(const Eigen::Vector3d& gravity) { dead_reckoning_.believe_gravity(gravity); }
+
   /// The landmarks to look for first in the next frame, ascending: those of a new keyframe.
   void expect(std::vector<int> landmarks) { last_landmarks_ = std::move(landmarks); }
 

@@ -10,7 +10,9 @@
 
 #include "core/util/error.h"
 #include "slam/optimisation/bundle_adjustment.h"
+#include "slam/optimisation/gravity_fit.h"
 #include "tests/support/aisle_map.h"
+#include "tests/support/swinging_body.h"
 
 namespace vinebench::slam {
 namespace {
@@ -18,6 +20,7 @@ namespace {
 using test::AisleMap;
 using test::angle;
 using test::distance;
+using test::SwingingBody;
 using test::SyntheticAisle;
 
 constexpr int kSide = 4;  // index of the rover's tag camera
@@ -209,6 +212,90 @@ TEST_F(LoopCloserTest, CanBeSwitchedOff) {
   map_.add_keyframe(first, body_, {});
   loop.record(*first, body_, 0, map_);
   EXPECT_FALSE(loop.sees_loop(*frame(100, {sighting(3, T_body_tag_)}), 5));
+}
+
+/// Twenty keyframes of a swinging body with an inertial unit, of which the first sees a registered
+/// tag: by that, gravity does not point down in the map.
+class LevelTest : public LoopCloserTest {
+ protected:
+  static constexpr double kLean = 0.2 * std::numbers::pi / 180;
+
+  LevelTest() {
+    settings_.inertial = InertialConfig{};
+    settings_.inertial->accelerometer.bias = 1e-3;  // m/s^2: gravity is known to 0.006 degrees
+    settings_.loop.corner_sigma = 1;                // px
+    for (int k = 0; k < 20; ++k) {
+      const TagSighting seen = with_corners(sighting(0, T_body_tag_));
+      map_.add_keyframe(frame(k, k == 0 ? std::vector{seen} : std::vector<TagSighting>{}),
+                        SwingingBody::pose(0.3 * k), {});
+      if (k > 0) map_.keyframe(k).motion = swinging_.motion(0.3 * (k - 1), 0.3 * k);
+    }
+    // The world's vertical lies beside where gravity is in the map.
+    const Eigen::Vector3d down = swinging_.gravity.normalized();
+    const Pose T_map_world{Eigen::Quaterniond(Eigen::AngleAxisd(kLean, down.unitOrthogonal())) *
+                               Eigen::Quaterniond::FromTwoVectors(-Eigen::Vector3d::UnitZ(), down),
+                           {1, 2, 3}};
+    const Pose T_map_tag = SwingingBody::pose(0) * T_body_tag_;
+    down_ = T_map_world.rotation * -Eigen::Vector3d::UnitZ();
+    tag_ = {"tag36h11", 0, 0.161, T_map_world.inverse() * T_map_tag};
+    map_.tags().push_back({"tag36h11", 0, 0.161, T_map_tag, true});
+  }
+
+  /// rad
+  double lean() const {
+    const Eigen::Vector3d gravity = fit_gravity(map_, InertialConfig{})->gravity;
+    return std::asin(gravity.normalized().cross(down_).norm());
+  }
+
+  void level() {
+    LoopCloser loop = closer({tag_});
+    loop.take_over(map_);
+    loop.level(map_);
+  }
+
+  SwingingBody swinging_;
+  Eigen::Vector3d down_;
+  RegisteredTag tag_;
+};
+
+// A sighting as much aslant knows its turn to a tenth of a degree: two of these are nothing
+// strange, and gravity is surer.
+TEST_F(LevelTest, AMapThatLeansOnATagIsTurnedUpright) {
+  const Pose before = map_.keyframe(0).T_map_body;
+  const Eigen::Vector3d tag = map_.tags()[0].T_map_tag.translation;
+  EXPECT_NEAR(lean(), kLean, 1e-4);
+  level();
+  EXPECT_LT(lean(), kLean / 4);
+  // About the tag: what is seen of its place stays.
+  const Pose after = map_.keyframe(0).T_map_body;
+  EXPECT_LT((before.inverse() * tag - after.inverse() * tag).norm(), 1e-12);
+  ASSERT_TRUE(map_.gravity());
+  EXPECT_TRUE(map_.gravity()->by_world);
+  EXPECT_LT((map_.gravity()->gravity - kStandardGravity * down_).norm(), 1e-12);
+}
+
+TEST_F(LevelTest, WithoutAnInertialUnitItStaysAsItIs) {
+  settings_.inertial.reset();
+  const Pose before = map_.keyframe(9).T_map_body;
+  level();
+  EXPECT_EQ(map_.keyframe(9).T_map_body.translation, before.translation);
+  EXPECT_FALSE(map_.gravity());
+}
+
+TEST_F(LevelTest, TwoRegisteredTagsSayThemselvesHowItLies) {
+  map_.tags().push_back({"tag36h11", 1, 0.161, Pose{}, true});
+  const Pose before = map_.keyframe(9).T_map_body;
+  level();
+  EXPECT_EQ(map_.keyframe(9).T_map_body.translation, before.translation);
+}
+
+// Fifteen degrees are no error of a sighting: the world's z axis is not the vertical.
+TEST_F(LevelTest, AWorldThatIsNotUprightIsLeft) {
+  const double degrees = std::numbers::pi / 180;
+  tag_.T_world_tag.rotation = exp_so3({15 * degrees, 0, 0}) * tag_.T_world_tag.rotation;
+  const Pose before = map_.keyframe(9).T_map_body;
+  level();
+  EXPECT_EQ(map_.keyframe(9).T_map_body.translation, before.translation);
 }
 
 /// Six keyframes along the aisle; the tag's last sighting is beside its first.

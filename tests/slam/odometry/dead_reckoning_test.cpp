@@ -37,5 +37,24 @@ TEST(DeadReckoningTest, DoubtsWheelsByTheWayTheyWent) {
   EXPECT_FALSE(reckoning.is_lost());
 }
 
+// Local adjustments turn the newest keyframe a little nearer to gravity, again and again: if
+// gravity were turned along, the map would turn for good.
+TEST(DeadReckoningTest, ACorrectedPoseLeavesGravityInTheMap) {
+  DeadReckoning reckoning{DeadReckoningConfig{}, InertialConfig{}};
+  ImuSample stands;
+  stands.stamp = 1'000'000'000;
+  stands.specific_force = {0, 0, 9.8};
+  reckoning.arrive({stands}, std::nullopt, stands.stamp);
+  reckoning.see(Pose{}, 1e-6 * Matrix6d::Identity());
+  ASSERT_TRUE(reckoning.gravity());
+  const Eigen::Vector3d gravity = reckoning.gravity()->gravity;
+  const Pose T_new_old{exp_so3({0.01, 0, 0}), {0.1, 0, 0}};
+  reckoning.correct(T_new_old);
+  EXPECT_EQ(reckoning.gravity()->gravity, gravity);
+  EXPECT_LT(reckoning.T_map_body()->rotation.angularDistance(T_new_old.rotation), 1e-7);
+  reckoning.believe_gravity({0, 1, -9.7});
+  EXPECT_EQ(reckoning.gravity()->gravity, Eigen::Vector3d(0, 1, -9.7));
+}
+
 }  // namespace
 }  // namespace vinebench::slam
