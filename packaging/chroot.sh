@@ -36,9 +36,10 @@ chroot_new() {
     echo "deb $mirror $suite-updates main"
     [[ -z $security ]] || echo "deb $security $suite-security main"
   } >"$root/etc/apt/sources.list"
+  # Files of packages are left out: where a package brings its own, dpkg would ask which to keep.
   local file
   for file in /etc/apt/apt.conf /etc/apt/apt.conf.d/*; do
-    [[ $file == */docker-* ]] || ! grep -qs '^ *Acquire' "$file" || cp "$file" "$root/etc/apt/apt.conf.d/"
+    [[ $file == */docker-* ]] || dpkg -S "$file" >/dev/null 2>&1 || ! grep -qs '^ *Acquire' "$file" || cp "$file" "$root/etc/apt/apt.conf.d/"
   done
   cp -L /etc/resolv.conf "$root/etc/resolv.conf"
 }

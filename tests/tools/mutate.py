@@ -445,8 +445,8 @@ def kinds_of(base):
 
 
 def check_whole(base, kinds, program):
-    """Undamaged, every kind runs."""
-    for name, kind in kinds.items():
+    """Undamaged, each of these kinds runs."""
+    for kind in kinds:
         folder = base.parent / "whole"
         for part in kind.folders:
             link_tree(base / part, folder / part)
@@ -559,10 +559,10 @@ def main():
         kinds = kinds_of(base)
         if options.only:
             kinds = {options.only: kinds[options.only]}
-        check_whole(base, kinds, program)
         names = list(kinds)
         jobs = [(base, program, names[n % len(names)], kinds[names[n % len(names)]], options.seed, n, options.keep,
                  cache) for n in range(options.first, options.first + options.cases)]
+        check_whole(base, [kinds[name] for name in dict.fromkeys(job[2] for job in jobs)], program)
         counts = {name: collections.Counter() for name in names}
         offences = 0
         with multiprocessing.Pool(options.jobs) as pool:

@@ -88,11 +88,13 @@ TEST_F(RecordTest, ARecordingThatEndedBeforeItsFirstFrameGoesOn) {
   const std::string whole = manifest();
   const std::vector<std::string> made{"scenario.resolved.yaml", "calibration.yaml", "files.xxh128",
                                       "euroc", "frames.csv"};
+  request_.out = folder_ / "begun";
+  record({"euroc"}, 0);
+  std::ofstream(request_.out / "files.xxh128");  // empty, as before the first frame
   for (std::size_t there = 0; there <= made.size(); ++there) {
-    request_.resume = false;
     request_.out = folder_ / std::to_string(there);
-    record({"euroc"}, 0);
-    std::ofstream(request_.out / "files.xxh128");  // empty, as before the first frame
+    std::filesystem::copy(folder_ / "begun", request_.out,
+                          std::filesystem::copy_options::recursive);
     for (std::size_t i = there; i < made.size(); ++i) {
       std::filesystem::remove_all(request_.out / made[i]);
     }
