@@ -59,13 +59,8 @@ bool may_matter(const std::vector<double>& without, const Chance& chance, double
 }
 
 /// Whether something is taken away that is not little.
-bool matters(double effect, double typical, double least) {
-  return effect >= least && effect >= kLeastShare * typical;
-}
-
-/// Whether something is left that singles do not explain.
-bool matters_jointly(double effect, double typical, double least) {
-  return effect >= least && effect >= kLeastJoint * typical;
+bool matters(double effect, double typical, double least, double share = kLeastShare) {
+  return effect >= least && effect >= share * typical;
 }
 
 }  // namespace
@@ -163,8 +158,9 @@ bool is_joint_cause(const AsItWas& was, const Effect& one, const Effect& other,
                     const Effect& both) {
   const double metres = both.metres - std::max(one.metres, other.metres);
   const double lost = both.lost - std::max(one.lost, other.lost);
-  return (both.drift_is_caused && matters_jointly(metres, was.metres.typical(), kLeastMetres)) ||
-         (both.losses_are_caused && matters_jointly(lost, was.lost.typical(), kLeastFrames));
+  return (both.drift_is_caused &&
+          matters(metres, was.metres.typical(), kLeastMetres, kLeastJoint)) ||
+         (both.losses_are_caused && matters(lost, was.lost.typical(), kLeastFrames, kLeastJoint));
 }
 
 bool do_not_add_up(const AsItWas& was, const std::vector<Effect>& singles, const Effect& all) {
@@ -175,9 +171,9 @@ bool do_not_add_up(const AsItWas& was, const std::vector<Effect>& singles, const
     lost -= std::max(0.0, single.lost);
   }
   return (all.drift_is_caused &&
-          matters_jointly(std::abs(metres), was.metres.typical(), kLeastMetres)) ||
+          matters(std::abs(metres), was.metres.typical(), kLeastMetres, kLeastJoint)) ||
          (all.losses_are_caused &&
-          matters_jointly(std::abs(lost), was.lost.typical(), kLeastFrames));
+          matters(std::abs(lost), was.lost.typical(), kLeastFrames, kLeastJoint));
 }
 
 }  // namespace vinebench::harness

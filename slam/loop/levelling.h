@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "slam/map/map.h"
+#include "slam/odometry/inertial_config.h"
 
 namespace vinebench::slam {
 
@@ -16,6 +17,13 @@ namespace vinebench::slam {
 std::optional<Eigen::Quaterniond> levelling_turn(const MapGravity& felt,
                                                  const Eigen::Vector3d& down,
                                                  const Eigen::Matrix3d& lean);
+
+/// Turns the map about a tag of known pose by the likeliest turn, and has it believe in gravity
+/// along `down`. `turn` is the covariance of the tag's turn against the map, in its own frame
+/// (rad^2); what all of the way is turned by against it, by the errors of its steps, adds to that.
+/// Nothing changes where no gravity was felt, or not such.
+void level_about(Map& map, const Pose& T_map_tag, const Eigen::Matrix3d& turn,
+                 const Eigen::Vector3d& down, const InertialConfig& inertial);
 
 /// Turns all of the map about `pivot`, but for tags of known pose.
 void turn_about(Map& map, const Eigen::Vector3d& pivot, const Eigen::Quaterniond& turn);

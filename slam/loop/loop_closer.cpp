@@ -12,7 +12,6 @@
 #include "slam/loop/levelling.h"
 #include "slam/loop/loop_correction.h"
 #include "slam/optimisation/bundle_adjustment.h"
-#include "slam/optimisation/gravity_fit.h"
 
 namespace vinebench::slam {
 namespace {
@@ -36,9 +35,6 @@ bool same_tag(const A& a, const B& b) {
   return a.id == b.id && a.family == b.family;
 }
 
-/// How exactly the world's z axis is the vertical.
-constexpr double kVertical = 2e-4;  // rad
-
 double square(double x) {
   return x * x;
 }
@@ -47,18 +43,6 @@ Matrix6d diagonal_covariance(double offset, double turn) {
   Vector6d variances;
   variances << Eigen::Vector3d::Constant(offset * offset), Eigen::Vector3d::Constant(turn * turn);
   return variances.asDiagonal();
-}
-
-/// Covariance of how all of the way is turned on average against its ends, by the errors of its
-/// steps: a third of what they add up to.
-Eigen::Matrix3d mean_turn(const Map& map) {
-  double way = 0;
-  for (std::size_t k = 1; k < map.keyframes().size(); ++k) {
-    way +=
-        (map.keyframes()[k].T_map_body.translation - map.keyframes()[k - 1].T_map_body.translation)
-            .norm();
-  }
-  return kStepTurn * kStepTurn * way / 3 * Eigen::Matrix3d::Identity();
 }
 
 /// The last keyframe of this run before `later` that saw a tag for which `is_wanted`, and how.
@@ -416,25 +400,9 @@ void LoopCloser::level(Map& map) const {
   if (std::ranges::count_if(map.tags(), is_fixed) != 1) return;
   const MapTag& tag = *std::ranges::find_if(map.tags(), is_fixed);
   const auto place = place_covariance(tag, map);
-  const auto felt = fit_gravity(map, *settings_.inertial);
-  if (!place || !felt) return;
-  const Eigen::Matrix3d R = tag.T_map_tag.rotation.toRotationMatrix();
-  const Eigen::Matrix3d lean =
-      R * place->bottomRightCorner<3, 3>() * R.transpose() + mean_turn(map);
+  if (!place) return;
   const Eigen::Vector3d down = T_map_world_->rotation * -Eigen::Vector3d::UnitZ();
-  const auto turn = levelling_turn(*felt, down, lean);
-  if (!turn) return;
-  turn_about(map, tag.T_map_tag.translation, *turn);
-  const Eigen::Matrix3d along = down * down.transpose();
-  MapGravity world{kStandardGravity * down, felt->accelerometer_bias, felt->covariance, true};
-  world.covariance.topRightCorner<3, 3>().setZero();
-  world.covariance.bottomLeftCorner<3, 3>().setZero();
-  world.covariance.topLeftCorner<3, 3>() =
-      square(kVertical * kStandardGravity) * (Eigen::Matrix3d::Identity() - along) +
-      square(kGravitySpread) * along;
-  world.covariance.bottomRightCorner<3, 3>() =
-      square(settings_.inertial->accelerometer.bias) * Eigen::Matrix3d::Identity();
-  map.gravity() = world;
+  level_about(map, tag.T_map_tag, place->bottomRightCorner<3, 3>(), down, *settings_.inertial);
 }
 
 void LoopCloser::adjust_globally(const EstimatorRig& rig, Map& map) const {

@@ -258,8 +258,8 @@ class LevelTest : public LoopCloserTest {
   RegisteredTag tag_;
 };
 
-// A sighting as much aslant knows its turn to a tenth of a degree: two of these are nothing
-// strange, and gravity is surer.
+// Corners of a pixel know the tag's turn to 0.2 degrees or worse, about each axis: so much is
+// nothing strange, and gravity is surer.
 TEST_F(LevelTest, AMapThatLeansOnATagIsTurnedUpright) {
   const Pose before = map_.keyframe(0).T_map_body;
   const Eigen::Vector3d tag = map_.tags()[0].T_map_tag.translation;
