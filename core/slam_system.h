@@ -15,12 +15,20 @@
 
 namespace vinebench {
 
+/// How well the pose of a tag was surveyed: standard deviations along and about each of its axes,
+/// independent of all other tags'. Zero where nobody said.
+struct SurveyAccuracy {
+  double position = 0;  ///< m
+  double rotation = 0;  ///< rad
+};
+
 /// A tag whose pose in the world is known in advance.
 struct RegisteredTag {
   std::string family;  ///< e.g. "tag36h11"
   int id = 0;
   double size = 0;   ///< side of the black square, m
   Pose T_world_tag;  ///< tag frame: x right, y down on the printed face, z into the tag
+  SurveyAccuracy survey{};
 };
 
 enum class TrackingStatus {

@@ -8,6 +8,7 @@
 #include "core/util/error.h"
 #include "slam/camera/rectification.h"
 #include "slam/frame/measurements.h"
+#include "slam/loop/loop_correction.h"
 #include "slam/tracking/keyframe_selector.h"
 
 namespace vinebench::slam {
@@ -37,6 +38,12 @@ bool is_accuracy_told(const SlamConfig& config) {
          told.baseline != usual.baseline || told.time != usual.time ||
          told.readout != usual.readout ||
          config.stereo.calibration_sigma != StereoConfig{}.calibration_sigma;
+}
+
+/// Whether tags tell by their surveys how the map lies, and none of them exactly.
+bool several_surveys(const Map& map) {
+  return std::ranges::count_if(map.tags(), [](const MapTag& t) { return t.survey.has_value(); }) >
+         1;
 }
 
 /// Whether a loaded map knows the place as well as a new keyframe would.
@@ -79,7 +86,7 @@ void Pipeline::continue_from(Map map) {
   map_ = std::move(map);
   if (!map_.calibration().empty()) rig_ = rig_.with_calibration(map_.calibration());
   calibration_.begin(map_.keyframes().size());
-  loop_closer_.take_over(map_);
+  loop_closer_.gates().take_over(map_);
 }
 
 Estimate Pipeline::process(const std::shared_ptr<FrameFeatures>& frame) {
@@ -145,9 +152,12 @@ TrackedFrame Pipeline::locate(const std::shared_ptr<FrameFeatures>& frame) {
 /// Goes on where a tag says that the body was carried to.
 void Pipeline::find_carried(TrackedFrame& tracked) {
   const auto T_map_body = recovery_.carried_to(tracked, path_length_);
-  if (!T_map_body) return;
+  if (T_map_body) carry(*T_map_body, tracked);
+}
+
+void Pipeline::carry(const Pose& T_map_body, TrackedFrame& tracked) {
   if (scheduler_.busy()) join_mapping(&tracked);
-  records_.withdraw_reckoned(recovery_.move_to(*T_map_body, tracked));
+  records_.withdraw_reckoned(recovery_.move_to(T_map_body, tracked));
 }
 
 /// Leaves the frame the sightings that are to be believed.
@@ -155,7 +165,22 @@ void Pipeline::gate_tags(TrackedFrame& tracked, Estimate& estimate) {
   if (!tracked.tracked) return;
   find_carried(tracked);
   estimate.rejected_tags =
-      loop_closer_.gate(*tracked.frame, tracked.motion.T_map_body, path_length_, map_);
+      loop_closer_.gates().gate(*tracked.frame, tracked.motion.T_map_body, path_length_, map_);
+  if (loop_closer_.gates().has_dissent()) settle_dissent(tracked);
+}
+
+void Pipeline::settle_dissent(TrackedFrame& tracked) {
+  if (scheduler_.busy()) join_mapping(&tracked);
+  const Pose T_map_body = tracked.motion.T_map_body;
+  const std::optional<Pose> T_map_world = map_.world();
+  if (const auto to = loop_closer_.gates().settle_dissent(T_map_body, map_)) carry(*to, tracked);
+  if (!T_map_world || T_map_world->translation == map_.world()->translation) return;
+  // Poses are told in the map: it moves, so that the world is where it was.
+  const Pose T_new_old = *T_map_world * map_.world()->inverse();
+  keep_world(map_, *T_map_world);
+  tracker_.correct(T_new_old * tracker_.T_map_body());
+  tracked.motion.T_map_body = T_new_old * T_map_body;
+  believe_gravity();
 }
 
 void Pipeline::release_images(FrameFeatures& frame) {
@@ -192,7 +217,7 @@ SlamSummary Pipeline::finish() {
     summary.keyframes.push_back({keyframe.frame->stamp, keyframe.T_map_body});
   }
   summary.landmarks = map_.count_landmarks(config_.mapping.min_observations);
-  summary.T_world_map = loop_closer_.T_world_map();
+  if (map_.world()) summary.T_world_map = map_.world()->inverse();
   return summary;
 }
 
@@ -225,11 +250,11 @@ TrackedFrame Pipeline::initialise(const std::shared_ptr<FrameFeatures>& frame) {
   }
   tracked.tracked = sees_well(*frame);
   if (tracked.tracked) {
-    const std::optional<Pose> by_tag = loop_closer_.world_pose(frame->tags);
+    const std::optional<Pose> by_tag = loop_closer_.gates().world_pose(frame->tags);
     tracked.motion.T_map_body = by_tag.value_or(Pose{});
     tracker_.start(tracked.motion.T_map_body, frame->stamp);
     Matrix6d covariance = by_tag_covariance();
-    if (by_tag) covariance += loop_closer_.localisation_covariance(frame->tags);
+    if (by_tag) covariance += loop_closer_.gates().localisation_covariance(frame->tags);
     uncertainty_.start(covariance);
   }
   return tracked;
@@ -283,7 +308,8 @@ void Pipeline::map_keyframe(TrackedFrame& tracked, Estimate& estimate) {
   map_.keyframe(id).link = tracked.link;
   map_.keyframe(id).motion = tracker_.take_motion();
   map_.gravity() = tracker_.dead_reckoning().gravity();
-  tags_since_adjustment_ |= closures_ > 0 && !tracked.frame->tags.empty();
+  const bool tied = closures_ > 0 || several_surveys(map_);
+  tags_since_adjustment_ |= tied && !tracked.frame->tags.empty();
   if (loop) close_loop(id, estimate);
   if (started_ && !tracked.link) {
     calibrate(estimate);
@@ -315,8 +341,14 @@ void Pipeline::close_loop(int keyframe, Estimate& estimate) {
   }
   estimate.loop_closure = loop_closer_.close(keyframe, path_length_, rig_, map_);
   believe_gravity();
-  uncertainty_.start(by_tag_covariance() +
-                     loop_closer_.localisation_covariance(map_.keyframe(keyframe).frame->tags));
+  const Matrix6d of_tags = by_tag_covariance() + loop_closer_.gates().localisation_covariance(
+                                                     map_.keyframe(keyframe).frame->tags);
+  // Of one tag seen twice the survey's error is the same; another's is new.
+  if (!estimate.loop_closure->covariance && several_surveys(map_)) {
+    uncertainty_.measure(of_tags);
+  } else {
+    uncertainty_.start(of_tags);
+  }
   ++closures_;
   tags_since_adjustment_ = false;
 }

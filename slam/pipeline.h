@@ -59,6 +59,8 @@ class Pipeline {
   TrackedFrame initialise(const std::shared_ptr<FrameFeatures>& frame);
   TrackedFrame track(const std::shared_ptr<FrameFeatures>& frame);
   void find_carried(TrackedFrame& tracked);
+  void carry(const Pose& T_map_body, TrackedFrame& tracked);
+  void settle_dissent(TrackedFrame& tracked);
   bool wants_new_keyframe(const TrackedFrame& tracked) const;
   void join_mapping(TrackedFrame* tracked = nullptr);
   void map_keyframe(TrackedFrame& tracked, Estimate& estimate);

@@ -29,7 +29,7 @@ bool sees_well(const FrameFeatures& frame) {
 }
 
 TrackedFrame Recovery::relocalise(const std::shared_ptr<FrameFeatures>& frame) {
-  std::optional<Pose> T_map_body = loop_closer_.map_pose(frame->tags, map_);
+  std::optional<Pose> T_map_body = loop_closer_.gates().map_pose(frame->tags, map_);
   if (!T_map_body) T_map_body = relocaliser_.find(map_, rig_, *frame);
   if (T_map_body) {
     tracker_.start(*T_map_body, frame->stamp);
@@ -44,7 +44,7 @@ TrackedFrame Recovery::relocalise(const std::shared_ptr<FrameFeatures>& frame) {
 
 bool Recovery::find_again(TrackedFrame& tracked) {
   const std::shared_ptr<FrameFeatures> frame = tracked.frame;
-  if (const auto by_tag = loop_closer_.map_pose(frame->tags, map_)) {
+  if (const auto by_tag = loop_closer_.gates().map_pose(frame->tags, map_)) {
     tracker_.start(*by_tag, frame->stamp);
     tracked = tracker_.track(frame, map_, rig_);
     return false;
@@ -71,8 +71,8 @@ bool Recovery::restart_map(TrackedFrame& tracked, double path_length) {
   tracked.motion.T_map_body = tracker_.T_map_body();
   tracked.link = OdometryLink{last.id, last.T_map_body.inverse() * tracker_.T_map_body(),
                               tracker_.dead_reckoning().covariance()};
-  loop_closer_.cross_gap(path_length, tracked.link->covariance,
-                         static_cast<int>(map_.keyframes().size()));
+  loop_closer_.gates().cross_gap(path_length, tracked.link->covariance,
+                                 static_cast<int>(map_.keyframes().size()));
   tracked.associations = no_associations(*tracked.frame);
   tracked.motion.information.setZero();
   tracker_.start(tracked.motion.T_map_body, tracked.frame->stamp);
@@ -83,8 +83,8 @@ bool Recovery::restart_map(TrackedFrame& tracked, double path_length) {
 
 std::optional<Pose> Recovery::carried_to(const TrackedFrame& tracked, double path_length) const {
   const FrameFeatures& frame = *tracked.frame;
-  const auto by_tag =
-      loop_closer_.pose_across_gap(frame.tags, tracked.motion.T_map_body, path_length, map_);
+  const auto by_tag = loop_closer_.gates().pose_across_gap(frame.tags, tracked.motion.T_map_body,
+                                                           path_length, map_);
   if (!by_tag) return std::nullopt;
   const PlaceEvidence evidence = look_around(map_, rig_, frame, *by_tag);
   if (!bears_out(evidence)) return std::nullopt;
@@ -92,7 +92,7 @@ std::optional<Pose> Recovery::carried_to(const TrackedFrame& tracked, double pat
 }
 
 int Recovery::move_to(const Pose& T_map_body, TrackedFrame& tracked) {
-  const int after = loop_closer_.open_gap(tracked.frame->tags, map_);
+  const int after = loop_closer_.gates().open_gap(tracked.frame->tags, map_);
   const Pose T_new_old = T_map_body * tracked.motion.T_map_body.inverse();
   move_from(map_, after, T_new_old);
   tracker_.correct(T_new_old * tracker_.T_map_body());

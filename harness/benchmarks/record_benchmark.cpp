@@ -65,9 +65,8 @@ void drive(FrameSource& source, const std::vector<Sink*>& sinks) {
 void drive_and_estimate(const RecordBenchmark& benchmark, FrameSource& source,
                         const std::vector<Sink*>& sinks) {
   WorkerPool estimating(benchmark.threads);
-  const auto slam =
-      slam::make_slam(benchmark.scenario.slam, source.rig(),
-                      sim::registered_tags(benchmark.scenario.simulation.world), estimating);
+  const auto slam = slam::make_slam(benchmark.scenario.slam, source.rig(),
+                                    registered_tags(benchmark.scenario), estimating);
   Prefetch ahead(source);
   run_lockstep(ahead, *slam, sinks);
 }

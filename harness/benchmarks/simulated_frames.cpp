@@ -13,7 +13,7 @@ void load_simulated_frames(const ScenarioConfig& scenario, const Machine& machin
       scenario.simulation, static_cast<std::uint64_t>(scenario.seed), machine.plant_cache, pool);
   benchmark.name = scenario.name;
   benchmark.rig = source->rig();
-  benchmark.tags = sim::registered_tags(scenario.simulation.world);
+  benchmark.tags = registered_tags(scenario);
   benchmark.slam = scenario.slam;
   benchmark.frames = preload(*source, frames);
 }

@@ -105,6 +105,10 @@ ScenarioConfig load_scenario(const std::filesystem::path& file,
   return scenario;
 }
 
+std::vector<RegisteredTag> registered_tags(const ScenarioConfig& scenario) {
+  return sim::registered_tags(scenario.simulation.world, static_cast<std::uint64_t>(scenario.seed));
+}
+
 Trial trial_of(const ScenarioConfig& scenario) {
   Trial trial;
   trial.name = scenario.name;
@@ -120,8 +124,7 @@ Trial trial_of(const ScenarioConfig& scenario) {
   trial.miscalibrated = scenario.simulation.sensors.calibration.any();
   if (const auto& file = scenario.simulation.rover.rig; !file.empty()) {
     const Rig rig = load_rig(file);
-    const ToldRobot told{rig, sim::registered_tags(scenario.simulation.world),
-                         scenario.slam.dead_reckoning.wheels};
+    const ToldRobot told{rig, registered_tags(scenario), scenario.slam.dead_reckoning.wheels};
     trial.discrepancies = known_discrepancies(scenario.simulation,
                                               static_cast<std::uint64_t>(scenario.seed), rig, told);
   }
@@ -136,7 +139,7 @@ std::string resolved_settings(ScenarioConfig scenario) {
 RecordingNotes notes_of(const ScenarioConfig& scenario) {
   RecordingNotes notes;
   notes.rig = YamlDocument::load(scenario.simulation.rover.rig).read<RigConfig>();
-  notes.tags = sim::registered_tags(scenario.simulation.world);
+  notes.tags = registered_tags(scenario);
   notes.slam = scenario.slam;
   notes.imu_rate_hz = scenario.simulation.rover.imu_rate_hz;
   const sim::InertialSensorConfig& imu = scenario.simulation.sensors.inertial;

@@ -85,6 +85,9 @@ std::string resolved_settings(ScenarioConfig scenario);
 /// left out for other systems.
 Trial trial_of(const ScenarioConfig& scenario);
 
+/// What the SLAM system is told of the tags.
+std::vector<RegisteredTag> registered_tags(const ScenarioConfig& scenario);
+
 /// The notes of a scenario's run. Throws Error if the rig's file cannot be read.
 RecordingNotes notes_of(const ScenarioConfig& scenario);
 

@@ -171,6 +171,7 @@ void add_calibration(const Rig& rig, std::vector<Factor>& list) {
 
 void straighten_survey(sim::WorldConfig& world) {
   for (sim::WorldConfig::Tag& tag : world.tags) tag.survey_error = {};
+  world.survey = {};
 }
 
 /// Of tags with the same number, the first registered one, else the first one, stays.

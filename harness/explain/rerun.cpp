@@ -37,8 +37,8 @@ Rerun run_variant(const Variant& variant, const Splice& splice, std::int64_t las
   slam::MappingSystem* slam = prepared.slam;
   std::unique_ptr<slam::MappingSystem> own;
   if (slam == nullptr) {
-    own = slam::make_slam(variant.scenario.slam, drive.rig(),
-                          sim::registered_tags(variant.scenario.simulation.world), pool);
+    own = slam::make_slam(variant.scenario.slam, drive.rig(), registered_tags(variant.scenario),
+                          pool);
     slam = own.get();
   }
   Rerun rerun;

@@ -40,7 +40,7 @@ RunRepeater::RunRepeater(const ExplainRequest& request, std::int64_t splice, std
       original_{request.scenario},
       drive_(draw(splice - 1)),
       slam_(slam::make_slam(request.scenario.slam, told_rig(original_),
-                            sim::registered_tags(request.scenario.simulation.world), pool_)) {}
+                            registered_tags(request.scenario), pool_)) {}
 
 RunRepeater::~RunRepeater() = default;
 

@@ -34,9 +34,8 @@ std::unique_ptr<SlamSystem> made_system(const SystemMaker& make, const SystemSet
 
 RunOutcome run_made_system(const SystemMaker& make, const ScenarioConfig& scenario,
                            FrameSource& source, int threads, const RunOptions& options) {
-  const auto slam =
-      made_system(make, {source.rig(), sim::registered_tags(scenario.simulation.world),
-                         scenario.slam.dead_reckoning.wheels, threads});
+  const auto slam = made_system(make, {source.rig(), registered_tags(scenario),
+                                       scenario.slam.dead_reckoning.wheels, threads});
   Trial trial = trial_of(scenario);
   trial.guard = trial.now = {};
   return run_lockstep_and_judge(trial, source, *slam, options);
@@ -48,9 +47,9 @@ RunOutcome run_other_system(const ScenarioConfig& scenario, const RecordingNotes
                             const RunOptions& options) {
   const SlamChoice& choice = scenario.slam;
   if (choice.plugin) {
-    const auto slam = load_plugin_slam(
-        *choice.plugin, source.rig(), sim::registered_tags(scenario.simulation.world),
-        choice.dead_reckoning.wheels, threads, {machine.plugin_host, options.stopped});
+    const auto slam = load_plugin_slam(*choice.plugin, source.rig(), registered_tags(scenario),
+                                       choice.dead_reckoning.wheels, threads,
+                                       {machine.plugin_host, options.stopped});
     return run_lockstep_and_judge(trial_of(scenario), source, *slam, options);
   }
   std::optional<TemporaryFolder> temporary;
@@ -100,8 +99,8 @@ RunOutcome drive(const ScenarioConfig& scenario, const Machine& machine, int thr
     notes.first_reading = simulation->first_reading();
     return run_other_system(scenario, notes, source, machine, threads, with_writer);
   }
-  const auto slam = slam::make_slam(scenario.slam, source.rig(),
-                                    sim::registered_tags(scenario.simulation.world), estimating);
+  const auto slam =
+      slam::make_slam(scenario.slam, source.rig(), registered_tags(scenario), estimating);
   return run_mapping_system(trial_of(scenario), source, *slam, with_writer);
 }
 

@@ -87,6 +87,17 @@ struct WorldConfig {
       archive("turn_deg", turn_deg, Range::between(-180, 180));
     }
   };
+  /// Accuracy of the survey of all registered tags, standard deviations of each axis of a tag: an
+  /// error is drawn for each, beside its own survey_error, and the SLAM system is told them.
+  struct Survey {
+    double position = 0;      ///< m
+    double rotation_deg = 0;  ///< degrees
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive("position", position, Range::between(0, 10));
+      archive("rotation_deg", rotation_deg, Range::between(0, 90));
+    }
+  };
   struct Tag {
     std::string family = "tag36h11";                     ///< of AprilTag
     int id = 0;                                          ///< number in the family
@@ -119,6 +130,7 @@ struct WorldConfig {
   Terrain terrain;
   Ground ground;
   std::vector<Tag> tags;
+  Survey survey;
   std::vector<Occluder> occluders;
   SunConfig sun;
   SkyConfig sky;
@@ -135,6 +147,7 @@ struct WorldConfig {
     archive("terrain", terrain);
     archive("ground", ground);
     archive("tags", tags);
+    archive("survey", survey);
     serialize_occluders(archive, occluders, true);
     archive("sun", sun);
     archive("sky", sky);

@@ -7,12 +7,23 @@
 
 #include "core/geometry/angle.h"
 #include "core/util/error.h"
+#include "core/util/random.h"
 #include "sim/world/occluder_pose.h"
 #include "sim/world/row_frame.h"
 #include "sim/world/tag_family.h"
 
 namespace vinebench::sim {
 namespace {
+
+/// A tag as surveyed against the tag as it is.
+Pose survey_error(const SurveyAccuracy& survey, const RandomStream& stream) {
+  Vector6d step;
+  for (int i = 0; i < 6; ++i) {
+    step[i] =
+        (i < 3 ? survey.position : survey.rotation) * stream.normal(static_cast<std::uint64_t>(i));
+  }
+  return step_of(step);
+}
 
 constexpr double kSamePlace = 1e-3;  // m; two posts nearer than this are one
 
@@ -249,8 +260,9 @@ std::vector<WorldTag> world_tags(const WorldConfig& world) {
   return tags;
 }
 
-std::vector<RegisteredTag> registered_tags(const WorldConfig& world) {
+std::vector<RegisteredTag> registered_tags(const WorldConfig& world, std::uint64_t seed) {
   const WorldLayout layout = lay_out(world);
+  const SurveyAccuracy survey{world.survey.position, world.survey.rotation_deg * kRadiansPerDegree};
   std::vector<RegisteredTag> tags;
   for (std::size_t i = 0; i < world.tags.size(); ++i) {
     const WorldConfig::Tag& tag = world.tags[i];
@@ -258,7 +270,10 @@ std::vector<RegisteredTag> registered_tags(const WorldConfig& world) {
     TagPlace surveyed = layout.tags[i];
     surveyed.position += tag.survey_error.offset;
     surveyed.facing_deg += tag.survey_error.turn_deg;
-    tags.push_back({tag.family, tag.id, tag.size, tag_pose(surveyed)});
+    tags.push_back({tag.family, tag.id, tag.size, tag_pose(surveyed), survey});
+    if (survey.position == 0 && survey.rotation == 0) continue;
+    Pose& told = tags.back().T_world_tag;
+    told = told * survey_error(survey, RandomStream(seed, "survey", i));
   }
   return tags;
 }

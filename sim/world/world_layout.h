@@ -63,8 +63,9 @@ WorldLayout lay_out(const WorldConfig& world);
 /// Its layout is that of `world`.
 WorldConfig written_out(WorldConfig world);
 
-/// The tags whose pose the SLAM system is told, with the errors of their survey.
-std::vector<RegisteredTag> registered_tags(const WorldConfig& world);
+/// The tags whose pose the SLAM system is told, with the errors of their survey, of which the seed
+/// draws those that WorldConfig::survey has.
+std::vector<RegisteredTag> registered_tags(const WorldConfig& world, std::uint64_t seed);
 
 /// All tags as they truly stand, in the order of the file.
 std::vector<WorldTag> world_tags(const WorldConfig& world);

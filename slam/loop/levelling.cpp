@@ -61,7 +61,8 @@ void level_about(Map& map, const Pose& T_map_tag, const Eigen::Matrix3d& turn,
   const Eigen::Matrix3d lean = R * turn * R.transpose() + mean_turn(map);
   const auto likeliest = levelling_turn(*felt, down, lean);
   if (!likeliest) return;
-  turn_about(map, T_map_tag.translation, *likeliest);
+  const Eigen::Vector3d& pivot = T_map_tag.translation;
+  move_map(map, {*likeliest, pivot - *likeliest * pivot});
   const Eigen::Matrix3d along = down * down.transpose();
   MapGravity world{kStandardGravity * down, felt->accelerometer_bias};
   world.by_world = true;
@@ -72,20 +73,6 @@ void level_about(Map& map, const Pose& T_map_tag, const Eigen::Matrix3d& turn,
   world.covariance.bottomRightCorner<3, 3>() =
       std::pow(inertial.accelerometer.bias, 2) * Eigen::Matrix3d::Identity();
   map.gravity() = world;
-}
-
-void turn_about(Map& map, const Eigen::Vector3d& pivot, const Eigen::Quaterniond& turn) {
-  const Pose T_new_old{turn, pivot - turn * pivot};
-  move_from(map, 0, T_new_old);
-  for (MapTag& tag : map.tags()) {
-    if (!tag.fixed) tag.T_map_tag = T_new_old * tag.T_map_tag;
-  }
-  if (!map.gravity()) return;
-  MapGravity& known = *map.gravity();
-  known.gravity = turn * known.gravity;
-  Matrix6d carried = Matrix6d::Identity();
-  carried.topLeftCorner<3, 3>() = turn.toRotationMatrix();
-  known.covariance = carried * known.covariance * carried.transpose();
 }
 
 }  // namespace vinebench::slam

@@ -25,7 +25,4 @@ std::optional<Eigen::Quaterniond> levelling_turn(const MapGravity& felt,
 void level_about(Map& map, const Pose& T_map_tag, const Eigen::Matrix3d& turn,
                  const Eigen::Vector3d& down, const InertialConfig& inertial);
 
-/// Turns all of the map about `pivot`, but for tags of known pose.
-void turn_about(Map& map, const Eigen::Vector3d& pivot, const Eigen::Quaterniond& turn);
-
 }  // namespace vinebench::slam

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "core/config/config_field.h"
+#include "core/geometry/angle.h"
+#include "core/slam_system.h"
 
 namespace vinebench::slam {
 
@@ -13,8 +15,8 @@ struct LoopConfig {
   double away_distance = 1.0;  ///< m, the way driven meanwhile
   double corner_sigma =
       0.15;  ///< px, by which a tag's corner is off besides its noise: lens, print
-  /// Accuracy of registered tags' survey, standard deviations of each axis of a tag: part of what
-  /// the body's pose in the world is uncertain by.
+  /// Accuracy of the survey of registered tags that do not say their own, standard deviations of
+  /// each axis of a tag.
   double survey_position = 0;      ///< m
   double survey_rotation_deg = 0;  ///< degrees
   /// A tag that is farther from its place in the map than this is not believed: a share of the way
@@ -23,6 +25,10 @@ struct LoopConfig {
   double max_offset = 0.05;             ///< m, as max_drift
   double max_turn_deg = 3;              ///< as max_drift
   double max_turn_deg_per_metre = 0.3;  ///< as max_drift
+
+  SurveyAccuracy survey() const {
+    return {survey_position, survey_rotation_deg * kRadiansPerDegree};
+  }
 
   template <class Archive>
   void serialize(Archive& archive) {

@@ -69,6 +69,25 @@ void spread_correction(Map& map, int first, int last, const Pose& corrected,
   }
 }
 
+void move_map(Map& map, const Pose& T_new_old) {
+  move_from(map, 0, T_new_old);
+  for (MapTag& tag : map.tags()) {
+    if (!map.is_held(tag)) tag.T_map_tag = T_new_old * tag.T_map_tag;
+  }
+  if (!map.gravity()) return;
+  MapGravity& known = *map.gravity();
+  known.gravity = T_new_old.rotation * known.gravity;
+  Matrix6d carried = Matrix6d::Identity();
+  carried.topLeftCorner<3, 3>() = T_new_old.rotation.toRotationMatrix();
+  known.covariance = carried * known.covariance * carried.transpose();
+}
+
+void keep_world(Map& map, const Pose& T_map_world_before) {
+  const Pose T_new_old = T_map_world_before * map.world()->inverse();
+  map.world() = T_map_world_before;
+  move_map(map, T_new_old);
+}
+
 void move_from(Map& map, int first, const Pose& T_new_old) {
   for (Keyframe& keyframe : map.keyframes()) {
     if (keyframe.id >= first) keyframe.T_map_body = T_new_old * keyframe.T_map_body;

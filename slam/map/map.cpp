@@ -61,6 +61,10 @@ const MapTag* Map::find_tag(const std::string& family, int id) const {
   return nullptr;
 }
 
+bool Map::is_held(const MapTag& tag) const {
+  return tag.fixed || (tag.survey && std::ranges::count_if(tags_, &MapTag::registered) == 1);
+}
+
 int Map::add_keyframe(std::shared_ptr<const FrameFeatures> frame, const Pose& T_map_body,
                       const Associations& associations) {
   const int id = static_cast<int>(keyframes_.size());

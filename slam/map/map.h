@@ -67,13 +67,22 @@ struct Landmark {
   bool removed = false;
 };
 
+/// Where a tag was surveyed to be, as surely as that is.
+struct SurveyedPlace {
+  Pose T_world_tag;
+  Matrix6d covariance = Matrix6d::Identity();  ///< in the tag's own frame
+};
+
 /// A tag in the map.
 struct MapTag {
   std::string family;
   int id = 0;
   double size = 0;  ///< m
   Pose T_map_tag;
-  bool fixed = false;  ///< its pose is known beforehand
+  bool fixed = false;                     ///< its pose is known beforehand, exactly
+  std::optional<SurveyedPlace> survey{};  ///< what else is known of it beforehand
+
+  bool registered() const { return fixed || survey; }
 };
 
 /// Keyframes, landmarks and tags, each found by id, so that no order depends on an address.
@@ -96,8 +105,15 @@ class Map {
   std::vector<PairCalibration>& calibration() { return calibration_; }
   const std::vector<PairCalibration>& calibration() const { return calibration_; }
   const MapTag* find_tag(const std::string& family, int id) const;
+  /// Whether a tag holds the map: it is fixed, or the only registered one, whose survey says no
+  /// more than where the map lies in the world.
+  bool is_held(const MapTag& tag) const;
 
-  /// Known where an inertial unit takes part. Files of maps do not have it.
+  /// T_map_world, known from the first registered tag on.
+  std::optional<Pose>& world() { return T_map_world_; }
+  const std::optional<Pose>& world() const { return T_map_world_; }
+
+  /// Known where an inertial unit takes part. Files of maps have neither this nor world().
   std::optional<MapGravity>& gravity() { return gravity_; }
   const std::optional<MapGravity>& gravity() const { return gravity_; }
 
@@ -138,6 +154,7 @@ class Map {
   std::vector<MapTag> tags_;
   std::vector<PairCalibration> calibration_;
   std::optional<MapGravity> gravity_;
+  std::optional<Pose> T_map_world_;
 };
 
 /// Number of different keyframes among a landmark's observations.

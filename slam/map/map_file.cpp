@@ -40,7 +40,9 @@ struct StoredKeyframe {
 
 template <class Archive>
 void fields(Archive& archive, MapTag& tag) {
-  archive(tag.family, tag.id, tag.size, tag.T_map_tag, tag.fixed);
+  bool registered = tag.registered();
+  archive(tag.family, tag.id, tag.size, tag.T_map_tag, registered);
+  if (!tag.survey) tag.fixed = registered;
 }
 template <class Archive>
 void fields(Archive& archive, Landmark& l) {

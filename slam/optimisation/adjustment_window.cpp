@@ -37,7 +37,7 @@ AdjustmentWindow local_window(const Map& map, int keyframe, int size) {
 
 AdjustmentWindow global_window(const Map& map) {
   bool held_by_tag = false;
-  for (const MapTag& tag : map.tags()) held_by_tag |= tag.fixed;
+  for (const MapTag& tag : map.tags()) held_by_tag |= map.is_held(tag);
   AdjustmentWindow window;
   for (const Keyframe& keyframe : map.keyframes()) {
     const bool fixed = keyframe.id == 0 && !held_by_tag;

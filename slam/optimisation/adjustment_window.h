@@ -20,7 +20,7 @@ struct AdjustmentWindow {
 /// without sight are fixed.
 AdjustmentWindow local_window(const Map& map, int keyframe, int size);
 
-/// All keyframes; the first is fixed unless a tag of known pose holds the map.
+/// All keyframes; the first is fixed unless a tag holds the map.
 AdjustmentWindow global_window(const Map& map);
 
 }  // namespace vinebench::slam

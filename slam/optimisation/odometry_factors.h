@@ -4,7 +4,7 @@
 
 #include <deque>
 
-#include "slam/factors/odometry_factor.h"
+#include "slam/factors/relative_pose_factor.h"
 #include "slam/optimisation/problem_builder.h"
 
 namespace vinebench::slam {
@@ -15,7 +15,7 @@ class OdometryFactors : public FactorSource {
   void add_to(ProblemBuilder& problem, const Map& map) override;
 
  private:
-  std::deque<OdometryFactor> factors_;
+  std::deque<RelativePoseFactor> factors_;
 };
 
 }  // namespace vinebench::slam

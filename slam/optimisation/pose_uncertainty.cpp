@@ -3,6 +3,7 @@
 #include "slam/optimisation/pose_uncertainty.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include "core/geometry/cross_matrix.h"
 
@@ -52,6 +53,12 @@ void PoseUncertainty::keyframe(const Pose& T_last_now, const Matrix6d& informati
     by_calibration_ += without_drift_ * drift;
     without_drift_ = 0;
   }
+}
+
+void PoseUncertainty::measure(const Matrix6d& covariance) {
+  const Matrix6d gain = keyframe_ * (keyframe_ + covariance).inverse();
+  keyframe_ -= gain * keyframe_;
+  by_calibration_ -= gain * by_calibration_;
 }
 
 void PoseUncertainty::cross_gap(const Pose& T_last_now, const Matrix6d& covariance) {

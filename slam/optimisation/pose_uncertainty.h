@@ -31,6 +31,9 @@ class PoseUncertainty {
   /// have been what it is found to be.
   void keyframe(const Pose& T_last_now, const Matrix6d& information, const Eigen::MatrixXd& drift);
 
+  /// The keyframe's pose was measured besides, with that covariance.
+  void measure(const Matrix6d& covariance);
+
   /// An odometry gap ends in a keyframe.
   void cross_gap(const Pose& T_last_now, const Matrix6d& covariance);
 

@@ -6,13 +6,16 @@
 #include <vector>
 
 #include "slam/camera/tag_cameras.h"
+#include "slam/factors/relative_pose_factor.h"
 #include "slam/factors/tag_corner_factor.h"
 #include "slam/optimisation/problem_builder.h"
 
 namespace vinebench::slam {
 
-/// Corners of the mapped tags that keyframes of the window saw. Tags of known pose are held, and
-/// all of them where `tags_move` is false.
+/// Corners of the mapped tags that keyframes of the window saw. Tags that hold the map stay, and
+/// all of them where `tags_move` is false. The others are unknowns, with their surveys as
+/// measurements of where they are in the world, whose place in the map is one more unknown unless a
+/// fixed tag says it.
 class TagFactors : public FactorSource {
  public:
   /// `corner_sigma`: px, by which a corner is off besides the noise that a sighting knows of. The
@@ -24,15 +27,19 @@ class TagFactors : public FactorSource {
 
  private:
   void add_sightings(int keyframe, const Map& map, ProblemBuilder& problem);
-  double* block_of(const MapTag& tag, std::size_t index, ProblemBuilder& problem);
+  double* block_of(std::size_t index, ProblemBuilder& problem);
+  void add_surveys(const Map& map, ProblemBuilder& problem);
 
   const TagCameras& cameras_;
   double corner_sigma_;
   bool tags_move_;
   ceres::HuberLoss huber_;
-  std::vector<PoseBlock> blocks_;  ///< of Map::tags
+  ceres::HuberLoss survey_huber_;
+  std::vector<PoseBlock> blocks_;  ///< of Map::tags, and last of the world
   std::vector<char> used_;
+  std::vector<char> held_;
   std::deque<TagCornerFactor> factors_;
+  std::deque<RelativePoseFactor> surveys_;
 };
 
 }  // namespace vinebench::slam

@@ -31,7 +31,7 @@ TEST_F(WorldImageTest, TheTagsCornersAreWhereTheSideCameraProjectsThem) {
   sim::GlRenderer renderer(sim::build_scene(world_, 1, machine_of_environment().plant_cache), {});
   const RigCamera& side = rig_.cameras[static_cast<std::size_t>(rig_.tag_cameras.at(0))];
   const WorldTag tag = sim::world_tags(world_).at(0);
-  slam::TagDetector detector({}, sim::registered_tags(world_));
+  slam::TagDetector detector({}, sim::registered_tags(world_, 1));
   // The rover beside the tag; offset to either side and rotated, as when it passes.
   const double h = tag.size / 2;
   const std::array<Eigen::Vector3d, 4> corners{

@@ -37,7 +37,7 @@ Outcome Course::run(const Mutant& mutant) {
 
 Outcome Course::judge(FrameSource& source, const harness::ScenarioConfig& simulated,
                       const Mutant& mutant) {
-  Told told{source.rig(), sim::registered_tags(scenario_.simulation.world), scenario_.slam};
+  Told told{source.rig(), registered_tags(scenario_), scenario_.slam};
   if (mutant.tell) mutant.tell(told);
   const harness::Trial trial = harness::trial_of(scenario_);
   Outcome outcome;

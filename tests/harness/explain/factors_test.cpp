@@ -136,13 +136,15 @@ TEST_F(FactorsTest, TagsThatStandWhereTheySayAndOnce) {
   tags[0].registered = false;
   tags[2].id = 1;
   tags[2].survey_error.offset.x() = 0.1;
+  calm_.simulation.world.survey.position = 0.02;
   EXPECT_THAT(names(calm_), ElementsAre("tag-survey", "tag-copies"));
   const auto& single = without(calm_, "tag-copies").scenario.simulation.world.tags;
   ASSERT_EQ(single.size(), 2u);
   EXPECT_TRUE(single[0].registered);  // the one that the estimator is told of
   EXPECT_EQ(single[1].id, 1);
-  const auto& right = without(calm_, "tag-survey").scenario.simulation.world.tags;
-  EXPECT_EQ(right[2].survey_error.offset.x(), 0);
+  const auto straight = without(calm_, "tag-survey");
+  EXPECT_EQ(straight.scenario.simulation.world.tags[2].survey_error.offset.x(), 0);
+  EXPECT_EQ(straight.scenario.simulation.world.survey.position, 0);
 }
 
 TEST_F(FactorsTest, FewTemplatesRepeat) {

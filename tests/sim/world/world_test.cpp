@@ -124,13 +124,13 @@ TEST(WorldFileTest, TheShippedWorldsAreWhatTheySay) {
   const WorldLayout laid = lay_out(typical);
   EXPECT_EQ(laid.rows.size(), 10u);
   EXPECT_GE(laid.vines.size(), 300u);
-  EXPECT_EQ(registered_tags(typical).size(), 20u);
+  EXPECT_EQ(registered_tags(typical, 1).size(), 20u);
   EXPECT_FALSE(typical.terrain.flat());
   EXPECT_TRUE(laid.terrain.frame().regular);
   EXPECT_NEAR(laid.terrain.frame().spacing, 2.5, 1e-9);
   const WorldConfig many = load("many-rows.yaml");
   EXPECT_EQ(lay_out(many).rows.size(), 10u);
-  EXPECT_EQ(registered_tags(many).size(), 1u);
+  EXPECT_EQ(registered_tags(many, 1).size(), 1u);
   EXPECT_TRUE(many.terrain.flat());
   EXPECT_LE(many.vines.templates, 3);
   // The authors' route changes aisles at x = -0.46 m and 6.95 m (the rover's near side).

@@ -54,27 +54,5 @@ TEST(LevellingTurnTest, WhatCannotBothBeTrueIsLeft) {
   EXPECT_FALSE(levelling_turn(felt({0.038, 0, 0}, 1e-9), kDown, isotropic(0.01)));
 }
 
-TEST(TurnAboutTest, AllTurnsButTagsOfKnownPose) {
-  Map map(1.2);
-  auto frame = std::make_shared<FrameFeatures>();
-  frame->views.resize(1);
-  map.add_keyframe(frame, {Eigen::Quaterniond::Identity(), {2, 0, 0}}, {{}});
-  map.landmarks().emplace_back();
-  map.landmarks().back().position = {3, 0, 1};
-  const Pose pivot{Eigen::Quaterniond::Identity(), {1, 0, 0}};
-  map.tags().push_back({"tag36h11", 0, 0.161, pivot, true});
-  map.tags().push_back({"tag36h11", 1, 0.161, pivot, false});
-  map.gravity() = MapGravity{{0, 0, -kG}};
-  const Eigen::Quaterniond turn = exp_so3({0, -std::acos(0.0), 0});  // x to z, z to -x
-  turn_about(map, pivot.translation, turn);
-  EXPECT_LT((map.keyframe(0).T_map_body.translation - Eigen::Vector3d(1, 0, 1)).norm(), 1e-12);
-  EXPECT_LT(map.keyframe(0).T_map_body.rotation.angularDistance(turn), 1e-7);  // acos near 1
-  EXPECT_LT((map.landmark(0).position - Eigen::Vector3d(0, 0, 2)).norm(), 1e-12);
-  EXPECT_EQ(map.tags()[0].T_map_tag.rotation.angularDistance(pivot.rotation), 0);
-  EXPECT_LT(map.tags()[1].T_map_tag.rotation.angularDistance(turn), 1e-7);
-  EXPECT_LT((map.tags()[1].T_map_tag.translation - pivot.translation).norm(), 1e-12);
-  EXPECT_LT((map.gravity()->gravity - Eigen::Vector3d(kG, 0, 0)).norm(), 1e-12);
-}
-
 }  // namespace
 }  // namespace vinebench::slam

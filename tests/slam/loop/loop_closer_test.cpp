@@ -72,7 +72,7 @@ TEST_F(LoopCloserTest, ALoadedMapLiesInTheWorldAsItsRegisteredTagSays) {
   const RegisteredTag second{"tag36h11", 2, 0.161, Pose{{1, 0, 0, 0}, {5, 1, 0.5}}};
   map_.tags().push_back({"tag36h11", 1, 0.161, T_map_world * first.T_world_tag, true});
   LoopCloser loop = closer({first, second});
-  loop.take_over(map_);
+  loop.gates().take_over(map_);
   // With a body pose off by 0.1 m, the tag is still at its registered pose.
   const Pose T_map_tag = T_map_world * second.T_world_tag;
   Pose estimated = T_map_tag * T_body_tag_.inverse();
@@ -82,21 +82,40 @@ TEST_F(LoopCloserTest, ALoadedMapLiesInTheWorldAsItsRegisteredTagSays) {
   EXPECT_LT(distance(map_.tags()[1].T_map_tag, T_map_tag), 1e-12);
 }
 
+// Where tags were surveyed to a centimetre each, a loaded map lies in the world as all of them say:
+// the one is 2 cm too far along x, the other 2 cm short.
+TEST_F(LoopCloserTest, ALoadedMapLiesInTheWorldAsItsTagsSayOnAverage) {
+  const RegisteredTag first{"tag36h11", 1, 0.161, Pose{{1, 0, 0, 0}, {3, 0, 0.5}}, {0.01, 0.01}};
+  const RegisteredTag second{"tag36h11", 2, 0.161, Pose{{1, 0, 0, 0}, {5, 0, 0.5}}, {0.01, 0.01}};
+  for (const auto& [tag, off] : {std::pair(first, 0.02), {second, -0.02}}) {
+    Pose found = tag.T_world_tag;
+    found.translation.x() += off;
+    map_.tags().push_back({"tag36h11", tag.id, 0.161, found, true});
+  }
+  LoopCloser loop = closer({first, second});
+  loop.gates().take_over(map_);
+  ASSERT_TRUE(map_.world());
+  EXPECT_LT(distance(*map_.world(), Pose{}), 1e-9);
+  EXPECT_FALSE(map_.tags()[0].fixed);
+  ASSERT_TRUE(map_.tags()[0].survey);
+  EXPECT_EQ(map_.tags()[0].survey->T_world_tag.translation.x(), 3);
+}
+
 // The map's pose in the world is that which the first registered tag gives, whatever comes after.
 TEST_F(LoopCloserTest, TheFirstRegisteredTagGivesTheWorld) {
   const Pose T_world_tag{exp_so3({0.1, 0.2, 0.3}), {10, 20, 0.5}};
   LoopCloser loop = closer({{"tag36h11", 0, 0.2, T_world_tag}});
   loop.record(*frame(0, {sighting(9, T_body_tag_)}), body_, 0, map_);
-  EXPECT_FALSE(loop.T_world_map());
+  EXPECT_FALSE(map_.world());
   const TagSighting known = sighting(0, T_body_tag_);
   loop.record(*frame(1, {known}), body_, 0, map_);
-  const auto T_world_map = loop.T_world_map();
-  ASSERT_TRUE(T_world_map);
-  const Pose T_world_seen = *T_world_map * body_ * T_body_tag_;
+  ASSERT_TRUE(map_.world());
+  const Pose T_map_world = *map_.world();
+  const Pose T_world_seen = T_map_world.inverse() * body_ * T_body_tag_;
   EXPECT_LT(distance(T_world_seen, T_world_tag), 1e-12);
   EXPECT_LT(angle(T_world_seen, T_world_tag), 1e-7);  // acos near 1
   loop.record(*frame(2, {known}), Pose{}, 0, map_);
-  EXPECT_EQ(distance(*loop.T_world_map(), *T_world_map), 0);
+  EXPECT_EQ(distance(*map_.world(), T_map_world), 0);
 }
 
 // A degree of the tag's survey turns the body about the tag: at the distance d of the tag's origin
@@ -105,17 +124,17 @@ TEST_F(LoopCloserTest, TheFirstRegisteredTagGivesTheWorld) {
 TEST_F(LoopCloserTest, TheSurveyOfARegisteredTagIsPartOfWhereTheBodyIs) {
   const TagSighting seen = with_corners(sighting(0, T_body_tag_));
   const RegisteredTag tag{"tag36h11", 0, 0.161, Pose{}};
-  const Matrix6d by_corners = closer({tag}).localisation_covariance({seen});
+  const Matrix6d by_corners = closer({tag}).gates().localisation_covariance({seen});
   settings_.loop.survey_position = 0.006;
   settings_.loop.survey_rotation_deg = 1;
-  const Matrix6d survey = closer({tag}).localisation_covariance({seen}) - by_corners;
+  const Matrix6d survey = closer({tag}).gates().localisation_covariance({seen}) - by_corners;
   const double turn = std::numbers::pi / 180;
   const double d = T_body_tag_.translation.norm();
   EXPECT_NEAR((survey.topLeftCorner<3, 3>().trace()), 3 * 0.006 * 0.006 + 2 * turn * turn * d * d,
               1e-12);
   EXPECT_NEAR((survey.bottomRightCorner<3, 3>().trace()), 3 * turn * turn, 1e-12);
   // A tag that nobody surveyed lies where the map has it.
-  EXPECT_EQ(closer().localisation_covariance({seen}), by_corners);
+  EXPECT_EQ(closer().gates().localisation_covariance({seen}), by_corners);
 }
 
 TEST_F(LoopCloserTest, AnUnregisteredTagIsMappedAtFirstSight) {
@@ -148,18 +167,33 @@ TEST_F(LoopCloserTest, RegisteredTagsKeepTheirPlacesAgainstEachOther) {
   EXPECT_LT(distance(map_.tags()[0].T_map_tag, body_ * T_body_tag_), 1e-12);
 }
 
+TEST_F(LoopCloserTest, ATagThatWasSurveyedRoughlyIsMappedWhereItIsSeen) {
+  settings_.loop.survey_position = 0.01;
+  const Pose T_world_b{exp_so3({0.3, 0.1, 0.2}), {1, 0, 0}};
+  LoopCloser loop = closer({{"tag36h11", 0, 0.2, Pose{}}, {"tag36h11", 1, 0.3, T_world_b}});
+  loop.record(*frame(0, {sighting(0, T_body_tag_)}), body_, 0, map_);
+  loop.record(*frame(1, {sighting(1, T_body_tag_)}), body_, 0, map_);
+  ASSERT_EQ(map_.tags().size(), 2u);
+  EXPECT_FALSE(map_.tags()[1].fixed);
+  ASSERT_TRUE(map_.tags()[1].survey);
+  EXPECT_EQ(distance(map_.tags()[1].survey->T_world_tag, T_world_b), 0);
+  EXPECT_DOUBLE_EQ(map_.tags()[1].survey->covariance(0, 0), 1e-4);
+  EXPECT_EQ(map_.tags()[1].size, 0.3);
+  EXPECT_LT(distance(map_.tags()[1].T_map_tag, body_ * T_body_tag_), 1e-12);
+}
+
 TEST_F(LoopCloserTest, ATagTellsWhereTheBodyIs) {
   const Pose T_world_tag{exp_so3({0.1, 0.2, 0.3}), {10, 20, 0.5}};
   LoopCloser loop = closer({{"tag36h11", 0, 0.2, T_world_tag}});
   const TagSighting known = sighting(0, T_body_tag_);
-  EXPECT_FALSE(loop.world_pose({sighting(9, T_body_tag_)}));
-  const auto in_world = loop.world_pose({sighting(9, Pose{}), known});
+  EXPECT_FALSE(loop.gates().world_pose({sighting(9, T_body_tag_)}));
+  const auto in_world = loop.gates().world_pose({sighting(9, Pose{}), known});
   ASSERT_TRUE(in_world);
   EXPECT_LT(distance(*in_world * T_body_tag_, T_world_tag), 1e-12);
 
-  EXPECT_FALSE(loop.map_pose({known}, map_));
+  EXPECT_FALSE(loop.gates().map_pose({known}, map_));
   loop.record(*frame(0, {known}), body_, 0, map_);
-  const auto in_map = loop.map_pose({known}, map_);
+  const auto in_map = loop.gates().map_pose({known}, map_);
   ASSERT_TRUE(in_map);
   EXPECT_LT(distance(*in_map, body_), 1e-12);
   EXPECT_LT(angle(*in_map, body_), 1e-7);
@@ -249,7 +283,7 @@ class LevelTest : public LoopCloserTest {
 
   void level() {
     LoopCloser loop = closer({tag_});
-    loop.take_over(map_);
+    loop.gates().take_over(map_);
     loop.level(map_);
   }
 

@@ -105,5 +105,40 @@ TEST(MoveFromTest, MovesAKeyframeAllLaterOnesAndTheirLandmarks) {
   EXPECT_EQ(map.landmark(3).position, of_third);
 }
 
+TEST(MoveMapTest, AllMovesButTagsOfKnownPose) {
+  Map map(1.2);
+  auto frame = std::make_shared<FrameFeatures>();
+  frame->views.resize(1);
+  map.add_keyframe(frame, {Eigen::Quaterniond::Identity(), {2, 0, 0}}, {{}});
+  map.landmarks().emplace_back();
+  map.landmarks().back().position = {3, 0, 1};
+  const Pose pivot{Eigen::Quaterniond::Identity(), {1, 0, 0}};
+  map.tags().push_back({"tag36h11", 0, 0.161, pivot, true});
+  map.tags().push_back({"tag36h11", 1, 0.161, pivot, false});
+  map.gravity() = MapGravity{{0, 0, -9.8}};
+  const Eigen::Quaterniond turn = exp_so3({0, -std::acos(0.0), 0});  // x to z, z to -x
+  move_map(map, {turn, pivot.translation - turn * pivot.translation});
+  EXPECT_LT((map.keyframe(0).T_map_body.translation - Eigen::Vector3d(1, 0, 1)).norm(), 1e-12);
+  EXPECT_LT(map.keyframe(0).T_map_body.rotation.angularDistance(turn), 1e-7);  // acos near 1
+  EXPECT_LT((map.landmark(0).position - Eigen::Vector3d(0, 0, 2)).norm(), 1e-12);
+  EXPECT_EQ(map.tags()[0].T_map_tag.rotation.angularDistance(pivot.rotation), 0);
+  EXPECT_LT(map.tags()[1].T_map_tag.rotation.angularDistance(turn), 1e-7);
+  EXPECT_LT((map.tags()[1].T_map_tag.translation - pivot.translation).norm(), 1e-12);
+  EXPECT_LT((map.gravity()->gravity - Eigen::Vector3d(9.8, 0, 0)).norm(), 1e-12);
+}
+
+// The world was found to lie 10 cm further along y: everything else moves back by as much.
+TEST(KeepWorldTest, TheMapMovesUnderTheWorld) {
+  Map map = straight_map({0, 1});
+  map.tags().push_back({"tag36h11", 1, 0.161, {{1, 0, 0, 0}, {1, 2, 3}}});
+  const Pose before{exp_so3({0, 0, 0.5}), {1, 2, 0}};
+  map.world() = Pose{Eigen::Quaterniond::Identity(), {0, 0.1, 0}} * before;
+  keep_world(map, before);
+  EXPECT_EQ(map.world()->translation, before.translation);
+  EXPECT_LT((place(map, 1) - Eigen::Vector3d(1, -0.1, 0)).norm(), 1e-12);
+  EXPECT_LT((map.landmark(1).position - Eigen::Vector3d(1, 0.9, 0)).norm(), 1e-12);
+  EXPECT_LT((map.tags()[0].T_map_tag.translation - Eigen::Vector3d(1, 1.9, 3)).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace vinebench::slam

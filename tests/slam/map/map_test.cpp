@@ -194,6 +194,16 @@ TEST_F(MapTest, RefreshTakesTheMedianDescriptorTheMeanDirectionAndTheReach) {
   EXPECT_NEAR(landmark.max_distance, 2 * 1.44, 1e-12);
 }
 
+TEST_F(MapTest, TheOnlyRegisteredTagAndFixedOnesHoldTheMap) {
+  map_.tags() = {{"a", 1, 0.1, {}}, {"a", 2, 0.1, {}}};
+  map_.tags()[1].survey = SurveyedPlace{};
+  EXPECT_FALSE(map_.is_held(map_.tags()[0]));  // nobody surveyed it
+  EXPECT_TRUE(map_.is_held(map_.tags()[1]));
+  map_.tags().push_back({"a", 3, 0.1, {}, true});
+  EXPECT_FALSE(map_.is_held(map_.tags()[1]));
+  EXPECT_TRUE(map_.is_held(map_.tags()[2]));
+}
+
 TEST_F(MapTest, TagsAreFoundByFamilyAndId) {
   map_.tags().push_back({"tag36h11", 3, 0.161, {}, false});
   EXPECT_EQ(map_.find_tag("tag36h11", 3), map_.tags().data());

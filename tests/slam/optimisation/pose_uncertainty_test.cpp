@@ -87,6 +87,15 @@ TEST(PoseUncertaintyTest, ADriftThatIsFoundLateWasThereBefore) {
               1e-15);
 }
 
+// Two independent measurements of 3 and 4 mm: 1 / (1/9 + 1/16) = 5.76 = 2.4^2.
+TEST(PoseUncertaintyTest, AMeasurementMakesItSurer) {
+  PoseUncertainty uncertainty;
+  uncertainty.start(9e-6 * Matrix6d::Identity());
+  uncertainty.measure(16e-6 * Matrix6d::Identity());
+  const Matrix6d now = uncertainty.at({}, Matrix6d::Zero());
+  EXPECT_LT((now - 5.76e-6 * Matrix6d::Identity()).norm(), 1e-15);
+}
+
 TEST(PoseUncertaintyTest, AGapMayComeBeforeAnyKeyframe) {
   PoseUncertainty uncertainty;
   uncertainty.cross_gap(sample_step(), Matrix6d::Identity());

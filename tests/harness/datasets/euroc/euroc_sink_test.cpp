@@ -224,6 +224,22 @@ TEST(BackgroundWorkerTest, DoesJobsInOrderAndTellsTheFirstFault) {
   EXPECT_EQ(done.size(), 50u);
 }
 
+TEST(TagListTest, WhatIsWrittenIsRead) {
+  const test::TestFolder folder;
+  const Pose T_world_tag{exp_so3({0.1, -0.2, 0.3}), {1, 2, 0.5}};
+  const std::vector<RegisteredTag> written = {{"tag36h11", 7, 0.2, T_world_tag, {0.01, 0.02}}};
+  const auto read = read_tags(folder.write("tags.yaml", format_tags(written)));
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(read[0].id, 7);
+  EXPECT_EQ(read[0].size, 0.2);
+  EXPECT_EQ(read[0].T_world_tag.translation, T_world_tag.translation);
+  EXPECT_EQ(read[0].T_world_tag.rotation.coeffs(), T_world_tag.rotation.coeffs());
+  EXPECT_EQ(read[0].survey.position, 0.01);
+  EXPECT_NEAR(read[0].survey.rotation, 0.02, 1e-15);  // by way of degrees
+  // Nobody has to say how well it was surveyed.
+  EXPECT_EQ(read_tags(folder.write("plain.yaml", "tags: [{id: 1}]"))[0].survey.position, 0);
+}
+
 TEST(TagListTest, FaultsNameFileAndKey) {
   const test::TestFolder folder;
   const auto error = [&](const std::string& text) {

@@ -11,9 +11,9 @@ namespace vinebench::slam {
 /// How two keyframes' poses differ from what dead reckoning measured between them, in standard
 /// deviations: parameters are the poses of the earlier and the later (7 each). The Jacobians take
 /// the rotation's difference to be small.
-class OdometryFactor : public ceres::SizedCostFunction<6, 7, 7> {
+class RelativePoseFactor : public ceres::SizedCostFunction<6, 7, 7> {
  public:
-  OdometryFactor(const Pose& T_from_to, const Matrix6d& covariance);
+  RelativePoseFactor(const Pose& T_from_to, const Matrix6d& covariance);
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 

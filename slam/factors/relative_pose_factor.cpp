@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "slam/factors/odometry_factor.h"
+#include "slam/factors/relative_pose_factor.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -10,11 +10,11 @@
 
 namespace vinebench::slam {
 
-OdometryFactor::OdometryFactor(const Pose& T_from_to, const Matrix6d& covariance)
+RelativePoseFactor::RelativePoseFactor(const Pose& T_from_to, const Matrix6d& covariance)
     : T_from_to_(T_from_to), weight_(covariance.inverse().llt().matrixU()) {}
 
-bool OdometryFactor::Evaluate(double const* const* parameters, double* residuals,
-                              double** jacobians) const {
+bool RelativePoseFactor::Evaluate(double const* const* parameters, double* residuals,
+                                  double** jacobians) const {
   const Pose T_from_to = from_block(parameters[0]).inverse() * from_block(parameters[1]);
   const Pose error = T_from_to_.inverse() * T_from_to;
   Vector6d r;
