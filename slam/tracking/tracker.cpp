@@ -28,6 +28,9 @@ constexpr double kHeadingNoise = 0.05;  // rad
 /// Vines this far apart can be exactly alike in what a few dozen features see of them.
 constexpr double kLookAlike = 0.5;  // m
 
+/// What no robot's speed changes by faster: five times what falls.
+constexpr double kMaxAcceleration = 50;  // m/s^2
+
 /// Of the landmarks that a pose would have in view, at least this share must be there. After
 /// blackouts of 1 to 5 s between rows of plants that repeat, poses that were right found 19 to 27 %
 /// of them, wrong ones, with up to 73 inliers, 3 to 4 % (many-rows-short).
@@ -95,6 +98,7 @@ void Tracker::start(const Pose& T_map_body, Stamp stamp, bool guessed) {
   guessed_ = guessed;
   stamp_ = stamp;
   velocity_.setZero();
+  velocity_known_ = false;
   last_landmarks_.clear();
   dead_reckoning_.place(T_map_body);
   dead_reckoning_.reset();
@@ -221,7 +225,10 @@ TrackedFrame Tracker::track(std::shared_ptr<FrameFeatures> frame, const Map& map
 bool Tracker::may_be_elsewhere(const TrackedFrame& tracked, const Pose& predicted,
                                bool by_looks) const {
   const double jump = (tracked.motion.T_map_body.translation - predicted.translation).norm();
-  return guessed_ || (by_looks && jump > kLookAlike) ||
+  const double dt = to_seconds(tracked.frame->stamp - stamp_);
+  const bool jolted = velocity_known_ && !dead_reckoning_.active() &&
+                      jump > kMaxAcceleration * dt * dt + kPoseNoise;
+  return guessed_ || jolted || (by_looks && jump > kLookAlike) ||
          kMaxSigmas * dead_reckoning_.sigma_position() > kLookAlike;
 }
 
@@ -261,7 +268,10 @@ bool Tracker::is_credible(const Map& map, const EstimatorRig& rig, const Tracked
 }
 
 void Tracker::accept(const TrackedFrame& tracked) {
-  velocity_ = velocity_to(tracked).value_or(velocity_);
+  if (const auto velocity = velocity_to(tracked)) {
+    velocity_ = *velocity;
+    velocity_known_ = true;
+  }
   T_map_body_ = tracked.motion.T_map_body;
   stamp_ = tracked.frame->stamp;
   last_landmarks_ = landmark_ids(tracked.associations);

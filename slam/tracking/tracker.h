@@ -83,7 +83,8 @@ class Tracker {
   void update_velocity(TrackedFrame& tracked) const;
   std::optional<Vector6d> velocity_to(const TrackedFrame& tracked) const;
   void adjust_motion(const Map& map, const EstimatorRig& rig, TrackedFrame& tracked) const;
-  /// Whether the body may be so far from where it is thought to be that vines there look alike.
+  /// Whether the body may be so far from where it is thought to be that vines there look alike, or
+  /// would have had to get there faster than anything moves.
   bool may_be_elsewhere(const TrackedFrame& tracked, const Pose& predicted, bool by_looks) const;
   double share_found(const Map& map, const EstimatorRig& rig, const TrackedFrame& tracked) const;
   bool is_credible(const Map& map, const EstimatorRig& rig, const TrackedFrame& tracked,
@@ -98,6 +99,7 @@ class Tracker {
   Vector6d velocity_ = Vector6d::Zero();  ///< of the body in its own frame, m/s and rad/s
   std::vector<int> last_landmarks_;       ///< seen in the frame before, ascending
   DeadReckoning dead_reckoning_;          ///< the odometry gap, while there is one
+  bool velocity_known_ = false;           ///< a frame was seen after the start
   bool guessed_ = false;                  ///< the pose, by the looks of the place alone
 };
 
