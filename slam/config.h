@@ -10,6 +10,7 @@
 #include "slam/camera/measurement_noise.h"
 #include "slam/features/orb_extractor.h"
 #include "slam/loop/loop_config.h"
+#include "slam/loop/places_config.h"
 #include "slam/mapping/mapping_config.h"
 #include "slam/odometry/dead_reckoning.h"
 #include "slam/patches/refinement_config.h"
@@ -57,6 +58,7 @@ struct SlamConfig {
   std::optional<WheelFusionConfig> wheels;  ///< where the wheels take part beside it
   TagDetectorConfig tags;
   LoopConfig loop;
+  std::optional<PlacesConfig> places;         ///< where places close loops too, by their looks
   ResidualLoss loss = ResidualLoss::kCauchy;  ///< of reprojection errors in adjustments
 
   template <class Archive>
@@ -78,6 +80,7 @@ struct SlamConfig {
     archive("wheels", wheels);
     archive("tags", tags);
     archive("loop", loop);
+    archive("places", places);
     archive("loss", loss);
     archive.require(!wheels || inertial, "wheels",
                     "expected an inertial unit beside them (inertial: {})");

@@ -79,6 +79,7 @@ Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
       calibration_(config.calibration, config.stereo.calibration_sigma, rig_) {
   rig_.wheels = config.dead_reckoning.wheels;
   rig_.noise.loss = config.loss;
+  if (config.places) places_.emplace(*config.places);
 }
 
 void Pipeline::continue_from(Map map) {
@@ -311,6 +312,7 @@ void Pipeline::map_keyframe(TrackedFrame& tracked, Estimate& estimate) {
   const bool tied = closures_ > 0 || several_surveys(map_);
   tags_since_adjustment_ |= tied && !tracked.frame->tags.empty();
   if (loop) close_loop(id, estimate);
+  if (places_ && !tracked.link) close_loop_by_place(id, estimate);
   if (started_ && !tracked.link) {
     calibrate(estimate);
     const ScopedTimer timer(times_, "local mapping");
@@ -335,10 +337,7 @@ void Pipeline::grow_uncertainty(const TrackedFrame& tracked) {
 
 void Pipeline::close_loop(int keyframe, Estimate& estimate) {
   const ScopedTimer timer(times_, "global adjustment");
-  if (const auto latest = calibration_.latest()) {
-    use_calibration(*latest);
-    estimate.calibration = *latest;
-  }
+  take_calibration(estimate);
   estimate.loop_closure = loop_closer_.close(keyframe, path_length_, rig_, map_);
   believe_gravity();
   const Matrix6d of_tags = by_tag_covariance() + loop_closer_.gates().localisation_covariance(
@@ -351,6 +350,30 @@ void Pipeline::close_loop(int keyframe, Estimate& estimate) {
   }
   ++closures_;
   tags_since_adjustment_ = false;
+}
+
+/// Before a loop is closed.
+void Pipeline::take_calibration(Estimate& estimate) {
+  if (const auto latest = calibration_.latest()) {
+    use_calibration(*latest);
+    estimate.calibration = *latest;
+  }
+}
+
+void Pipeline::close_loop_by_place(int keyframe, Estimate& estimate) {
+  const ScopedTimer timer(times_, "places");
+  const Matrix6d now =
+      uncertainty_.at({}, Matrix6d::Zero()) + uncertainty_.of_calibration({}, calibration_error_);
+  const auto found = places_->look(keyframe, path_length_, now, map_, rig_);
+  if (!found || estimate.loop_closure) return;
+  take_calibration(estimate);
+  estimate.loop_closure = loop_closer_.close(*found, keyframe, mapper_, rig_, map_);
+  believe_gravity();
+  const Matrix6d by_place =
+      carry_covariance(found->earlier_covariance, estimate.loop_closure->T_earlier_later) +
+      found->covariance;
+  if (by_place.trace() < now.trace()) uncertainty_.start(by_place);
+  ++closures_;
 }
 
 /// As a global adjustment found it.

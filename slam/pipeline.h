@@ -11,6 +11,7 @@
 #include "slam/camera/estimator_rig.h"
 #include "slam/config.h"
 #include "slam/loop/loop_closer.h"
+#include "slam/loop/place_loops.h"
 #include "slam/map/map.h"
 #include "slam/map/trajectory_record.h"
 #include "slam/mapping/local_mapper.h"
@@ -66,6 +67,8 @@ class Pipeline {
   void map_keyframe(TrackedFrame& tracked, Estimate& estimate);
   void grow_uncertainty(const TrackedFrame& tracked);
   void close_loop(int keyframe, Estimate& estimate);
+  void close_loop_by_place(int keyframe, Estimate& estimate);
+  void take_calibration(Estimate& estimate);
   void believe_gravity();
   void calibrate(Estimate& estimate);
   void use_calibration(const std::vector<PairCalibration>& pairs);
@@ -79,6 +82,7 @@ class Pipeline {
   LocalMapper mapper_;
   MappingScheduler scheduler_;
   LoopCloser loop_closer_;
+  std::optional<PlaceLoops> places_;
   Recovery recovery_;
   CalibrationWatch calibration_;
   PoseUncertainty uncertainty_;        ///< of the latest keyframe

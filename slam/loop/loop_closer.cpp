@@ -15,6 +15,9 @@
 namespace vinebench::slam {
 namespace {
 
+/// So many of the last keyframes are tied to a place that is found again.
+constexpr int kTiedKeyframes = 5;
+
 template <class A, class B>
 bool is_same_tag(const A& a, const B& b) {
   return a.id == b.id && a.family == b.family;
@@ -98,6 +101,29 @@ LoopClosure LoopCloser::close(int keyframe_id, double path_length, const Estimat
   }
   closure.correction =
       (map.keyframe(keyframe_id).T_map_body.translation - before.translation).norm();
+  return closure;
+}
+
+LoopClosure LoopCloser::close(const PlaceReturn& place, int keyframe, const LocalMapper& mapper,
+                              const EstimatorRig& rig, Map& map) const {
+  const Keyframe& earlier = map.keyframe(place.earlier);
+  const Keyframe& later = map.keyframe(keyframe);
+  const Pose before = later.T_map_body;
+  LoopClosure closure;
+  closure.tag_id = -1;
+  closure.earlier = earlier.frame->stamp;
+  closure.later = later.frame->stamp;
+  closure.T_earlier_later = earlier.T_map_body.inverse() * place.T_map_body;
+  if (!place.tied) {
+    closure.covariance = place.covariance;
+    spread_correction(map, place.earlier, keyframe, place.T_map_body, place.covariance);
+    for (int k = std::max(keyframe - kTiedKeyframes, place.earlier) + 1; k <= keyframe; ++k) {
+      mapper.tie(place.landmarks, k, rig, map);
+    }
+  }
+  adjust_globally(rig, map);
+  if (place.tied) closure.T_earlier_later = earlier.T_map_body.inverse() * later.T_map_body;
+  closure.correction = (later.T_map_body.translation - before.translation).norm();
   return closure;
 }
 

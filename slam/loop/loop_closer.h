@@ -8,8 +8,10 @@
 
 #include "slam/camera/estimator_rig.h"
 #include "slam/loop/loop_config.h"
+#include "slam/loop/place_loops.h"
 #include "slam/loop/tag_gates.h"
 #include "slam/map/map.h"
+#include "slam/mapping/local_mapper.h"
 #include "slam/odometry/inertial_config.h"
 
 namespace vinebench::slam {
@@ -47,6 +49,11 @@ class LoopCloser {
   /// Closes the loop that `keyframe`, made of a frame that sees_loop, sees: moves the way since the
   /// earlier visit onto the tag's constraint, then adjusts the whole map.
   LoopClosure close(int keyframe, double path_length, const EstimatorRig& rig, Map& map);
+
+  /// Closes the loop that a return to a place makes: moves the way since then, ties the last
+  /// keyframes to what was mapped there, and adjusts the whole map.
+  LoopClosure close(const PlaceReturn& place, int keyframe, const LocalMapper& mapper,
+                    const EstimatorRig& rig, Map& map) const;
 
   /// Global bundle adjustment of the map, levelled first. The world stays where it is in the map.
   void adjust_globally(const EstimatorRig& rig, Map& map) const;

@@ -35,6 +35,13 @@ class LocalMapper {
   /// covisible ones, and fuses doubles.
   void extend(int keyframe, const EstimatorRig& rig, Map& map) const;
 
+  /// Ties these landmarks to the features of the keyframe that are where they are to be, in place
+  /// of other landmarks that it had for them.
+  void tie(const std::vector<int>& landmarks, int keyframe, const EstimatorRig& rig,
+           Map& map) const {
+    fuse_into(landmarks, keyframe, rig, map);
+  }
+
   AdjustmentOptions adjustment_options() const;
 
   /// The adjustment of the keyframe's neighbourhood, yet to be solved.

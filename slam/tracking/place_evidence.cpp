@@ -39,7 +39,11 @@ constexpr double kLeastFitting = 0.5;
 
 PlaceEvidence look_around(const Map& map, const EstimatorRig& rig, const FrameFeatures& frame,
                           const Pose& T_map_body) {
-  const std::vector<int> landmarks = local_landmarks(map, {}, T_map_body, kKeyframes);
+  return look_around(map, rig, frame, T_map_body, local_landmarks(map, {}, T_map_body, kKeyframes));
+}
+
+PlaceEvidence look_around(const Map& map, const EstimatorRig& rig, const FrameFeatures& frame,
+                          const Pose& T_map_body, const std::vector<int>& landmarks) {
   MotionEstimate motion;
   motion.T_map_body = T_map_body;
   for (const double radius : kRadii) {

@@ -22,6 +22,10 @@ struct PlaceEvidence {
 PlaceEvidence look_around(const Map& map, const EstimatorRig& rig, const FrameFeatures& frame,
                           const Pose& T_map_body);
 
+/// The same for these landmarks.
+PlaceEvidence look_around(const Map& map, const EstimatorRig& rig, const FrameFeatures& frame,
+                          const Pose& T_map_body, const std::vector<int>& landmarks);
+
 /// Whether that is enough to contradict what else is known: every view that is to see a place sees
 /// it. Vines that stand as others do may deceive one pair of cameras, not two that look apart.
 bool bears_out(const PlaceEvidence& evidence);

@@ -58,7 +58,7 @@ std::optional<Relocation> confirm(const Map& map, const EstimatorRig& rig,
   if (motion.inliers < options.min_inliers || !cameras_agree(motion, options.min_share)) {
     return std::nullopt;
   }
-  return Relocation{motion.T_map_body, motion.inliers};
+  return Relocation{motion.T_map_body, motion.inliers, motion.information};
 }
 
 std::optional<Relocation> relocate_at(int keyframe, const Map& map, const EstimatorRig& rig,
@@ -78,10 +78,19 @@ std::optional<Relocation> relocate_at(int keyframe, const Map& map, const Estima
 
 std::optional<Relocation> relocate(const Map& map, const EstimatorRig& rig,
                                    const FrameFeatures& frame, const RelocaliserOptions& options) {
+  return relocate_among(
+      map, rig, frame,
+      keyframes_alike(map, frame, options.queries, options.max_hamming, options.candidates),
+      options);
+}
+
+std::optional<Relocation> relocate_among(const Map& map, const EstimatorRig& rig,
+                                         const FrameFeatures& frame,
+                                         const std::vector<int>& keyframes,
+                                         const RelocaliserOptions& options) {
   std::optional<Relocation> best;
   int rival = 0;
-  for (const int keyframe :
-       keyframes_alike(map, frame, options.queries, options.max_hamming, options.candidates)) {
+  for (const int keyframe : keyframes) {
     const std::optional<Relocation> found = relocate_at(keyframe, map, rig, frame, options);
     if (!found) continue;
     const bool better = !best || found->inliers > best->inliers;

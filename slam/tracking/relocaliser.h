@@ -30,6 +30,7 @@ struct RelocaliserOptions {
 struct Relocation {
   Pose T_map_body;
   int inliers = 0;
+  Matrix6d information = Matrix6d::Zero();  ///< as MotionEstimate has it
 };
 
 /// Where in the map a frame was taken, by appearance alone: its features vote for keyframes by the
@@ -40,6 +41,12 @@ struct Relocation {
 /// alone.
 std::optional<Relocation> relocate(const Map& map, const EstimatorRig& rig,
                                    const FrameFeatures& frame, const RelocaliserOptions& options);
+
+/// The same at the places of these keyframes.
+std::optional<Relocation> relocate_among(const Map& map, const EstimatorRig& rig,
+                                         const FrameFeatures& frame,
+                                         const std::vector<int>& keyframes,
+                                         const RelocaliserOptions& options);
 
 /// Believes a relocation once two frames in a row, each by itself, agree on it.
 class Relocaliser {

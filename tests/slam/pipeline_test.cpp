@@ -236,6 +236,27 @@ TEST_F(RoundTripTest, ATagThatWasMovedOrIsThereTwiceClosesNone) {
   EXPECT_LT(worst_error(summary_.trajectory, truth_), 0.05);
 }
 
+// Without any tag: on the way back the back pair sees what the front pair mapped, and the other way
+// about. Tracking finds it by itself; the drive out and back is 4 m, of which two are away.
+TEST(PipelineTest, APlaceThatIsSeenAgainClosesTheLoop) {
+  const SyntheticAisle aisle(0.5, 6, 900);
+  SlamConfig config;
+  config.places.emplace().away_distance = 2;
+  Pipeline pipeline(config, aisle.rig, {});
+  std::vector<LoopClosure> closures;
+  for (std::int64_t i = 0; i < 261; ++i) {
+    const Estimate estimate = pipeline.process(aisle.frame(i, round_trip(i)));
+    ASSERT_EQ(estimate.status, TrackingStatus::kTracking) << i;
+    if (estimate.loop_closure) closures.push_back(*estimate.loop_closure);
+  }
+  ASSERT_EQ(closures.size(), 1u);
+  EXPECT_EQ(closures[0].tag_id, -1);
+  const auto truth = [](Stamp stamp) { return round_trip(std::lround(to_seconds(stamp) * 15)); };
+  const Pose moved = truth(closures[0].earlier).inverse() * truth(closures[0].later);
+  // Half a pixel is 2 mm for one feature at a metre.
+  EXPECT_LT((closures[0].T_earlier_later.translation - moved.translation).norm(), 0.002);
+}
+
 TEST(PipelineTest, ATagSeenOnlyBetweenKeyframesIsNoLoopYet) {
   const SyntheticAisle aisle(0.5, 8, kLandmarks);
   const RigCamera& side = aisle.rig.cameras[4];

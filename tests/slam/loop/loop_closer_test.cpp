@@ -442,6 +442,33 @@ TEST_F(LoopClosureTest, ARegisteredTagThatIsNewClosesItWithTheLastOne) {
   expect_true_poses();
 }
 
+// Five keyframes at their true poses, then one beside the second that tracking took to be 5 cm
+// aside, without any of their landmarks.
+TEST_F(LoopClosureTest, APlaceFoundAgainTiesItToWhatWasMappedThere) {
+  for (int k = 0; k < 5; ++k) {
+    known_.add(aisle_.frame(30 * k, truth_[static_cast<std::size_t>(k)]),
+               truth_[static_cast<std::size_t>(k)]);
+  }
+  const Pose there = truth_[1] * Pose{exp_so3({0, 0, 0.01}), {0.01, 0, 0}};
+  const auto frame = aisle_.frame(300, there);
+  const Pose off{exp_so3({0, 0, 0.005}), {0.03, 0.04, 0}};
+  const int id = known_.map.add_keyframe(frame, there * off, no_associations(*frame));
+  PlaceReturn place;
+  place.earlier = 1;
+  place.T_map_body = there;
+  place.covariance = 1e-8 * Matrix6d::Identity();
+  place.landmarks = landmark_ids(known_.map.keyframe(1).landmarks);
+  const LoopClosure closure = closer().close(place, id, LocalMapper({}), known_.rig, known_.map);
+  EXPECT_EQ(closure.tag_id, -1);
+  EXPECT_EQ(closure.earlier, stamp_of_frame(30, 15));
+  EXPECT_LT(distance(closure.T_earlier_later, truth_[1].inverse() * there), 1e-12);
+  EXPECT_NEAR(closure.correction, 0.05, 1e-4);
+  EXPECT_TRUE(closure.covariance);
+  // Pixels are exact, as landmarks are: what is tied holds the pose.
+  EXPECT_GT(landmark_ids(known_.map.keyframe(id).landmarks).size(), 100u);
+  EXPECT_LT(distance(known_.map.keyframe(id).T_map_body, there), 1e-5);
+}
+
 TEST_F(LoopClosureTest, WithoutALoopThereIsNothingToClose) {
   LoopCloser loop = closer();
   const int id = known_.add(keyframe(0, false), truth_[0]);
