@@ -72,7 +72,11 @@ LoopClosure LoopCloser::close(int keyframe_id, double path_length, const Estimat
   const auto is_wanted = [&](const TagSighting& seen) {
     return by_world ? gates_.registered(seen) != nullptr : is_same_tag(seen, *sighting);
   };
-  const TagSighting* earlier = tag ? last_sighting(map, keyframe_id, is_wanted, first) : nullptr;
+  const auto is_sure = [&](const TagSighting& seen) {
+    return is_wanted(seen) && gates_.is_sure(seen);
+  };
+  const TagSighting* earlier = tag ? last_sighting(map, keyframe_id, is_sure, first) : nullptr;
+  if (tag && earlier == nullptr) earlier = last_sighting(map, keyframe_id, is_wanted, first);
   if (earlier == nullptr) {
     fail("loop closing: keyframe {} sees no tag that an earlier one saw and left", keyframe_id);
   }

@@ -21,6 +21,11 @@ constexpr double kInARow = 0.5;  // s
 constexpr double kFrameOffset = 0.005;  // m
 constexpr double kFrameTurn = 0.01;     // rad
 
+/// A sighting that says less of where the body is closes no loop, as a nearer one will come; root
+/// mean square of the three axes.
+constexpr double kSureOffset = 0.03;                        // m
+constexpr double kSureTurn = 1.0 * std::numbers::pi / 180;  // rad
+
 /// How far a body may be carried, standard deviations.
 constexpr double kAnywhere = 100;  // m
 constexpr double kAnyTurn = 3;     // rad
@@ -111,6 +116,13 @@ Matrix6d TagGates::localisation_covariance(const std::vector<TagSighting>& sight
     if (!surest || of_body.trace() < surest->trace()) surest = of_body;
   }
   return surest.value_or(Matrix6d::Zero());
+}
+
+bool TagGates::is_sure(const TagSighting& sighting) const {
+  const Matrix6d of_body =
+      carry_covariance(covariance(sighting), T_body_tag(sighting, cameras_).inverse());
+  return of_body.topLeftCorner<3, 3>().trace() <= 3 * square(kSureOffset) &&
+         of_body.bottomRightCorner<3, 3>().trace() <= 3 * square(kSureTurn);
 }
 
 void TagGates::take_over(Map& map) const {
@@ -308,7 +320,7 @@ std::vector<RejectedTag> TagGates::gate(FrameFeatures& frame, const Pose& T_map_
       leave_out(TagRejection::kDuplicate);
     } else if (was_left(sighting, frame.stamp, path_length)) {
       returns.push_back(now);
-      if (is_confirmed(now, returns_)) believed.push_back(sighting);
+      if (is_confirmed(now, returns_) && is_sure(sighting)) believed.push_back(sighting);
     } else {
       believed.push_back(sighting);
     }

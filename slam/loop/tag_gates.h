@@ -58,6 +58,9 @@ class TagGates {
   /// go by.
   Matrix6d localisation_covariance(const std::vector<TagSighting>& sightings) const;
 
+  /// Whether a sighting says well enough where the body is to close a loop by it.
+  bool is_sure(const TagSighting& sighting) const;
+
   /// Finds by the registered tags of a map that was loaded how it lies in the world.
   void take_over(Map& map) const;
 
@@ -68,7 +71,8 @@ class TagGates {
   /// Leaves the frame those sightings that are to be believed; call it with every tracked frame
   /// before what follows. A sighting is rejected that is ambiguous, one of two of the same name, or
   /// farther from the tag's place in the map than the way driven since a tag was seen allows. One
-  /// that would close a loop is held back until the next frame sees the tag in the same place.
+  /// that would close a loop is held back until the next frame sees the tag in the same place, and
+  /// until it is sure.
   std::vector<RejectedTag> gate(FrameFeatures& frame, const Pose& T_map_body, double path_length,
                                 const Map& map);
 
