@@ -22,9 +22,7 @@ constexpr double kTagKeyframeDistance = 0.05;  // m
 Matrix6d by_tag_covariance() {
   constexpr double kPosition = 1e-3;    // m
   constexpr double kRotation = 1.5e-3;  // rad
-  Vector6d sigma;
-  sigma << Eigen::Vector3d::Constant(kPosition), Eigen::Vector3d::Constant(kRotation);
-  return sigma.cwiseAbs2().asDiagonal();
+  return isotropic_covariance(kPosition, kRotation);
 }
 
 /// Whether somebody said how accurate the rig file is. The defaults are wide enough for any rig:
@@ -177,8 +175,7 @@ void Pipeline::settle_dissent(TrackedFrame& tracked) {
   if (const auto to = loop_closer_.gates().settle_dissent(T_map_body, map_)) carry(*to, tracked);
   if (!T_map_world || T_map_world->translation == map_.world()->translation) return;
   // Poses are told in the map: it moves, so that the world is where it was.
-  const Pose T_new_old = *T_map_world * map_.world()->inverse();
-  keep_world(map_, *T_map_world);
+  const Pose T_new_old = keep_world(map_, *T_map_world);
   tracker_.correct(T_new_old * tracker_.T_map_body());
   tracked.motion.T_map_body = T_new_old * T_map_body;
   believe_gravity();
@@ -374,6 +371,7 @@ void Pipeline::close_loop_by_place(int keyframe, Estimate& estimate) {
       found->covariance;
   if (by_place.trace() < now.trace()) uncertainty_.start(by_place);
   ++closures_;
+  tags_since_adjustment_ = false;
 }
 
 /// As a global adjustment found it.

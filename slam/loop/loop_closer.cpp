@@ -18,11 +18,6 @@ namespace {
 /// So many of the last keyframes are tied to a place that is found again.
 constexpr int kTiedKeyframes = 5;
 
-template <class A, class B>
-bool is_same_tag(const A& a, const B& b) {
-  return a.id == b.id && a.family == b.family;
-}
-
 /// The last keyframe of this run before `later` that saw a tag for which `is_wanted`, and how.
 template <class Predicate>
 const TagSighting* last_sighting(const Map& map, int later, Predicate is_wanted, int& keyframe_id) {
@@ -70,7 +65,7 @@ LoopClosure LoopCloser::close(int keyframe_id, double path_length, const Estimat
   const bool by_world = tag && gates_.registered(*sighting) != nullptr;
   int first = keyframe_id;
   const auto is_wanted = [&](const TagSighting& seen) {
-    return by_world ? gates_.registered(seen) != nullptr : is_same_tag(seen, *sighting);
+    return by_world ? gates_.registered(seen) != nullptr : same_tag(seen, *sighting);
   };
   const auto is_sure = [&](const TagSighting& seen) {
     return is_wanted(seen) && gates_.is_sure(seen);
@@ -97,7 +92,7 @@ LoopClosure LoopCloser::close(int keyframe_id, double path_length, const Estimat
     gates_.remember_visit(seen, later.frame->stamp, path_length, true);
   }
   adjust_globally(rig, map);
-  if (!is_same_tag(*earlier, *sighting)) {
+  if (!same_tag(*earlier, *sighting)) {
     // One sighting's turn swings what is measured by way of another tag: all of them know better.
     closure.T_earlier_later = map.keyframe(first).T_map_body.inverse() * later.T_map_body;
   } else {
@@ -137,7 +132,7 @@ Matrix6d LoopCloser::loop_covariance(const TagSighting& later, const TagSighting
                                      const Pose& T_earlier_tag) const {
   const Pose T_tag_later = T_body_tag(later, gates_.cameras()).inverse();
   Matrix6d of_tag = gates_.covariance(later);
-  if (is_same_tag(later, earlier)) {
+  if (same_tag(later, earlier)) {
     of_tag += gates_.covariance(earlier);
   } else {
     of_tag += gates_.survey_covariance(later) +
@@ -153,7 +148,7 @@ std::optional<Matrix6d> LoopCloser::place_covariance(const MapTag& tag, const Ma
   std::optional<Matrix6d> surest;
   for (const Keyframe& keyframe : map.keyframes()) {
     for (const TagSighting& sighting : keyframe.frame->tags) {
-      if (!is_same_tag(sighting, tag)) continue;
+      if (!same_tag(sighting, tag)) continue;
       const Matrix6d of_tag = gates_.covariance(sighting) + gates_.survey_covariance(sighting);
       if (!surest || of_tag.trace() < surest->trace()) surest = of_tag;
     }

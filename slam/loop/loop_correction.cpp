@@ -82,10 +82,11 @@ void move_map(Map& map, const Pose& T_new_old) {
   known.covariance = carried * known.covariance * carried.transpose();
 }
 
-void keep_world(Map& map, const Pose& T_map_world_before) {
+Pose keep_world(Map& map, const Pose& T_map_world_before) {
   const Pose T_new_old = T_map_world_before * map.world()->inverse();
   map.world() = T_map_world_before;
   move_map(map, T_new_old);
+  return T_new_old;
 }
 
 void move_from(Map& map, int first, const Pose& T_new_old) {

@@ -26,7 +26,7 @@ void move_from(Map& map, int first, const Pose& T_new_old);
 /// Moves all of the map by `T_new_old`, but for the world and the tags that hold the map.
 void move_map(Map& map, const Pose& T_new_old);
 
-/// Moves the map with the world in it, so that the world is where it was before.
-void keep_world(Map& map, const Pose& T_map_world_before);
+/// Moves the map with the world in it, so that the world is where it was before. Returns the move.
+Pose keep_world(Map& map, const Pose& T_map_world_before);
 
 }  // namespace vinebench::slam

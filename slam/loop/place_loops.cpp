@@ -51,12 +51,6 @@ double distance_between(const Pose& a, const Pose& b) {
   return (a.translation - b.translation).norm();
 }
 
-Matrix6d place_covariance() {
-  Vector6d sigma;
-  sigma << Eigen::Vector3d::Constant(kPlaceOffset), Eigen::Vector3d::Constant(kPlaceTurn);
-  return sigma.cwiseAbs2().asDiagonal();
-}
-
 }  // namespace
 
 std::optional<PlaceReturn> PlaceLoops::look(int keyframe, double path_length,
@@ -123,7 +117,7 @@ std::optional<PlaceReturn> PlaceLoops::known(int keyframe, const std::vector<con
   found.earlier = (*most)->keyframe;
   found.earlier_covariance = (*most)->covariance;
   found.T_map_body = map.keyframe(keyframe).T_map_body;
-  found.covariance = place_covariance();
+  found.covariance = isotropic_covariance(kPlaceOffset, kPlaceTurn);
   found.tied = true;
   return found;
 }
@@ -157,7 +151,8 @@ std::optional<PlaceReturn> PlaceLoops::find(int keyframe, const std::vector<cons
   PlaceReturn found;
   found.earlier = (*nearest)->keyframe;
   found.T_map_body = T_map_body;
-  found.covariance = relocation->information.inverse() + place_covariance();
+  found.covariance =
+      relocation->information.inverse() + isotropic_covariance(kPlaceOffset, kPlaceTurn);
   found.earlier_covariance = (*nearest)->covariance;
   for (std::size_t p = 0; p < places.size() && p < kMostKeyframes; ++p) {
     const auto more = landmark_ids(map.keyframe(places[p]->keyframe).landmarks);

@@ -8,24 +8,19 @@
 namespace vinebench::slam {
 namespace {
 
-/// 99.9 % of the chi-square distribution with six degrees of freedom.
-constexpr double kAgreement = 22.46;
-
 /// Whether `b`, seen after `a`, is where both surveys say.
 bool agree(const TagWitness& a, const TagWitness& b, const Map& map, const Matrix6d& drift) {
   const Pose found = a.found(map).T_map_tag.inverse() * b.found(map).T_map_tag;
   const Pose surveyed = a.T_world_tag.inverse() * b.T_world_tag;
   const Matrix6d expected = b.covariance + carry_covariance(a.covariance, surveyed) +
                             carry_covariance(drift, b.T_keyframe_tag);
-  return pose_chi_squared(found, surveyed, expected) <= kAgreement;
+  return pose_chi_squared(found, surveyed, expected) <= kPoseLimit;
 }
 
 }  // namespace
 
 void TagDissent::hear(const TagWitness& witness) {
-  std::erase_if(witnesses_, [&](const TagWitness& before) {
-    return before.id == witness.id && before.family == witness.family;
-  });
+  std::erase_if(witnesses_, [&](const TagWitness& before) { return same_tag(before, witness); });
   witnesses_.push_back(witness);
 }
 

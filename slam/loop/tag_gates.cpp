@@ -11,9 +11,6 @@
 namespace vinebench::slam {
 namespace {
 
-/// 99.9 % of the chi-square distribution with six degrees of freedom.
-constexpr double kChiSquared6 = 22.46;
-
 /// Two sightings farther apart in time are not in a row.
 constexpr double kInARow = 0.5;  // s
 
@@ -30,11 +27,6 @@ constexpr double kSureTurn = 1.0 * std::numbers::pi / 180;  // rad
 constexpr double kAnywhere = 100;  // m
 constexpr double kAnyTurn = 3;     // rad
 
-template <class A, class B>
-bool same_tag(const A& a, const B& b) {
-  return a.id == b.id && a.family == b.family;
-}
-
 template <class Named>
 std::pair<std::string, int> name_of(const Named& tag) {
   return {tag.family, tag.id};
@@ -42,12 +34,6 @@ std::pair<std::string, int> name_of(const Named& tag) {
 
 double square(double x) {
   return x * x;
-}
-
-Matrix6d diagonal_covariance(double offset, double turn) {
-  Vector6d variances;
-  variances << Eigen::Vector3d::Constant(offset * offset), Eigen::Vector3d::Constant(turn * turn);
-  return variances.asDiagonal();
 }
 
 /// What is known beforehand of a tag that does not stand exactly where it was surveyed.
@@ -134,7 +120,7 @@ void TagGates::take_over(Map& map) const {
     tag.fixed = !tag.survey;
     found.push_back(
         {known->T_world_tag, tag.T_map_tag,
-         diagonal_covariance(kFrameOffset, kFrameTurn) + slam::survey_covariance(known->survey)});
+         isotropic_covariance(kFrameOffset, kFrameTurn) + slam::survey_covariance(known->survey)});
   }
   if (!found.empty()) map.world() = likeliest_world(found);
 }
@@ -202,7 +188,7 @@ void TagGates::remember_visit(const TagSighting& sighting, Stamp stamp, double p
 Matrix6d TagGates::drift(double since, double path_length) const {
   const double way = path_length - since;
   const double turn = config_.max_turn_deg + config_.max_turn_deg_per_metre * way;
-  const double edge = std::sqrt(kChiSquared6);
+  const double edge = std::sqrt(kPoseLimit);
   double offset2 = square((config_.max_offset + config_.max_drift * way) / edge);
   double turn2 = square(turn * std::numbers::pi / 180 / edge);
   for (const Gap& gap : gaps_) {
@@ -212,7 +198,7 @@ Matrix6d TagGates::drift(double since, double path_length) const {
                turned * square(path_length - gap.path_length);
     turn2 += turned;
   }
-  return diagonal_covariance(std::sqrt(offset2), std::sqrt(turn2));
+  return isotropic_covariance(std::sqrt(offset2), std::sqrt(turn2));
 }
 
 /// What the surveys of a registered tag that is not mapped yet and of the one seen last add to
@@ -239,18 +225,18 @@ bool TagGates::is_in_place(const TagSighting& sighting, const Pose& T_map_body, 
       carry_covariance(drift(last != nullptr ? last->path_length : 0, path_length), T_body_seen);
   const Visit* own = visit(sighting);
   expected += own != nullptr ? own->mapped : doubt_of_survey(sighting);
-  return pose_chi_squared(T_map_body * T_body_seen, known->T_ref_tag, expected) <= kChiSquared6;
+  return pose_chi_squared(T_map_body * T_body_seen, known->T_ref_tag, expected) <= kPoseLimit;
 }
 
 /// Whether another tag of the same name is seen elsewhere, and the map does not say which is meant.
 bool TagGates::is_doubled(const TagSighting& sighting, const FrameFeatures& frame,
                           const Pose& T_map_body, double path_length, const Map& map) const {
-  const Matrix6d own = covariance(sighting) + diagonal_covariance(kFrameOffset, kFrameTurn);
+  const Matrix6d own = covariance(sighting) + isotropic_covariance(kFrameOffset, kFrameTurn);
   return std::ranges::any_of(frame.tags, [&](const TagSighting& other) {
     if (&other == &sighting || !same_tag(other, sighting) || other.ambiguous) return false;
     if (!is_in_place(other, T_map_body, path_length, map)) return false;
     return pose_chi_squared(T_body_tag(sighting, cameras_), T_body_tag(other, cameras_),
-                            own + covariance(other)) > kChiSquared6;
+                            own + covariance(other)) > kPoseLimit;
   });
 }
 
@@ -260,8 +246,8 @@ bool TagGates::is_confirmed(const Return& now, const std::vector<Return>& before
     if (!same_tag(then.sighting, now.sighting)) return false;
     if (to_seconds(now.stamp - then.stamp) > kInARow) return false;
     const Matrix6d expected = covariance(now.sighting) + covariance(then.sighting) +
-                              diagonal_covariance(kFrameOffset, kFrameTurn);
-    return pose_chi_squared(now.T_map_tag, then.T_map_tag, expected) <= kChiSquared6;
+                              isotropic_covariance(kFrameOffset, kFrameTurn);
+    return pose_chi_squared(now.T_map_tag, then.T_map_tag, expected) <= kPoseLimit;
   });
 }
 
@@ -286,7 +272,7 @@ std::optional<Pose> TagGates::pose_across_gap(const std::vector<TagSighting>& si
 int TagGates::open_gap(const std::vector<TagSighting>& sightings, Map& map) {
   for (const TagSighting& sighting : sightings) std::erase(rejected_, name_of(sighting));
   Gap& last = gaps_.back();
-  last.covariance = diagonal_covariance(kAnywhere, kAnyTurn);
+  last.covariance = isotropic_covariance(kAnywhere, kAnyTurn);
   map.keyframe(last.keyframe).link->covariance = last.covariance;
   return last.keyframe;
 }

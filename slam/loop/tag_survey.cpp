@@ -27,9 +27,7 @@ bool is_exact(const SurveyAccuracy& survey) {
 }
 
 Matrix6d survey_covariance(const SurveyAccuracy& survey) {
-  Vector6d sigma;
-  sigma << Eigen::Vector3d::Constant(survey.position), Eigen::Vector3d::Constant(survey.rotation);
-  return sigma.cwiseAbs2().asDiagonal();
+  return isotropic_covariance(survey.position, survey.rotation);
 }
 
 Vector6d misplacement(const FoundTag& tag, const Pose& T_map_world) {

@@ -20,6 +20,12 @@ Matrix6d inflated_inverse(const Matrix6d& information) {
 
 }  // namespace
 
+Matrix6d isotropic_covariance(double offset, double turn) {
+  Vector6d variances;
+  variances << Eigen::Vector3d::Constant(offset * offset), Eigen::Vector3d::Constant(turn * turn);
+  return variances.asDiagonal();
+}
+
 Matrix6d carried_step(const Pose& T_a_b) {
   // A step (rho, theta) of a moves b by R_ba (rho + theta x t) and turns it by R_ba theta.
   const Eigen::Matrix3d R_b_a = T_a_b.rotation.toRotationMatrix().transpose();

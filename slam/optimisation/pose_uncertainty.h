@@ -8,6 +8,9 @@
 
 namespace vinebench::slam {
 
+/// Of a pose with those standard deviations along (m) and about (rad) each of its axes.
+Matrix6d isotropic_covariance(double offset, double turn);
+
 /// The covariance of the body's pose in the map, in the step of step_of (body frame: m, then
 /// rad).
 ///

@@ -62,10 +62,7 @@ Matrix6d inverse(const Matrix6d& information) {
 }
 
 Matrix6d place_covariance() {
-  Vector6d variances;
-  variances << Eigen::Vector3d::Constant(kPlaceSigma * kPlaceSigma),
-      Eigen::Vector3d::Constant(kTurnSigma * kTurnSigma);
-  return variances.asDiagonal();
+  return isotropic_covariance(kPlaceSigma, kTurnSigma);
 }
 
 /// Whether `other` is seen where it must be from the body's pose by another tag.

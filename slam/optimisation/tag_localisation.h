@@ -26,6 +26,10 @@ struct PlacedSighting {
 Matrix6d tag_covariance(const TagSighting& sighting, double size, const TagCameras& cameras,
                         double systematic);
 
+/// 99.9 % of the chi-square distribution with six degrees of freedom: what a pose is at most off
+/// by.
+inline constexpr double kPoseLimit = 22.46;
+
 /// Squared distance of two poses in standard deviations of their difference: chi-square with six
 /// degrees of freedom. `covariance` is about `a`.
 double pose_chi_squared(const Pose& a, const Pose& b, const Matrix6d& covariance);

@@ -12,6 +12,12 @@ namespace vinebench::slam {
 /// Corners of a tag of side `size` in its own frame (x right, y down), in the order of TagSighting.
 std::array<Eigen::Vector3d, 4> tag_corners(double size);
 
+/// Whether two of whatever names a tag name the same.
+template <class A, class B>
+bool same_tag(const A& a, const B& b) {
+  return a.id == b.id && a.family == b.family;
+}
+
 /// Standard deviation of a sighting's corners, px: their noise and `systematic`.
 double corner_sigma(const TagSighting& sighting, double systematic);
 
