@@ -159,8 +159,9 @@ std::optional<PlaceReturn> PlaceLoops::find(int keyframe, const std::vector<cons
     found.landmarks.insert(found.landmarks.end(), more.begin(), more.end());
   }
   std::ranges::sort(found.landmarks);
-  const auto doubled = std::ranges::unique(found.landmarks);
-  found.landmarks.erase(doubled.begin(), doubled.end());
+  // Not std::ranges: clang 14 does not compile its subranges with libstdc++ 12.
+  found.landmarks.erase(std::unique(found.landmarks.begin(), found.landmarks.end()),
+                        found.landmarks.end());
   if (!bears_out(look_around(map, rig, frame, T_map_body, found.landmarks))) return std::nullopt;
   return found;
 }

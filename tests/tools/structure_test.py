@@ -6,8 +6,9 @@
 Usage: structure_test.py ROOT
 
 Prints every include against the arrows, every cycle of components (a header and its source are
-one), every folder of too many files, and every source without a test that mirrors it. The order of
-sub-folders is read from docs/architecture.md, so that the document cannot be wrong about it.
+one), every folder of too many files, every source without a test that mirrors it, and what one of
+the two compilers does not know. The order of sub-folders is read from docs/architecture.md, so
+that the document cannot be wrong about it.
 """
 
 import collections
@@ -28,6 +29,10 @@ ARROWS = {
 # Where the truth may be known; `slam` is not among them.
 KNOW_THE_TRUTH = {"core/truth", "sim", "harness", "tools", "python"}
 MOST_FILES = 24
+# clang 14, which builds the fuzzers, does not compile these with libstdc++ 12.
+SUBRANGES = re.compile(
+    r"std::ranges::(unique|remove|remove_if|partition|stable_partition|rotate|search|find_end|"
+    r"equal_range)\(|std::(ranges::)?views::")
 ORDER = re.compile(r"^order of `(\w+)/`: (.+)$", re.M)
 
 
@@ -162,6 +167,13 @@ def check_sizes(tree):
             tree.fail(f"{folder}/: {files} files, at most {MOST_FILES}")
 
 
+def check_subranges(tree):
+    for file in tree.includes:
+        for number, line in enumerate((tree.root / file).read_text().splitlines(), 1):
+            if match := SUBRANGES.search(line):
+                tree.fail(f"{file}:{number}: {match.group(0)} does not compile with clang 14")
+
+
 def check_tests(tree, untested):
     """A source with logic of its own has a test that mirrors it, or a line in the list of those
     that another test stands for."""
@@ -208,6 +220,7 @@ def main():
     check_orders_complete(tree, orders)
     check_cycles(tree)
     check_sizes(tree)
+    check_subranges(tree)
     check_tests(tree, read_list(root / LIST))
     for problem in sorted(set(tree.problems)):
         print(problem)
