@@ -8,7 +8,6 @@
 #include "harness/run/run_hash.h"
 
 namespace vinebench::harness {
-namespace {
 
 const std::string& program_digits() {
   static const std::string digits = [] {
@@ -18,8 +17,6 @@ const std::string& program_digits() {
   }();
   return digits;
 }
-
-}  // namespace
 
 std::string fingerprint_of_inputs(const ScenarioConfig& scenario) {
   const std::string settings = format_yaml(scenario);

@@ -8,6 +8,9 @@
 
 namespace vinebench::harness {
 
+/// Hash of this program's executable.
+const std::string& program_digits();
+
 /// Fingerprint of the inputs of a run: this program's executable, the resolved scenario with its
 /// seed, and the files that the scenario names. Files that those name in turn (a rover's meshes)
 /// are not included.

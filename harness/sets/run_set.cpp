@@ -10,6 +10,7 @@
 #include <iostream>
 #include <map>
 
+#include "core/config/yaml_writer.h"
 #include "core/files/files.h"
 #include "core/files/output_file.h"
 #include "core/files/output_folder.h"
@@ -27,8 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string name_of(const PlannedRun& run) {
-  return fmt::format("{}, {}", run.scenario.name,
-                     seed_text(run.scenario.seed, run.repeat, run.repeats));
+  return fmt::format("{}, {}", run.title, seed_text(run.seed, run.repeat, run.repeats));
 }
 
 bool has_inputs(const fs::path& folder, const std::string& fingerprint) {
@@ -37,20 +37,21 @@ bool has_inputs(const fs::path& folder, const std::string& fingerprint) {
          read_file(folder / kInputsFile) == fingerprint + "\n";
 }
 
-/// Environments of the runs' hashes in this process, by scenario.
+/// Environments of the runs' hashes in this process, by what draws their images.
 class Environments {
  public:
   explicit Environments(const SetOptions& options) : options_(options) {}
 
   /// OpenGL starts in a child, because no child can use that of its parent.
   const NamedValues& of(const ScenarioConfig& scenario) {
-    const auto found = known_.find(scenario.name);
+    const std::string renderer = format_yaml(scenario.simulation.renderer);
+    const auto found = known_.find(renderer);
     if (found != known_.end()) return found->second;
     const std::string text = run_in_child(scenario.name, [&] {
       return json_text(Json(
           hash_environment(options_.libraries ? options_.libraries(scenario) : NamedValues())));
     });
-    return known_.emplace(scenario.name, Json::parse(text).get<NamedValues>()).first->second;
+    return known_.emplace(renderer, Json::parse(text).get<NamedValues>()).first->second;
   }
 
  private:
@@ -80,7 +81,7 @@ void remove_other_repeats(const PlannedRun& first, const std::string& fingerprin
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(kRepeatFolder) || !entry.is_directory(ignored)) continue;
     if (entry.is_symlink(ignored)) continue;
-    if (same_run(entry.path(), first.scenario, fingerprint, environments)) continue;
+    if (same_run(entry.path(), *first.settings, fingerprint, environments)) continue;
     for (const char* file : {"metrics.json", kInputsFile}) {
       fs::remove(entry.path() / file, ignored);
     }
@@ -99,15 +100,16 @@ std::string run_planned(const PlannedRun& run, const SetOptions& options, int th
   if (run.repeat > 1) create_inner_folder(run.folder.parent_path().parent_path());
   create_inner_folder(run.folder.parent_path());
   create_inner_folder(run.folder);
-  const FolderLock lock = prepare_scenario_folder(run.folder, run.scenario);
+  const ScenarioConfig scenario = run.scenario();
+  const FolderLock lock = prepare_scenario_folder(run.folder, scenario);
   write_messages_to(run.folder / "log.txt");
   RunOptions run_options;
   run_options.folder = run.folder;
   run_options.progress = &std::cerr;
   run_options.title = name_of(run);
   run_options.stopped = options.stopped;
-  const std::string fingerprint = fingerprint_of_inputs(run.scenario);
-  const RunOutcome outcome = options.run(run.scenario, threads, run_options);
+  const std::string fingerprint = fingerprint_of_inputs(scenario);
+  const RunOutcome outcome = options.run(scenario, threads, run_options);
   if (outcome.interrupted) return "interrupted";
   // Also where the system failed: a rate of failures counts each run once, whatever it came to.
   write_file_atomically(run.folder / kInputsFile, fingerprint + "\n");
@@ -121,12 +123,12 @@ class RunningSet {
     Environments environments(options);
     for (std::size_t i = 0; i < plan.size(); ++i) {
       const PlannedRun& run = plan[i];
-      outcome_.runs.push_back({.scenario = run.scenario.name,
-                               .seed = run.scenario.seed,
+      outcome_.runs.push_back({.scenario = run.title,
+                               .seed = run.seed,
                                .folder = run.folder,
                                .repeat = run.repeat,
                                .repeats = run.repeats});
-      const std::string fingerprint = fingerprint_of_inputs(run.scenario);
+      const std::string fingerprint = fingerprint_of_inputs(run.scenario());
       if (run.repeat == 1) remove_other_repeats(run, fingerprint, environments);
       if (!options.force && keep(outcome_.runs.back(), run, fingerprint, environments)) {
         tell(outcome_.runs.back());
@@ -155,7 +157,7 @@ class RunningSet {
  private:
   static bool keep(SetRun& result, const PlannedRun& run, const std::string& fingerprint,
                    Environments& environments) {
-    result.result = same_run(run.folder, run.scenario, fingerprint, environments);
+    result.result = same_run(run.folder, *run.settings, fingerprint, environments);
     result.kept = result.result.has_value();
     return result.kept;
   }
@@ -223,10 +225,11 @@ std::vector<PlannedRun> plan_set(const std::vector<ScenarioConfig>& scenarios,
     if (++names[scenario.name] > 1) {
       fail("two of the scenarios have the name '{}'; expected unique names", scenario.name);
     }
+    const auto settings = std::make_shared<const ScenarioConfig>(scenario);
     const std::vector<std::int64_t> own{scenario.seed};
     for (const std::int64_t seed : seeds.empty() ? own : seeds) {
-      PlannedRun run{scenario, out / scenario.name / fmt::format("seed-{}", seed), 1, repeats};
-      run.scenario.seed = seed;
+      PlannedRun run{settings,      seed, out / scenario.name / fmt::format("seed-{}", seed),
+                     scenario.name, 1,    repeats};
       plan.push_back(run);
       for (run.repeat = 2; run.repeat <= repeats; ++run.repeat) {
         plan.push_back(run);
@@ -235,6 +238,12 @@ std::vector<PlannedRun> plan_set(const std::vector<ScenarioConfig>& scenarios,
     }
   }
   return plan;
+}
+
+ScenarioConfig PlannedRun::scenario() const {
+  ScenarioConfig scenario = *settings;
+  scenario.seed = seed;
+  return scenario;
 }
 
 std::string seed_text(std::int64_t seed, int repeat, int repeats) {

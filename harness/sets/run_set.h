@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -17,10 +18,15 @@ namespace vinebench::harness {
 
 /// One run of a set of scenarios and seeds.
 struct PlannedRun {
-  ScenarioConfig scenario;       ///< with the run's seed
-  std::filesystem::path folder;  ///< for its results
-  int repeat = 1;                ///< of this seed
-  int repeats = 1;               ///< planned of each seed
+  std::shared_ptr<const ScenarioConfig> settings;  ///< shared by its seeds
+  std::int64_t seed = 1;                           ///< in place of the settings'
+  std::filesystem::path folder;                    ///< for its results
+  std::string title;                               ///< of the settings, in tables
+  int repeat = 1;                                  ///< of this seed
+  int repeats = 1;                                 ///< planned of each seed
+
+  /// The settings with the run's seed.
+  ScenarioConfig scenario() const;
 };
 
 /// The runs of each scenario over the seeds (its own seed if there are none), in
@@ -48,17 +54,18 @@ struct SetOptions {
 
 /// The outcome of a planned run.
 struct SetRun {
-  std::string scenario;
+  std::string scenario;  ///< the title of its settings
   std::int64_t seed = 0;
   std::filesystem::path folder;
   int repeat = 1;
-  int repeats = 1;      ///< planned of this seed
-  bool kept = false;    ///< its results already existed
-  std::string error{};  ///< why there are no results; empty if there are
+  int repeats = 1;       ///< planned of this seed
+  bool kept = false;     ///< its results already existed
+  bool missing = false;  ///< of a sweep: was not run yet
+  std::string error{};   ///< why there are no results; empty if there are
   std::optional<StoredRun> result{};
 
   bool failed() const { return result && !all_hold(result->checks); }
-  bool passed() const { return error.empty() && !failed(); }
+  bool passed() const { return error.empty() && !missing && !failed(); }
 };
 
 /// "seed 3", of several repeats "seed 3, repeat 2".

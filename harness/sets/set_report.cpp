@@ -13,12 +13,6 @@
 namespace vinebench::harness {
 namespace {
 
-std::string verdict_of(const SetRun& run) {
-  if (!run.error.empty()) return "ERROR";
-  if (run.failed()) return verdict_of(run.result->checks);
-  return run.result && goal_open(run.result->checks) ? "passed (goal open)" : "passed";
-}
-
 std::optional<double> value_of(const Metric& metric, const SetRun& run) {
   return run.result ? value_of(metric, *run.result) : std::nullopt;
 }
@@ -104,10 +98,16 @@ std::vector<Check> check_repeats(const SlamChoice& slam,
            "0 seeds differ", differing == 0 && obstacle.empty()}};
 }
 
-std::vector<std::string> cells_of(const std::vector<std::optional<double>>& values) {
+bool is_shown(const Metric& metric, TableColumns columns) {
+  return columns == TableColumns::kAll || metric.of_estimate;
+}
+
+std::vector<std::string> cells_of(const std::vector<std::optional<double>>& values,
+                                  TableColumns columns) {
   std::vector<std::string> cells;
   for (std::size_t i = 0; i < shown_metrics().size(); ++i) {
-    cells.push_back(format_value(shown_metrics()[i], values[i]));
+    const Metric& metric = shown_metrics()[i];
+    if (is_shown(metric, columns)) cells.push_back(format_value(metric, values[i]));
   }
   return cells;
 }
@@ -125,13 +125,22 @@ std::string cell_of_seed(const SetRun& run) {
   return run.repeats > 1 ? fmt::format("{} ({})", run.seed, run.repeat) : std::to_string(run.seed);
 }
 
-std::vector<std::string> header() {
+std::vector<std::string> header(TableColumns columns) {
   std::vector<std::string> titles;
-  for (const Metric& metric : shown_metrics()) titles.push_back(metric.title);
+  for (const Metric& metric : shown_metrics()) {
+    if (is_shown(metric, columns)) titles.push_back(metric.title);
+  }
   return row_of("scenario", "seed", titles, "verdict");
 }
 
 }  // namespace
+
+std::string verdict_of(const SetRun& run) {
+  if (run.missing) return "missing";
+  if (!run.error.empty()) return "ERROR";
+  if (run.failed()) return verdict_of(run.result->checks);
+  return run.result && goal_open(run.result->checks) ? "passed (goal open)" : "passed";
+}
 
 bool SeedsSummary::passed() const {
   return all_hold(checks) && all_hold(repeat_checks) && std::ranges::all_of(runs, &SetRun::passed);
@@ -140,6 +149,8 @@ bool SeedsSummary::passed() const {
 std::vector<SeedsSummary> summarise(const std::vector<PlannedRun>& plan,
                                     const SetOutcome& outcome) {
   std::vector<SeedsSummary> scenarios;
+  std::map<std::string, const ScenarioConfig*> settings;
+  for (const PlannedRun& run : plan) settings.emplace(run.title, run.settings.get());
   for (const SetRun& run : outcome.runs) {
     if (scenarios.empty() || scenarios.back().scenario != run.scenario) {
       scenarios.push_back({.scenario = run.scenario});
@@ -147,10 +158,8 @@ std::vector<SeedsSummary> summarise(const std::vector<PlannedRun>& plan,
     scenarios.back().runs.push_back(run);
   }
   for (SeedsSummary& summary : scenarios) {
-    const auto planned = std::ranges::find_if(
-        plan, [&](const PlannedRun& run) { return run.scenario.name == summary.scenario; });
     summary.medians = medians_of(summary.runs);
-    const ScenarioConfig& scenario = planned->scenario;
+    const ScenarioConfig& scenario = *settings.at(summary.scenario);
     check_medians(scenario.expectations, CheckKind::kExpectation, summary.runs, summary.checks);
     check_medians(scenario.goal, CheckKind::kGoal, summary.runs, summary.checks);
     check_medians(scenario.now, CheckKind::kNow, summary.runs, summary.checks);
@@ -161,18 +170,19 @@ std::vector<SeedsSummary> summarise(const std::vector<PlannedRun>& plan,
   return scenarios;
 }
 
-std::string format_table(const std::vector<SeedsSummary>& scenarios) {
-  std::vector<std::vector<std::string>> rows{header()};
+std::string format_table(const std::vector<SeedsSummary>& scenarios, TableColumns columns) {
+  std::vector<std::vector<std::string>> rows{header(columns)};
   for (const SeedsSummary& summary : scenarios) {
     for (const SetRun& run : summary.runs) {
       std::vector<std::optional<double>> values;
       for (const Metric& metric : shown_metrics()) values.push_back(value_of(metric, run));
       rows.push_back(
-          row_of(summary.scenario, cell_of_seed(run), cells_of(values), verdict_of(run)));
+          row_of(summary.scenario, cell_of_seed(run), cells_of(values, columns), verdict_of(run)));
     }
     if (summary.runs.size() > 1) {
       const std::string verdict = summary.passed() ? "passed" : "FAILED";
-      rows.push_back(row_of(summary.scenario, "median", cells_of(summary.medians), verdict));
+      rows.push_back(
+          row_of(summary.scenario, "median", cells_of(summary.medians, columns), verdict));
     }
   }
   return markdown_table(rows, 2);

@@ -29,8 +29,15 @@ struct SeedsSummary {
 /// Of several repeats of a seed the median counts, once.
 std::vector<SeedsSummary> summarise(const std::vector<PlannedRun>& plan, const SetOutcome& outcome);
 
+/// What a table shows of a run: all, or what is the same to the byte wherever it is run.
+enum class TableColumns { kAll, kOfEstimate };
+
+/// "passed", "passed (goal open)", "FAILED", "ERROR" or "missing".
+std::string verdict_of(const SetRun& run);
+
 /// A Markdown table: one row for each run, one for the medians of each scenario.
-std::string format_table(const std::vector<SeedsSummary>& scenarios);
+std::string format_table(const std::vector<SeedsSummary>& scenarios,
+                         TableColumns columns = TableColumns::kAll);
 
 /// What repeats tell of the system; empty without any.
 std::string format_repeats(const std::vector<SeedsSummary>& scenarios);

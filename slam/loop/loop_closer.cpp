@@ -18,17 +18,8 @@ namespace {
 /// So many of the last keyframes are tied to a place that is found again.
 constexpr int kTiedKeyframes = 5;
 
-/// The last keyframe of this run before `later` that saw a tag for which `is_wanted`, and how.
-template <class Predicate>
-const TagSighting* last_sighting(const Map& map, int later, Predicate is_wanted, int& keyframe_id) {
-  for (int k = later - 1; k >= 0 && !map.keyframe(k).inherited(); --k) {
-    for (const TagSighting& sighting : map.keyframe(k).frame->tags) {
-      if (!is_wanted(sighting)) continue;
-      keyframe_id = k;
-      return &sighting;
-    }
-  }
-  return nullptr;
+double offset_variance(const Matrix6d& covariance) {
+  return covariance.topLeftCorner<3, 3>().trace();
 }
 
 /// Whether the world's place in the map is an unknown of global adjustment.
@@ -57,46 +48,65 @@ void LoopCloser::record(const FrameFeatures& frame, const Pose& T_map_body, doub
   }
 }
 
+/// The surest of the sightings, in the last visit before `later`, of what says where `seen`'s tag
+/// is: the last one of a tag that was passed may have been from far away.
+std::optional<LoopCloser::EarlierEnd> LoopCloser::earlier_end(const Keyframe& later,
+                                                              const TagSighting& seen,
+                                                              const Map& map) const {
+  const auto tag = gates_.placed(seen, map);
+  if (!tag) return std::nullopt;
+  const bool by_world = gates_.registered(seen) != nullptr;
+  std::optional<EarlierEnd> surest;
+  Stamp next = 0;  // of the visit's keyframe after
+  for (int k = later.id - 1; k >= 0 && !map.keyframe(k).inherited(); --k) {
+    const FrameFeatures& frame = *map.keyframe(k).frame;
+    if (surest && to_seconds(next - frame.stamp) >= settings_.loop.away_seconds) break;
+    for (const TagSighting& sighting : frame.tags) {
+      const bool says =
+          by_world ? gates_.registered(sighting) != nullptr : same_tag(sighting, seen);
+      if (!says) continue;
+      EarlierEnd end{k, &sighting, {}, {}};
+      end.T_earlier_tag = T_body_tag(sighting, gates_.cameras()) *
+                          gates_.placed(sighting, map)->T_ref_tag.inverse() * tag->T_ref_tag;
+      end.covariance = loop_covariance(seen, sighting, end.T_earlier_tag);
+      next = frame.stamp;
+      if (!surest || offset_variance(end.covariance) < offset_variance(surest->covariance)) {
+        surest = end;
+      }
+    }
+  }
+  return surest;
+}
+
 LoopClosure LoopCloser::close(int keyframe_id, double path_length, const EstimatorRig& rig,
                               Map& map) {
   const Keyframe& later = map.keyframe(keyframe_id);
   const TagSighting* sighting = gates_.loop_sighting(*later.frame, path_length);
-  const auto tag = sighting ? gates_.placed(*sighting, map) : std::nullopt;
-  const bool by_world = tag && gates_.registered(*sighting) != nullptr;
-  int first = keyframe_id;
-  const auto is_wanted = [&](const TagSighting& seen) {
-    return by_world ? gates_.registered(seen) != nullptr : same_tag(seen, *sighting);
-  };
-  const auto is_sure = [&](const TagSighting& seen) {
-    return is_wanted(seen) && gates_.is_sure(seen);
-  };
-  const TagSighting* earlier = tag ? last_sighting(map, keyframe_id, is_sure, first) : nullptr;
-  if (tag && earlier == nullptr) earlier = last_sighting(map, keyframe_id, is_wanted, first);
-  if (earlier == nullptr) {
+  const auto earlier = sighting ? earlier_end(later, *sighting, map) : std::nullopt;
+  if (!earlier) {
     fail("loop closing: keyframe {} sees no tag that an earlier one saw and left", keyframe_id);
   }
   const Pose before = later.T_map_body;
   const Pose T_tag_later = T_body_tag(*sighting, gates_.cameras()).inverse();
-  const Pose T_earlier_tag = T_body_tag(*earlier, gates_.cameras()) *
-                             gates_.placed(*earlier, map)->T_ref_tag.inverse() * tag->T_ref_tag;
   LoopClosure closure;
   closure.tag_id = sighting->id;
-  closure.earlier = map.keyframe(first).frame->stamp;
+  closure.earlier = map.keyframe(earlier->keyframe).frame->stamp;
   closure.later = later.frame->stamp;
-  closure.T_earlier_later = T_earlier_tag * T_tag_later;
-  const Matrix6d measured = loop_covariance(*sighting, *earlier, T_earlier_tag);
-  spread_correction(map, first, keyframe_id, tag->T_ref_tag * T_tag_later, measured);
+  closure.T_earlier_later = earlier->T_earlier_tag * T_tag_later;
+  const Pose corrected = gates_.placed(*sighting, map)->T_ref_tag * T_tag_later;
+  spread_correction(map, earlier->keyframe, keyframe_id, corrected, earlier->covariance);
   for (const TagSighting& seen : later.frame->tags) {
     if (gates_.registered(seen) != nullptr && !map.world()) continue;
     if (map.find_tag(seen.family, seen.id) == nullptr) gates_.add_tag(seen, later.T_map_body, map);
     gates_.remember_visit(seen, later.frame->stamp, path_length, true);
   }
   adjust_globally(rig, map);
-  if (!same_tag(*earlier, *sighting)) {
+  if (!same_tag(*earlier->sighting, *sighting)) {
     // One sighting's turn swings what is measured by way of another tag: all of them know better.
-    closure.T_earlier_later = map.keyframe(first).T_map_body.inverse() * later.T_map_body;
+    closure.T_earlier_later =
+        map.keyframe(earlier->keyframe).T_map_body.inverse() * later.T_map_body;
   } else {
-    closure.covariance = measured;
+    closure.covariance = earlier->covariance;
   }
   closure.correction =
       (map.keyframe(keyframe_id).T_map_body.translation - before.translation).norm();

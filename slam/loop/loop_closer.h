@@ -65,6 +65,16 @@ class LoopCloser {
   void level(Map& map) const;
 
  private:
+  /// Of a loop by a tag.
+  struct EarlierEnd {
+    int keyframe = 0;
+    const TagSighting* sighting = nullptr;
+    Pose T_earlier_tag;                      ///< of the tag that the later end sees
+    Matrix6d covariance = Matrix6d::Zero();  ///< of T_earlier_later, in the step of the later body
+  };
+
+  std::optional<EarlierEnd> earlier_end(const Keyframe& later, const TagSighting& seen,
+                                        const Map& map) const;
   Matrix6d loop_covariance(const TagSighting& later, const TagSighting& earlier,
                            const Pose& T_earlier_tag) const;
   std::optional<Matrix6d> place_covariance(const MapTag& tag, const Map& map) const;

@@ -54,7 +54,8 @@ harness::Machine checked_machine(harness::Machine machine) {
 
 int report(const ManyRuns& many, const std::vector<harness::SeedsSummary>& scenarios) {
   const std::string table = harness::format_table(scenarios);
-  write_file_atomically(many.out / "table.md", table);
+  write_file_atomically(many.out / "table.md",
+                        harness::format_table(scenarios, harness::TableColumns::kOfEstimate));
   write_file_atomically(many.out / "summary.json",
                         harness::json_text(harness::summary_json(scenarios), 2) + "\n");
   if (!many.junit.empty()) write_file_atomically(many.junit, harness::format_junit(scenarios));
@@ -70,18 +71,16 @@ int report(const ManyRuns& many, const std::vector<harness::SeedsSummary>& scena
 
 }  // namespace
 
-MadeRuns make_runs(const ManyRuns& many) {
-  std::vector<harness::PlannedRun> plan =
-      harness::plan_set(many.scenarios, many.seeds, many.out, many.repeats);
-  FolderLock lock = prepare(many);
-  const harness::Machine machine = checked_machine(many.machine);
+harness::SetOutcome make_planned_runs(const std::vector<harness::PlannedRun>& plan,
+                                      const RunsAtOnce& how) {
+  const harness::Machine machine = checked_machine(how.machine);
   catch_interrupts();
   harness::SetOptions options;
-  options.jobs = many.jobs;
-  options.threads = many.threads;
-  options.force = many.force;
-  options.run = [&machine, film = many.report](const harness::ScenarioConfig& scenario, int threads,
-                                               harness::RunOptions run) {
+  options.jobs = how.jobs;
+  options.threads = how.threads;
+  options.force = how.force;
+  options.run = [&machine, film = how.film](const harness::ScenarioConfig& scenario, int threads,
+                                            harness::RunOptions run) {
     run.film = film;
     return harness::run_scenario(scenario, machine, threads, run);
   };
@@ -90,7 +89,15 @@ MadeRuns make_runs(const ManyRuns& many) {
   };
   options.stopped = interrupted;
   options.progress = &std::cerr;
-  harness::SetOutcome outcome = harness::run_set(plan, options);
+  return harness::run_set(plan, options);
+}
+
+MadeRuns make_runs(const ManyRuns& many) {
+  std::vector<harness::PlannedRun> plan =
+      harness::plan_set(many.scenarios, many.seeds, many.out, many.repeats);
+  FolderLock lock = prepare(many);
+  harness::SetOutcome outcome =
+      make_planned_runs(plan, {many.machine, many.jobs, many.threads, many.force, many.report});
   if (outcome.interrupted) {
     const auto whole = std::ranges::count_if(
         outcome.runs, [](const harness::SetRun& run) { return run.result.has_value(); });

@@ -28,6 +28,19 @@ struct ManyRuns {
   std::size_t report_bytes = 0;  ///< most of the page
 };
 
+/// How runs are made.
+struct RunsAtOnce {
+  harness::Machine machine;
+  int jobs = 1;     ///< parallel runs
+  int threads = 1;  ///< of all jobs together
+  bool force = false;
+  bool film = false;  ///< keep small pictures
+};
+
+/// Makes those of the runs that are missing, until they are there or ^C comes.
+harness::SetOutcome make_planned_runs(const std::vector<harness::PlannedRun>& plan,
+                                      const RunsAtOnce& how);
+
 /// The runs of a set, in the folder that the lock is of.
 struct MadeRuns {
   FolderLock lock;

@@ -29,6 +29,10 @@ Command guard_command(const Surroundings&) {
   return refusal("guard");
 }
 
+Command sweep_command(const Surroundings&) {
+  return refusal("sweep");
+}
+
 Command explain_command(const Surroundings&) {
   return refusal("explain");
 }

@@ -84,7 +84,7 @@ TEST_F(RunSetTest, PlansEachScenarioOverTheSeeds) {
   const auto over_seeds = plan_set({scenario_, other}, {4, 2}, "out");
   ASSERT_EQ(over_seeds.size(), 4u);
   EXPECT_EQ(over_seeds[1].folder, "out/fake/seed-2");
-  EXPECT_EQ(over_seeds[2].scenario.seed, 4);
+  EXPECT_EQ(over_seeds[2].seed, 4);
   EXPECT_EQ(over_seeds[2].folder, "out/other/seed-4");
   const auto own = plan_set({scenario_, other}, {}, "out");
   ASSERT_EQ(own.size(), 2u);
@@ -102,7 +102,7 @@ TEST_F(RunSetTest, RepeatsAreBelowTheFirst) {
   EXPECT_EQ(runs[0].folder, folder_ / "fake/seed-4");
   EXPECT_EQ(runs[2].folder, folder_ / "fake/seed-4/repeat-3");
   EXPECT_EQ(runs[2].repeat, 3);
-  EXPECT_EQ(runs[2].scenario.seed, 4);
+  EXPECT_EQ(runs[2].scenario().seed, 4);
   EXPECT_EQ(runs[3].folder, folder_ / "fake/seed-2");
   EXPECT_EQ(seed_text(4, 3, 3), "seed 4, repeat 3");
   EXPECT_EQ(seed_text(4, 1, 1), "seed 4");

@@ -19,15 +19,20 @@ using test::set_run;
 using testing::HasSubstr;
 using testing::Not;
 
+PlannedRun planned(const std::string& title, const ScenarioConfig& scenario) {
+  PlannedRun run;
+  run.title = title;
+  run.settings = std::make_shared<const ScenarioConfig>(scenario);
+  return run;
+}
+
 /// Summary of the scenario "row", of whose errors the median must be at most 15 mm.
 SeedsSummary summary_of(std::vector<SetRun> runs) {
-  PlannedRun planned;
-  planned.scenario.name = "row";
-  planned.scenario.expectations.median = {.ate_rmse_max = std::nullopt,
-                                          .ate_origin_rmse_max = 0.015};
+  ScenarioConfig scenario;
+  scenario.expectations.median = {.ate_rmse_max = std::nullopt, .ate_origin_rmse_max = 0.015};
   SetOutcome outcome;
   outcome.runs = std::move(runs);
-  return summarise({planned}, outcome).at(0);
+  return summarise({planned("row", scenario)}, outcome).at(0);
 }
 
 TEST(SetReportTest, TheMedianHasABoundOfItsOwn) {
@@ -44,17 +49,15 @@ TEST(SetReportTest, TheMedianHasABoundOfItsOwn) {
 
 // Of 3, 1 and 2 cm the median is 2 cm.
 TEST(SetReportTest, TheMedianOfTheAlignedErrorHasOneToo) {
-  PlannedRun planned;
-  planned.scenario.name = "row";
   const auto checks_below = [&](double limit) {
-    planned.scenario.expectations.median = {.ate_rmse_max = limit,
-                                            .ate_origin_rmse_max = std::nullopt};
+    ScenarioConfig scenario;
+    scenario.expectations.median = {.ate_rmse_max = limit, .ate_origin_rmse_max = std::nullopt};
     SetOutcome outcome;
     for (const double error : {0.03, 0.01, 0.02}) {
       outcome.runs.push_back(set_run(static_cast<std::int64_t>(100 * error), 0.5));
       outcome.runs.back().result->values["/ate_rmse_m"] = error;
     }
-    return summarise({planned}, outcome).at(0).checks;
+    return summarise({planned("row", scenario)}, outcome).at(0).checks;
   };
   ASSERT_EQ(checks_below(0.02).size(), 1u);
   EXPECT_EQ(checks_below(0.02)[0].what, "median of 3 seeds: ATE, SE(3)-aligned");
@@ -73,9 +76,7 @@ TEST(SetReportTest, ARunWithoutAnErrorIsInfinite) {
 }
 
 TEST(SetReportTest, ScenariosKeepTheirOrder) {
-  std::vector<PlannedRun> plan(2);
-  plan[0].scenario.name = "row";
-  plan[1].scenario.name = "loop";
+  const std::vector<PlannedRun> plan{planned("row", {}), planned("loop", {})};
   SetRun other = set_run(1, 0.01);
   other.scenario = "loop";
   SetOutcome outcome;
@@ -150,12 +151,11 @@ TEST(SetReportTest, RepeatsOfOtherEnvironmentsAreNotSaidToAgree) {
 }
 
 TEST(SetReportTest, OtherSystemsMayDiffer) {
-  PlannedRun planned;
-  planned.scenario.name = "row";
-  planned.scenario.slam.plugin.emplace().library = "slam.so";
+  ScenarioConfig scenario;
+  scenario.slam.plugin.emplace().library = "slam.so";
   SetOutcome outcome;
   outcome.runs = repeated_runs();
-  const SeedsSummary summary = summarise({planned}, outcome).at(0);
+  const SeedsSummary summary = summarise({planned("row", scenario)}, outcome).at(0);
   EXPECT_TRUE(summary.repeat_checks.empty());
   EXPECT_TRUE(summary.passed());
   EXPECT_EQ(summary_json({summary})["scenarios"][0]["repeats"]["deterministic"], false);

@@ -415,6 +415,46 @@ TEST_F(LoopClosureTest, TheTagThatWasLeftClosesItWhateverElseIsInView) {
   expect_true_poses();
 }
 
+// Keyframes are 2 s apart, and a tag unseen for 3 s was left: 0 and 1 are one visit. The sighting
+// with corners of 1 px says less of where the tag is than the other, from as near.
+TEST_F(LoopClosureTest, TheSurestSightingOfTheEarlierVisitClosesIt) {
+  for (const int rough : {0, 1}) {
+    AisleMap known(aisle_, {});
+    LoopCloser loop = closer();
+    for (const int k : {0, 1, 4}) {
+      const auto i = static_cast<std::size_t>(k);
+      FrameFeatures features = *aisle_.frame_with_tag(30 * k, truth_[i], T_world_tag_);
+      if (k == rough) features.tags[0].corner_sigma = 1;
+      const auto frame = std::make_shared<FrameFeatures>(features);
+      const int id = known.add(frame, truth_[i]);
+      if (k < 4) {
+        loop.record(*frame, truth_[i], 0.5 * k, known.map);
+        continue;
+      }
+      const LoopClosure closure = loop.close(id, 0.5 * k, known.rig, known.map);
+      EXPECT_EQ(closure.earlier, stamp_of_frame(30 * (1 - rough), 15)) << rough;
+    }
+  }
+}
+
+// What an earlier visit saw, and however well, is tied already by the loop that ended it.
+TEST_F(LoopClosureTest, OnlyTheLastVisitClosesIt) {
+  LoopCloser loop = closer();
+  for (const int k : {0, 3, 5}) {
+    const auto i = static_cast<std::size_t>(k);
+    FrameFeatures features = *aisle_.frame_with_tag(30 * k, truth_[i], T_world_tag_);
+    if (k == 3) features.tags[0].corner_sigma = 1;
+    const auto frame = std::make_shared<FrameFeatures>(features);
+    const int id = known_.add(frame, truth_[i]);
+    if (k == 0) {
+      loop.record(*frame, truth_[i], 0, known_.map);
+      continue;
+    }
+    const LoopClosure closure = loop.close(id, 0.5 * k, known_.rig, known_.map);
+    EXPECT_EQ(closure.earlier, stamp_of_frame(k == 3 ? 0 : 90, 15)) << k;
+  }
+}
+
 TEST_F(LoopClosureTest, ARegisteredTagThatIsNewClosesItWithTheLastOne) {
   // Tag 0 is in view at the first keyframe only, tag 7 at the last only; the world is the map.
   const Pose T_world_new = truth_[5] * T_body_tag_;
