@@ -18,15 +18,22 @@ const std::string& program_digits() {
   return digits;
 }
 
-std::string fingerprint_of_inputs(const ScenarioConfig& scenario) {
-  const std::string settings = format_yaml(scenario);
+RunInputs::RunInputs(ScenarioConfig scenario) {
+  scenario.seed = 0;
   RunHash hash;
   hash.add(program_digits());
-  hash.add(settings);
+  hash.add(format_yaml(scenario));
   for (const std::filesystem::path& file : files_of(scenario)) {
     hash.add(file.string());
     hash.add(read_file(file));
   }
+  digits_ = hash.digits();
+}
+
+std::string RunInputs::fingerprint(std::int64_t seed) const {
+  RunHash hash;
+  hash.add(digits_);
+  hash.add(std::to_string(seed));
   return hash.digits();
 }
 

@@ -146,16 +146,15 @@ bool SeedsSummary::passed() const {
   return all_hold(checks) && all_hold(repeat_checks) && std::ranges::all_of(runs, &SetRun::passed);
 }
 
-std::vector<SeedsSummary> summarise(const std::vector<PlannedRun>& plan,
-                                    const SetOutcome& outcome) {
+std::vector<SeedsSummary> summarise(const std::vector<PlannedRun>& plan, SetOutcome outcome) {
   std::vector<SeedsSummary> scenarios;
   std::map<std::string, const ScenarioConfig*> settings;
   for (const PlannedRun& run : plan) settings.emplace(run.title, run.settings.get());
-  for (const SetRun& run : outcome.runs) {
+  for (SetRun& run : outcome.runs) {
     if (scenarios.empty() || scenarios.back().scenario != run.scenario) {
       scenarios.push_back({.scenario = run.scenario});
     }
-    scenarios.back().runs.push_back(run);
+    scenarios.back().runs.push_back(std::move(run));
   }
   for (SeedsSummary& summary : scenarios) {
     summary.medians = medians_of(summary.runs);

@@ -27,7 +27,7 @@ struct SeedsSummary {
 
 /// The scenarios of a set in their order. A run without an error counts as infinite in the median.
 /// Of several repeats of a seed the median counts, once.
-std::vector<SeedsSummary> summarise(const std::vector<PlannedRun>& plan, const SetOutcome& outcome);
+std::vector<SeedsSummary> summarise(const std::vector<PlannedRun>& plan, SetOutcome outcome);
 
 /// What a table shows of a run: all, or what is the same to the byte wherever it is run.
 enum class TableColumns { kAll, kOfEstimate };

@@ -24,16 +24,24 @@ namespace fs = std::filesystem;
 /// So many are named.
 constexpr std::size_t kNamed = 10;
 
+/// Those that are the same wherever a run is made.
+std::vector<Metric> metrics_of_estimate() {
+  std::vector<Metric> metrics = known_metrics();
+  std::erase_if(metrics, [](const Metric& metric) { return !metric.of_estimate; });
+  return metrics;
+}
+
 /// What tables and checks of medians and repeats are made from: 10,000 whole ones fill the memory.
 StoredRun without_details(StoredRun run) {
   std::set<std::string> kept;
-  for (const Metric& metric : known_metrics()) kept.insert(metric.key);
+  for (const Metric& metric : metrics_of_estimate()) kept.insert(metric.key);
   std::erase_if(run.values, [&](const auto& value) { return !kept.contains(value.first); });
   Json json = Json::object();
-  for (const char* key : {"scenario", "seed", "hash", "hash_environment", "failure"}) {
+  for (const char* key : {"hash", "failure"}) {
     if (run.json.contains(key)) json[key] = run.json[key];
   }
   run.json = std::move(json);
+  std::erase_if(run.checks, [](const Check& check) { return check.ok; });
   return run;
 }
 
@@ -132,12 +140,6 @@ std::string csv_line(const std::vector<std::string>& cells) {
   return line + "\n";
 }
 
-std::vector<Metric> metrics_of_estimate() {
-  std::vector<Metric> metrics = known_metrics();
-  std::erase_if(metrics, [](const Metric& metric) { return !metric.of_estimate; });
-  return metrics;
-}
-
 std::set<std::string> grid_keys(const SweepPlan& plan) {
   std::set<std::string> keys;
   for (const SweepCell& cell : plan.cells) {
@@ -153,12 +155,13 @@ MergedSweep merge_sweep(const SweepPlan& plan, const std::vector<fs::path>& fold
   std::vector<std::size_t> all(plan.tasks.size());
   std::iota(all.begin(), all.end(), 0);
   MergedSweep merged{planned_runs(plan, all, load, folders.front()), {}, {}};
+  for (PlannedRun& run : merged.plan) run.folder = fs::path();  // 10,000 paths are 10 MB
   Merger merger(folders);
   for (const std::size_t t : all) {
     const PlannedRun& run = merged.plan[t];
     SetRun result{.scenario = run.title,
                   .seed = run.seed,
-                  .folder = run.folder,
+                  .folder = {},
                   .repeat = run.repeat,
                   .repeats = run.repeats};
     merger.find(plan.tasks[t], run, result);

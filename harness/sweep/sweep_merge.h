@@ -14,7 +14,7 @@ namespace vinebench::harness {
 /// The results of a sweep, whatever shards they came from.
 struct MergedSweep {
   std::vector<PlannedRun> plan;  ///< of all tasks, in the plan's order
-  SetOutcome outcome;            ///< likewise; of a run's metrics those of known_metrics() alone
+  SetOutcome outcome;            ///< likewise; of each run the estimate's metrics and what failed
   std::vector<std::size_t> missing;  ///< tasks
 };
 

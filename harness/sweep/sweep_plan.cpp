@@ -57,17 +57,17 @@ Json json_of(const SweepTask& task, const SweepCell& cell) {
   json["repeat"] = task.repeat;
   json["cost_s"] = task.cost;
   json["key"] = task.key;
-  json["folder"] = task.folder.string();
+  json["folder"] = task.folder;
   return json;
 }
 
 /// A folder inside of another, as a plan is a file that anybody may have written.
-fs::path inner_folder(const std::string& text) {
+std::string inner_folder(const std::string& text) {
   const fs::path folder = fs::path(text).lexically_normal();
   if (folder.empty() || folder.is_absolute() || *folder.begin() == ".." || *folder.begin() == ".") {
     fail("folder: '{}': expected one inside of that for the results", text);
   }
-  return folder;
+  return folder.string();
 }
 
 void read_header(const Json& json, SweepPlan& plan, std::size_t& tasks) {
@@ -110,19 +110,19 @@ SweepPlan make_plan(const SweepSpec& spec, const ScenarioLoader& load, const Cos
   std::map<std::string, std::string> scenarios;  // by name
   for (std::size_t c = 0; c < plan.cells.size(); ++c) {
     const SweepCell& cell = plan.cells[c];
-    ScenarioConfig scenario = load(cell.scenario, cell.overrides);
+    const ScenarioConfig scenario = load(cell.scenario, cell.overrides);
     if (scenarios.emplace(scenario.name, cell.scenario).first->second != cell.scenario) {
       fail("scenarios {} and {} have the same name '{}'; expected unique names",
            scenarios[scenario.name], cell.scenario, scenario.name);
     }
     const double seconds = cost(scenario);
+    const RunInputs inputs(scenario);
     const std::vector<std::int64_t> own{scenario.seed};
     for (const std::int64_t seed : spec.seeds.empty() ? own : parse_seeds(spec.seeds)) {
-      scenario.seed = seed;
-      const std::string key = fingerprint_of_inputs(scenario);
+      const std::string key = inputs.fingerprint(seed);
       for (int repeat = 1; repeat <= spec.repeats; ++repeat) {
         plan.tasks.push_back(
-            {c, seed, repeat, key, seconds, folder_of(cell, scenario.name, seed, repeat)});
+            {c, seed, repeat, key, seconds, folder_of(cell, scenario.name, seed, repeat).string()});
       }
     }
   }
@@ -181,23 +181,27 @@ std::vector<PlannedRun> planned_runs(const SweepPlan& plan, const std::vector<st
         "make it again with this one, or run it with that",
         plan.build.version, plan.build.program, here.version, here.program);
   }
-  std::map<std::size_t, std::shared_ptr<const ScenarioConfig>> settings;
+  struct Settings {
+    std::shared_ptr<const ScenarioConfig> scenario;
+    RunInputs inputs;
+  };
+  std::map<std::size_t, Settings> cells;
   std::vector<PlannedRun> runs;
   for (const std::size_t t : tasks) {
     const SweepTask& task = plan.tasks[t];
     const SweepCell& cell = plan.cells[task.cell];
-    std::shared_ptr<const ScenarioConfig>& shared = settings[task.cell];
-    if (!shared) {
-      shared = std::make_shared<const ScenarioConfig>(load(cell.scenario, cell.overrides));
+    auto known = cells.find(task.cell);
+    if (known == cells.end()) {
+      const auto scenario =
+          std::make_shared<const ScenarioConfig>(load(cell.scenario, cell.overrides));
+      known = cells.emplace(task.cell, Settings{scenario, RunInputs(*scenario)}).first;
     }
+    const auto& [scenario, inputs] = known->second;
     const std::string label = cell.label();
-    PlannedRun run{shared,
-                   task.seed,
-                   out / task.folder,
-                   shared->name + (label.empty() ? "" : ", " + label),
-                   task.repeat,
-                   plan.repeats};
-    if (fingerprint_of_inputs(run.scenario()) != task.key) {
+    PlannedRun run{scenario,          task.seed,
+                   out / task.folder, scenario->name + (label.empty() ? "" : ", " + label),
+                   task.repeat,       plan.repeats};
+    if (inputs.fingerprint(task.seed) != task.key) {
       fail(
           "{}, seed {}: is not what it was when the plan was made (the scenario, or a file that it "
           "names, has changed): make the plan again",

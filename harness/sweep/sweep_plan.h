@@ -20,9 +20,9 @@ struct SweepTask {
   std::size_t cell = 0;  ///< index into SweepPlan::cells
   std::int64_t seed = 1;
   int repeat = 1;
-  std::string key;               ///< fingerprint of its inputs (run_inputs.h)
-  double cost = 0;               ///< s of one core, estimated
-  std::filesystem::path folder;  ///< for its results, relative
+  std::string key;     ///< fingerprint of its inputs (run_inputs.h)
+  double cost = 0;     ///< s of one core, estimated
+  std::string folder;  ///< for its results, relative; no path, of which 10,000 take 10 MB
 };
 
 /// Which build the program is.

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "core/files/files.h"
 #include "core/files/output_folder.h"
@@ -121,16 +122,17 @@ int merge(const SweepArguments& arguments) {
   }
   const fs::path out = arguments.out.empty() ? folders.front() : fs::path(arguments.out);
   const FolderLock lock(out);
-  const harness::MergedSweep merged =
+  harness::MergedSweep merged =
       harness::merge_sweep(plan, folders, loader_of(arguments.surroundings));
-  const auto scenarios = harness::summarise(merged.plan, merged.outcome);
+  const std::string csv = harness::format_csv(plan, merged);
+  const auto passed = std::ranges::count_if(merged.outcome.runs, &harness::SetRun::passed);
+  const auto scenarios = harness::summarise(merged.plan, std::move(merged.outcome));
   const std::string table = harness::format_table(scenarios, harness::TableColumns::kOfEstimate);
   const std::string failures = harness::format_failures(scenarios);
   write_file_atomically(out / "table.md", table);
-  write_file_atomically(out / "results.csv", harness::format_csv(plan, merged));
+  write_file_atomically(out / "results.csv", csv);
   write_file_atomically(out / "failures.txt", failures);
   if (plan.tasks.size() <= kShownRuns) fmt::print("{}\n{}", table, failures);
-  const auto passed = std::ranges::count_if(merged.outcome.runs, &harness::SetRun::passed);
   fmt::print("{} runs: {} passed, {} failed, {} missing; table: {}\n", plan.tasks.size(), passed,
              plan.tasks.size() - static_cast<std::size_t>(passed) - merged.missing.size(),
              merged.missing.size(), fs::absolute(out / "table.md").string());

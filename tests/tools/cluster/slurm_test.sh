@@ -1,0 +1,185 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: Vinebench authors
+# SPDX-License-Identifier: Apache-2.0
+
+# A sweep on a Slurm cluster of one node, which this test starts on the loopback device: tasks are
+# killed and requeued at random, the disk is full for a while and the clock jumps, and the merged table
+# is that of a run in one go, to the byte. Needs tools/setup.sh --cluster, and root for the full disk.
+# Usage: slurm_test.sh VINEBENCH ROOT [SEEDS [KILLS]]; two scenarios over so many seeds
+set -uo pipefail
+vinebench=$1
+root=$2
+seeds=${3:-100}
+kills=${4:-20}
+shards=10
+
+for program in munged slurmctld slurmd sbatch; do
+  command -v "$program" >/dev/null || { echo "skipped: no $program (tools/setup.sh --cluster)"; exit 77; }
+done
+
+work=$(mktemp -d)
+mounted=
+stop_cluster() {
+  scancel --me 2>/dev/null
+  pkill -F "$work/slurmctld.pid" 2>/dev/null
+  pkill -F "$work/slurmd.pid" 2>/dev/null
+  sleep 1
+  pkill -F "$work/munged.pid" 2>/dev/null
+  [[ -z $mounted ]] || umount -l "$work/full"
+  rm -rf "$work"
+}
+trap stop_cluster EXIT
+fail() {
+  echo "FAILED: $1"
+  tail -n 20 "$work"/*.log "$work"/out-*.txt 2>/dev/null
+  exit 1
+}
+free_port() { python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])'; }
+
+# --- the cluster ---
+chmod 755 "$work"
+mkdir -p "$work"/{state,spool,results,full}
+(umask 077 && dd if=/dev/urandom of="$work/munge.key" bs=1024 count=1 status=none)
+export SLURM_CONF=$work/slurm.conf
+cpus=$(nproc)
+cat >"$SLURM_CONF" <<EOF
+ClusterName=vinebench
+SlurmctldHost=$(hostname)(127.0.0.1)
+AuthType=auth/munge
+AuthInfo=socket=$work/munge.socket
+CryptoType=crypto/munge
+SlurmUser=$(id -un)
+SlurmdUser=$(id -un)
+SlurmctldPort=$(free_port)
+SlurmdPort=$(free_port)
+StateSaveLocation=$work/state
+SlurmdSpoolDir=$work/spool
+SlurmctldPidFile=$work/slurmctld.pid
+SlurmdPidFile=$work/slurmd.pid
+SlurmctldLogFile=$work/slurmctld.log
+SlurmdLogFile=$work/slurmd.log
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_CPU
+ReturnToService=2
+MinJobAge=3600
+KillWait=2
+JobRequeue=1
+NodeName=$(hostname) NodeAddr=127.0.0.1 CPUs=$cpus State=UNKNOWN
+PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
+EOF
+munged --force --key-file="$work/munge.key" --socket="$work/munge.socket" --pid-file="$work/munged.pid" \
+  --log-file="$work/munged.log" --seed-file="$work/munge.seed" >/dev/null 2>&1 || fail "munged"
+slurmctld -i >/dev/null 2>&1 || fail "slurmctld"
+slurmd >/dev/null 2>&1 || fail "slurmd"
+for _ in $(seq 60); do
+  sinfo -h -o %t 2>/dev/null | grep -q idle && break
+  sleep 0.5
+done
+sinfo -h -o %t | grep -q idle || fail "the node is not idle"
+
+# --- the sweep ---
+cd "$work" || exit 1
+cat >spec.yaml <<EOF
+scenarios: [quick-loop, aisle-loop]
+seeds: 1..$seeds
+set: {renderer.engine: fake, duration: 0.3}
+EOF
+"$vinebench" sweep plan spec.yaml --out plan.jsonl 2>plan.log || fail "plan"
+tasks=$((2 * seeds))
+
+# The clock of half of the shards jumps by a month forth and back while they run.
+clock=$(find /usr/lib -name libfaketime.so.1 2>/dev/null | head -n 1)
+echo "+0" >clock.txt
+cat >program.sh <<EOF
+#!/bin/sh
+if [ -n "$clock" ] && [ \$((SLURM_ARRAY_TASK_ID % 2)) -eq 0 ]; then
+  export LD_PRELOAD=$clock FAKETIME_TIMESTAMP_FILE=$work/clock.txt FAKETIME_NO_CACHE=1
+  export FAKETIME_DONT_FAKE_MONOTONIC=1
+fi
+exec "$vinebench" "\$@"
+EOF
+chmod +x program.sh
+[[ -n $clock ]] || echo "note: without libfaketime no clock jumps"
+
+export VINEBENCH=$work/program.sh
+submit() { # submit OUT ARRAY; prints the job's number
+  sbatch --parsable --mem=0 --output="$work/out-%a.txt" --array="$2" "$root/tools/cluster/sweep.sbatch" \
+    plan.jsonl "$1" $shards
+}
+running() { squeue -h -r -j "$1" -t running -o %i; }
+wait_for() { # until no task of the job is left, or no progress for five minutes
+  local job=$1
+  for _ in $(seq 3000); do
+    [[ -n $(squeue -h -r -j "$job" -o %i 2>/dev/null) ]] || return 0
+    sleep 0.2
+  done
+  fail "job $job does not end"
+}
+failed_tasks() { # of the job, by accounting of the controller
+  scontrol show job "$1" -o 2>/dev/null | grep -E 'JobState=(FAILED|CANCELLED|TIMEOUT|NODE_FAIL|OUT_OF_MEMORY)' |
+    sed -E 's/.*ArrayTaskId=([0-9]+).*/\1/' | sort -nu
+}
+
+# First onto a disk that is too small for all of it.
+out=$work/results
+if [[ $(id -u) -eq 0 ]] && mount -t tmpfs -o size=1500k none "$work/full" 2>/dev/null; then
+  mounted=1
+  job=$(submit "$work/full" 1-2) || fail "sbatch"
+  wait_for "$job"
+  grep -qs 'No space left on device' "$work"/out-[12].txt || fail "the full disk was not noticed"
+  # Its quota is raised, and the same shards go on.
+  mount -o remount,size=1g "$work/full" || fail "remount"
+  out=$work/full
+else
+  echo "note: without root no disk is full"
+fi
+
+RANDOM=20
+job=$(submit "$out" 1-$shards) || fail "sbatch"
+killed=0
+while [[ $killed -lt $kills ]]; do
+  sleep "0.$((RANDOM % 9 + 1))"
+  mapfile -t ids < <(running "$job")
+  [[ ${#ids[@]} -gt 0 ]] || { [[ -n $(squeue -h -r -j "$job" -o %i) ]] && continue || break; }
+  id=${ids[RANDOM % ${#ids[@]}]}
+  ((RANDOM % 2)) && echo "+30d" >clock.txt || echo "-30d" >clock.txt
+  if ((RANDOM % 2)); then
+    # As a node that runs out of memory does; a failed task is requeued by hand.
+    pkill -9 -f -- "--shard ${id#*_}/$shards " || continue
+    for _ in $(seq 50); do running "$job" | grep -qx "$id" || break; sleep 0.1; done
+    scontrol requeue "$id" 2>/dev/null
+  else
+    # As a job of a higher priority does.
+    scontrol requeue "$id" 2>/dev/null || continue
+  fi
+  killed=$((killed + 1))
+  # Slurm waits two minutes before it starts a requeued task again.
+  for _ in $(seq 30); do
+    scontrol update jobid="$id" starttime=now 2>/dev/null && break
+    sleep 0.1
+  done
+done
+for _ in $(seq 600); do
+  mapfile -t waiting < <(squeue -h -r -j "$job" -t pending -o %i)
+  for id in "${waiting[@]}"; do scontrol update jobid="$id" starttime=now 2>/dev/null; done
+  [[ -n $(squeue -h -r -j "$job" -o %i) ]] || break
+  sleep 0.5
+done
+wait_for "$job"
+echo "$tasks runs in $shards tasks, $killed killed and requeued"
+[[ $killed -eq $kills ]] || fail "only $killed of $kills kills: too few seeds"
+bad=$(failed_tasks "$job")
+[[ -z $bad ]] || fail "tasks that failed in the end: $bad"
+
+"$vinebench" sweep merge plan.jsonl "$out" --out merged >merge.txt 2>&1
+[[ $? -le 1 ]] || { cat merge.txt; fail "merge"; }
+
+# --- in one go ---
+"$vinebench" run quick-loop aisle-loop --seeds "1..$seeds" --jobs "$cpus" --threads "$cpus" \
+  --set renderer.engine=fake --set duration=0.3 --out whole >whole.txt 2>&1
+[[ $? -le 1 ]] || fail "run"
+cmp merged/table.md whole/table.md || fail "the merged table is another than that of a run in one go"
+sha256sum merged/table.md whole/table.md | cut -c 1-64 | uniq -c
+echo "slurm: passed"
