@@ -3,11 +3,12 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Installs missing Debian packages for building Vinebench, as root or through sudo. No effect if all
-# are installed. Usage: setup.sh [--ros] [--browser] [--fuzz] [--packages] [--cycles]; with --ros also
+# are installed. Usage: setup.sh [--ros] [--browser] [--fuzz] [--packages] [--cycles] [--cluster]; with --ros also
 # those for recording ROS 1 bags, and for the tests that read data sets with Python: 136 packages,
 # 323 MB; with --browser also Chromium, for the tests of reports; with --fuzz also clang and its
 # libFuzzer; with --packages also what makes Debian packages and wheels; with --cycles also Blender, for
-# reference pictures: 414 MB.
+# reference pictures: 414 MB; with --cluster also Slurm, GNU parallel and libfaketime, for the tests of
+# sweeps.
 set -euo pipefail
 
 packages=(
@@ -52,8 +53,11 @@ for option in "$@"; do
     --cycles)
       packages+=(blender)
       ;;
+    --cluster)
+      packages+=(slurm-wlm munge parallel libfaketime)
+      ;;
     *)
-      echo "setup.sh: $option is no option; usage: setup.sh [--ros] [--browser] [--fuzz] [--packages] [--cycles]" >&2
+      echo "setup.sh: $option is no option; usage: setup.sh [--ros] [--browser] [--fuzz] [--packages] [--cycles] [--cluster]" >&2
       exit 2
       ;;
   esac

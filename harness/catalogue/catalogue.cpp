@@ -163,6 +163,13 @@ std::string description_in(std::istream& in) {
 
 }  // namespace
 
+std::string beside_or_name(const std::filesystem::path& file, const std::string& text) {
+  std::error_code ignored;
+  const std::filesystem::path beside = std::filesystem::absolute(file).parent_path() / text;
+  const bool there = std::filesystem::is_regular_file(beside, ignored);
+  return there ? beside.lexically_normal().string() : text;
+}
+
 std::string describe_file(const fs::path& file) {
   try {
     InputStream in(file, FileKind::kYaml);

@@ -40,6 +40,9 @@ class Catalogue {
   std::vector<std::filesystem::path> folders_;
 };
 
+/// What a file means by the text: a file beside it if there is one, else the text itself, a name.
+std::string beside_or_name(const std::filesystem::path& file, const std::string& text);
+
 /// Where the data of a program is: in the working directory, in `../share/vinebench` of the
 /// program's folder (installed), and in the folder that `data_folder.txt` beside the program names
 /// (as built).

@@ -135,6 +135,7 @@ DatasetFrame DatasetWriter::frame_of(const Sample& sample) const {
 
 void DatasetWriter::on_tick(const Sample& sample, const Estimate&) {
   if (!plan_.has_frame(sample.frame.index)) return;
+  frames_hash_.on_tick(sample, {});
   encoder_->submit(frame_of(sample));
   ++frames_;
 }
@@ -144,6 +145,7 @@ void DatasetWriter::on_finish(const SlamSummary&) {
   manifest_->add_rest({DatasetCard::kName});
   card_.frames = frames_;
   card_.complete = frames_ == card_.planned_frames;
+  card_.frames_xxh128 = frames_hash_.digits();
   card_.files = manifest_->files();
   card_.files_xxh128 = xxh128(read_file(folder_ / FileManifest::kName));
   write_card(folder_, card_);

@@ -7,6 +7,7 @@
 #include "harness/datasets/format/dataset_card.h"
 #include "harness/datasets/format/dataset_encoder.h"
 #include "harness/datasets/format/record_options.h"
+#include "harness/run/run_hash.h"
 #include "harness/run/sink.h"
 
 namespace vinebench::harness {
@@ -41,6 +42,7 @@ class DatasetWriter : public Sink {
   std::vector<std::size_t> cameras_;  ///< of the rig
   DatasetCard card_;
   std::unique_ptr<FileManifest> manifest_;
+  RunHash frames_hash_;
   std::int64_t frames_ = 0;
   std::unique_ptr<DatasetEncoder> encoder_;
 };

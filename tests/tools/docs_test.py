@@ -92,7 +92,7 @@ class Program:
 def check_command(words, program, root):
     """A problem, or None."""
     command = [words[0]]
-    if words[0] == "bench" and len(words) > 1:
+    if words[0] in ("bench", "sweep") and len(words) > 1:
         command.append(words[1])
     options = program.options(*command)
     if options is None:

@@ -18,6 +18,7 @@ Command report_command();
 Command plan_command();
 Command guard_command(const Surroundings& surroundings);
 Command sweep_command(const Surroundings& surroundings);
+Command dataset_command(const Surroundings& surroundings);
 Command explain_command(const Surroundings& surroundings);
 Command render_command(const Surroundings& surroundings);
 Command realism_command(const Surroundings& surroundings);

@@ -33,6 +33,10 @@ Command sweep_command(const Surroundings&) {
   return refusal("sweep");
 }
 
+Command dataset_command(const Surroundings&) {
+  return refusal("dataset");
+}
+
 Command explain_command(const Surroundings&) {
   return refusal("explain");
 }

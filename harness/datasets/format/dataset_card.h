@@ -27,8 +27,10 @@ struct DatasetCard {
   std::vector<std::string> cameras;
   std::int64_t frames = 0;
   std::int64_t planned_frames = 0;
-  std::int64_t files = 0;       ///< in the list of files
-  std::string files_xxh128;     ///< hash of that list, which has the hash of every file
+  std::int64_t files = 0;    ///< in the list of files
+  std::string files_xxh128;  ///< hash of that list, which has the hash of every file
+  /// Hash of all frames, images, readings and true poses, whatever the formats; of one sequence.
+  std::string frames_xxh128;
   std::string settings_xxh128;  ///< hash of scenario.resolved.yaml and of the options
   std::string units = "m, s, rad, px; times of files in ns since the scenario's start";
   std::string frames_and_axes =
@@ -51,6 +53,7 @@ struct DatasetCard {
     archive("planned_frames", planned_frames, Range::non_negative());
     archive("files", files, Range::non_negative());
     archive("files_xxh128", files_xxh128);
+    archive("frames_xxh128", frames_xxh128);
     archive("settings_xxh128", settings_xxh128);
     archive("units", units);
     archive("frames_and_axes", frames_and_axes);

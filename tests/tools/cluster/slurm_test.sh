@@ -31,7 +31,7 @@ stop_cluster() {
 trap stop_cluster EXIT
 fail() {
   echo "FAILED: $1"
-  tail -n 20 "$work"/*.log "$work"/out-*.txt 2>/dev/null
+  tail -n 4 "$work"/*.log "$work"/out-*.txt 2>/dev/null
   exit 1
 }
 free_port() { python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])'; }
@@ -129,9 +129,9 @@ if [[ $(id -u) -eq 0 ]] && mount -t tmpfs -o size=1500k none "$work/full" 2>/dev
   job=$(submit "$work/full" 1-2) || fail "sbatch"
   wait_for "$job"
   grep -qs 'No space left on device' "$work"/out-[12].txt || fail "the full disk was not noticed"
-  # Its quota is raised, and the same shards go on.
-  mount -o remount,size=1g "$work/full" || fail "remount"
-  out=$work/full
+  # What is whole moves to a larger disk, where the same shards go on.
+  cp -a "$work/full/." "$out"
+  umount "$work/full" && mounted=
 else
   echo "note: without root no disk is full"
 fi
@@ -182,4 +182,17 @@ bad=$(failed_tasks "$job")
 [[ $? -le 1 ]] || fail "run"
 cmp merged/table.md whole/table.md || fail "the merged table is another than that of a run in one go"
 sha256sum merged/table.md whole/table.md | cut -c 1-64 | uniq -c
+# --- the same by Snakemake, whose executor submits each shard as a job of its own ---
+if command -v snakemake >/dev/null && snakemake --help | grep -q slurm-status-command; then
+  snakemake --snakefile "$root/tools/cluster/Snakefile" --executor slurm --jobs 4 --quiet all \
+    --slurm-status-command squeue --slurm-no-account --slurm-init-seconds-before-status-checks 2 \
+    --seconds-between-status-checks 2 --default-resources slurm_partition=all mem_mb=0 \
+    --set-resources shard:mem_mb=0 --latency-wait 10 \
+    --config spec=spec.yaml out=snake shards=4 "vinebench=$vinebench" >snake.log 2>&1 ||
+    { tail -n 40 snake.log; fail "snakemake"; }
+  cmp snake/table.md whole/table.md || fail "Snakemake's table is another"
+  echo "snakemake on slurm: the same table"
+else
+  echo "note: without snakemake and its executor for Slurm no workflow"
+fi
 echo "slurm: passed"

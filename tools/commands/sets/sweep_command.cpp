@@ -54,18 +54,11 @@ harness::ScenarioLoader loader_of(const Surroundings& surroundings) {
   };
 }
 
-/// Files are relative to the specification, names are those of the catalogue.
-void resolve_files(harness::SweepSpec& spec, const fs::path& file) {
-  std::error_code ignored;
-  for (std::string& scenario : spec.scenarios) {
-    const fs::path beside = fs::absolute(file).parent_path() / scenario;
-    if (fs::is_regular_file(beside, ignored)) scenario = beside.lexically_normal().string();
-  }
-}
-
 int plan(const SweepArguments& arguments) {
   harness::SweepSpec spec = harness::load_sweep_spec(arguments.spec);
-  resolve_files(spec, arguments.spec);
+  for (std::string& scenario : spec.scenarios) {
+    scenario = harness::beside_or_name(arguments.spec, scenario);
+  }
   std::map<std::string, double> measured;
   if (!arguments.measured.empty()) measured = harness::measured_costs(arguments.measured);
   const harness::SweepPlan plan = harness::make_plan(
