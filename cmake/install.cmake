@@ -55,7 +55,7 @@ install(TARGETS vinebench RUNTIME COMPONENT program)
 install(TARGETS vinebench_plugin_host RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/vinebench
         COMPONENT program)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios ${PROJECT_SOURCE_DIR}/worlds ${PROJECT_SOURCE_DIR}/models
-        ${PROJECT_SOURCE_DIR}/cultivars COMPONENT program DESTINATION ${CMAKE_INSTALL_DATADIR}/vinebench)
+        ${PROJECT_SOURCE_DIR}/cultivars ${PROJECT_SOURCE_DIR}/collections COMPONENT program DESTINATION ${CMAKE_INSTALL_DATADIR}/vinebench)
 install(FILES ${PROJECT_SOURCE_DIR}/tools/completion/vinebench.bash COMPONENT program RENAME vinebench
         DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 install(FILES ${PROJECT_SOURCE_DIR}/tools/completion/_vinebench COMPONENT program

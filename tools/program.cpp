@@ -23,16 +23,28 @@ Command program(const Surroundings& surroundings) {
                 .description = "Measure the speed of a part",
                 .commands = {bench_render_command(surroundings), bench_slam_command(surroundings),
                              bench_record_command(surroundings)}};
-  return {
-      .name = "vinebench",
-      .description = "Deterministic test bench for multicamera visual SLAM in vineyards",
-      .commands = {run_command(surroundings), replay_command(surroundings),
-                   record_command(surroundings), check_command(), eval_command(), compare_command(),
-                   report_command(), plan_command(), guard_command(surroundings),
-                   sweep_command(surroundings), dataset_command(surroundings),
-                   explain_command(surroundings), realism_command(surroundings),
-                   render_command(surroundings), std::move(bench), world_command(),
-                   list_command(surroundings), reference_command(surroundings), help_command()}};
+  return {.name = "vinebench",
+          .description = "Deterministic test bench for multicamera visual SLAM in vineyards",
+          .commands = {run_command(surroundings),
+                       replay_command(surroundings),
+                       record_command(surroundings),
+                       check_command(),
+                       eval_command(),
+                       compare_command(),
+                       report_command(),
+                       plan_command(),
+                       guard_command(surroundings),
+                       sweep_command(surroundings),
+                       dataset_command(surroundings),
+                       place_tags_command(),
+                       explain_command(surroundings),
+                       realism_command(surroundings),
+                       render_command(surroundings),
+                       std::move(bench),
+                       world_command(),
+                       list_command(surroundings),
+                       reference_command(surroundings),
+                       help_command()}};
 }
 
 }  // namespace vinebench::tools

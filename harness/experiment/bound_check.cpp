@@ -9,57 +9,14 @@
 #include <optional>
 #include <string_view>
 
+#include "harness/experiment/clear_view.h"
 #include "harness/judge/loop_judge.h"
-#include "sim/truth/truth.h"
 #include "sim/world/world_layout.h"
 
 namespace vinebench::harness {
 namespace {
 
 constexpr double kHalfTurn = 180;  // degrees
-
-/// Tags in view of a rover if nothing occludes them.
-class ClearView {
- public:
-  explicit ClearView(const Rig& rig) : rig_(rig) {
-    for (const int camera : rig.tag_cameras) {
-      const PinholeCamera& model = rig.cameras[static_cast<std::size_t>(camera)].model;
-      labels_.emplace_back(model.height, model.width, CV_8UC1,
-                           cv::Scalar(static_cast<double>(Label::kTag)));
-    }
-  }
-
-  std::vector<int> of(const std::vector<WorldTag>& tags, const Pose& T_world_body) const {
-    std::vector<int> seen;
-    for (std::size_t tag = 0; tag < tags.size(); ++tag) {
-      if (sees(tags[tag], T_world_body)) seen.push_back(static_cast<int>(tag));
-    }
-    return seen;
-  }
-
- private:
-  bool sees(const WorldTag& tag, const Pose& T_world_body) const {
-    for (std::size_t i = 0; i < labels_.size(); ++i) {
-      const RigCamera& camera = rig_.cameras[static_cast<std::size_t>(rig_.tag_cameras[i])];
-      const Pose T_world_cam = T_world_body * camera.T_body_cam;
-      if (sim::is_tag_visible(tag, camera.model, T_world_cam, labels_[i])) return true;
-    }
-    return false;
-  }
-
-  const Rig& rig_;
-  std::vector<cv::Mat> labels_;  ///< all tag, of each tag camera
-};
-
-/// On the ground there, without the suspension of wheels on bumps.
-Pose standing_at(const Eigen::Vector3d& pose, const sim::Terrain& terrain) {
-  constexpr double kWheelReach = 0.2;  // m
-  const Eigen::Vector2d place = pose.head<2>();
-  const auto tilt = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(),
-                                                       terrain.normal(place, kWheelReach));
-  return {(tilt * from_roll_pitch_yaw({0, 0, pose.z()})).normalized(),
-          {place.x(), place.y(), terrain.height(place)}};
-}
 
 RunRecord planned_record(const ScenarioConfig& scenario) {
   const sim::SimulationConfig& simulation = scenario.simulation;

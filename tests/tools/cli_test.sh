@@ -257,6 +257,15 @@ expect 2 "mistyped label" "world.yaml:3: vines.mesh_import.labels.Bark" "did you
 court=(--set renderer.engine=fake --set duration=1)
 moment=(--set renderer.engine=fake --set duration=0.3)
 
+expect 0 "place-tags" "planned                   3 tags" "own" -- place-tags typical-vineyard \
+  --route typical-one-tag --budget 3 --out planned
+[[ $(wc -l <planned/tags.csv) -eq 4 && -s planned/plan.svg ]] || report "place-tags: no list or picture"
+expect 0 "a planned world" -- render "$PWD/planned/world.yaml" --set vines.templates=1 --set vines.bbch=0 \
+  --camera 32x24@20 --pose 0,0,1,0 --out planned.png
+expect 1 "place-tags, not to be kept" "with all places that are seen" -- place-tags typical-vineyard --route typical-one-tag \
+  --error 0.001 --out planned
+expect 2 "place-tags without a route" "--route" -- place-tags typical-vineyard
+
 # Other SLAM systems, and scenarios that are not trusted.
 printf '#!/bin/sh\n[ "$(wc -l <"$1/frames.csv")" -gt 1 ] && kill -SEGV $$\n' >crashes.sh
 chmod +x crashes.sh

@@ -64,9 +64,9 @@ sed -i 's/4$/6/' secrets.yaml
 expect 2 "another secret" "is not the one that was committed to" -- recipe.yaml --out opened \
   --secrets secrets.yaml
 
-"$vinebench" dataset "$root/scenarios/collections/vinebench-100.yaml" --list >stdout 2>stderr
+"$vinebench" dataset "$root/collections/vinebench-100.yaml" --list >stdout 2>stderr
 [[ $(wc -l <stdout) -eq 100 ]] || report "vinebench-100: expected 100 sequences"
-[[ $(stat -c %s "$root/scenarios/collections/vinebench-100.yaml") -le 51200 ]] ||
+[[ $(stat -c %s "$root/collections/vinebench-100.yaml") -le 51200 ]] ||
   report "vinebench-100: is larger than 50 kB"
 
 [[ $failures -eq 0 ]] && echo "collection: passed"

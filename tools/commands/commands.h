@@ -19,6 +19,7 @@ Command plan_command();
 Command guard_command(const Surroundings& surroundings);
 Command sweep_command(const Surroundings& surroundings);
 Command dataset_command(const Surroundings& surroundings);
+Command place_tags_command();
 Command explain_command(const Surroundings& surroundings);
 Command render_command(const Surroundings& surroundings);
 Command realism_command(const Surroundings& surroundings);

@@ -37,6 +37,10 @@ Command dataset_command(const Surroundings&) {
   return refusal("dataset");
 }
 
+Command place_tags_command() {
+  return refusal("place-tags");
+}
+
 Command explain_command(const Surroundings&) {
   return refusal("explain");
 }
