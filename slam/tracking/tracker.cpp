@@ -22,6 +22,8 @@ constexpr double kSameHeading = 40.0 * std::numbers::pi / 180;  // rad
 /// What a pose found after an odometry gap may differ from the dead-reckoned one: this many
 /// standard deviations, and what the found one's own error may be.
 constexpr double kMaxSigmas = 4;
+/// Nine in ten are within this, on three axes together: what is farther must be borne out.
+constexpr double kLikelySigmas = 2.5;
 constexpr double kPoseNoise = 0.05;     // m
 constexpr double kHeadingNoise = 0.05;  // rad
 
@@ -228,8 +230,10 @@ bool Tracker::may_be_elsewhere(const TrackedFrame& tracked, const Pose& predicte
   const double dt = to_seconds(tracked.frame->stamp - stamp_);
   const bool jolted = velocity_known_ && !dead_reckoning_.active() &&
                       jump > kMaxAcceleration * dt * dt + kPoseNoise;
-  return guessed_ || jolted || (by_looks && jump > kLookAlike) ||
-         kMaxSigmas * dead_reckoning_.sigma_position() > kLookAlike;
+  const double sigma = dead_reckoning_.sigma_position();
+  const bool unlikely = dead_reckoning_.active() && jump > kLikelySigmas * sigma + kPoseNoise;
+  return guessed_ || jolted || unlikely || (by_looks && jump > kLookAlike) ||
+         kMaxSigmas * sigma > kLookAlike;
 }
 
 /// Of the landmarks nearby that the pose would have in view, those that are among its inliers.

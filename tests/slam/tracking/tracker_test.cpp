@@ -186,6 +186,25 @@ TEST_F(TrackerTest, AfterALongGapAFewFeaturesAreNotEnough) {
   EXPECT_TRUE(track_every(12, tracker, 21, ahead(0.42)).tracked);
 }
 
+// Six blind frames of 1/15 s with an unknown acceleration of 0.5 m/s^2 leave a standard deviation
+// of 0.04 m. The body is expected at 0.24 m; 2.5 of these and the pose's own 0.05 m are 0.15 m:
+// what is farther must be borne out, though 4 of them would let it pass.
+TEST_F(TrackerTest, AfterAGapAnUnlikelyPoseMustBeBorneOutByWhatIsThere) {
+  const auto after_gap = [&] {
+    Tracker tracker = moving(5);
+    for (int i = 6; i < 12; ++i) track(tracker, i, ahead(0.02 * i), all_blind());
+    return tracker;
+  };
+  Tracker likely = after_gap();
+  EXPECT_TRUE(track_every(12, likely, 12, ahead(0.24 + 0.13)).tracked);
+  Tracker tracker = after_gap();
+  const TrackedFrame few = track_every(12, tracker, 12, ahead(0.24 + 0.18));
+  EXPECT_FALSE(few.tracked);
+  EXPECT_GE(few.motion.inliers, settings_.tracking.min_inliers);
+  Tracker other = after_gap();
+  EXPECT_TRUE(track_every(2, other, 12, ahead(0.24 + 0.18)).tracked);
+}
+
 // In between two frames the body does not move by 0.8 m: that place is believed by its looks, if
 // they are those of most that is there.
 TEST_F(TrackerTest, AJumpByLooksMustBeBorneOutByWhatIsThere) {
