@@ -139,10 +139,12 @@ class Planner {
 
 TagPlan plan_tags(const PoseChain& chain, const std::vector<TagCandidate>& candidates,
                   const TagDemand& demand) {
-  for (int tags = demand.error ? 0 : demand.budget;; ++tags) {
+  // Before it is tried tag by tag.
+  const bool hopeless = demand.error && predict_tags(chain, candidates).error > *demand.error;
+  for (int tags = demand.error && !hopeless ? 0 : demand.budget;; ++tags) {
     Planner planner(chain, candidates);
     planner.choose(tags);
-    planner.exchange();
+    if (!hopeless) planner.exchange();
     const bool last = tags >= demand.budget || planner.size() < tags;
     if (last || planner.error() <= *demand.error) return planner.plan();
   }

@@ -33,7 +33,8 @@ struct TagPlan {
 /// least 1 - 1/e of the information of the best one (Nemhauser, Wolsey and Fisher 1978); how near
 /// it is to the best is bounded besides by what every other tag would still add. Then single tags
 /// are exchanged as long as that lowers the error. Where an error is demanded, this is done for one
-/// more tag each time, until it is kept.
+/// more tag each time, until it is kept; where all together do not keep it, the plan has all that
+/// the budget allows.
 TagPlan plan_tags(const PoseChain& chain, const std::vector<TagCandidate>& candidates,
                   const TagDemand& demand);
 

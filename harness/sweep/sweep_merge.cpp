@@ -5,10 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <set>
+#include <utility>
 
+#include "core/config/yaml_writer.h"
 #include "core/files/files.h"
 #include "core/util/error.h"
 #include "harness/report/metric_table.h"
@@ -104,25 +107,28 @@ class Merger {
       object("{}: metrics.json: has no hash", folder.string());
       return std::nullopt;
     }
-    check_environment(folder, *result);
+    check_environment(folder, run, *result);
     return without_details(*std::move(result));
   }
 
-  void check_environment(const fs::path& folder, const StoredRun& result) {
-    if (!environment_) {
-      environment_ = result.hash_environment();
-      environment_of_ = folder;
-      return;
-    }
-    const std::string names = environment_differences(*environment_, result.hash_environment());
+  /// Results of one renderer are made where all that computes is the same.
+  void check_environment(const fs::path& folder, const PlannedRun& run, const StoredRun& result) {
+    std::string& renderer = renderers_[run.settings.get()];
+    if (renderer.empty()) renderer = format_yaml(run.settings->simulation.renderer);
+    const auto [first, is_first] =
+        environments_.try_emplace(renderer, result.hash_environment(), folder);
+    if (is_first) return;
+    const auto& [environment, there] = first->second;
+    const std::string names = environment_differences(environment, result.hash_environment());
     if (names.empty()) return;
     object("{}: was made where {} is another than for {}: hashes are not comparable",
-           folder.string(), names, environment_of_.string());
+           folder.string(), names, there.string());
   }
 
   const std::vector<fs::path>& folders_;
-  std::optional<NamedValues> environment_;  ///< of the first result
-  fs::path environment_of_;
+  std::map<const ScenarioConfig*, std::string> renderers_;  ///< their settings
+  /// By the renderer, of the first result, and where that is.
+  std::map<std::string, std::pair<NamedValues, fs::path>> environments_;
   std::vector<std::string> objections_;
 };
 

@@ -52,9 +52,9 @@ TEST_F(ProgramTest, CommandsThatNeedPlantsTakeACache) {
   for (const auto& [name, command] : commands_) {
     if (std::ranges::count(command.options, "--cache", &Option::name) > 0) with_cache.insert(name);
   }
-  EXPECT_EQ(with_cache,
-            (std::set<std::string>{"guard", "explain", "run", "realism", "record", "render",
-                                   "bench render", "bench slam", "bench record"}));
+  EXPECT_EQ(with_cache, (std::set<std::string>{"guard", "explain", "run", "realism", "record",
+                                               "render", "bench render", "bench slam",
+                                               "bench record", "dataset", "sweep run"}));
 }
 
 TEST_F(ProgramTest, WhatAnOptionExcludesIsAnOptionOfTheSameCommand) {

@@ -132,6 +132,27 @@ TEST_F(SweepMergeTest, OtherEnvironmentsAreRefused) {
   EXPECT_THAT(message, HasSubstr("\nand 1 more"));
 }
 
+// The renderers of a grid have libraries of their own.
+TEST_F(SweepMergeTest, AnotherRendererMayHaveAnotherEnvironment) {
+  const auto load = [](const std::string& name, const std::vector<Override>& overrides) {
+    ScenarioConfig scenario = test::load_fake(name, overrides);
+    scenario.simulation.renderer.lod_scale = *scenario.simulation.duration;
+    return scenario;
+  };
+  SweepSpec spec;
+  spec.scenarios = {"row"};
+  spec.grid = {{"speed", {"1", "2"}}};
+  plan_ = make_plan(spec, load, [](const auto&) { return 1.0; });
+  SetOptions options;
+  options.run = test::run_fake;
+  run_set(planned_runs(plan_, {0, 1}, load, folder_ / "part"), options);
+  const fs::path file = file_of("part", "metrics.json");
+  Json json = Json::parse(read_file(file));
+  json["hash_environment"]["libm"] = "another";
+  write_file_atomically(file, json.dump());
+  EXPECT_TRUE(merge_sweep(plan_, {folder_ / "part"}, load).missing.empty());
+}
+
 TEST_F(SweepMergeTest, RowsHaveTheEstimatesMetricsAlone) {
   run({1, 1}, "part");
   const std::string csv = format_csv(plan_, merge({"part"}));
