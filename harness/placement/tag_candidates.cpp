@@ -99,7 +99,7 @@ std::vector<TagCandidate> post_candidates(const sim::WorldConfig& world, double 
       sim::WorldConfig::Tag tag;
       tag.id = static_cast<int>(tags.size());
       tag.size = size;
-      tag.post.emplace();
+      tag.post = sim::WorldConfig::PostSide{};
       tag.post->row = post.row;
       tag.post->index = post.index;
       tag.post->side = side;

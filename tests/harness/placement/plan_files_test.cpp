@@ -15,7 +15,7 @@ using testing::HasSubstr;
 TagCandidate candidate(int row, int index) {
   TagCandidate made;
   made.tag.id = 77;
-  made.tag.post.emplace();
+  made.tag.post = sim::WorldConfig::PostSide{};
   made.tag.post->row = row;
   made.tag.post->index = index;
   made.tag.post->side = sim::WorldConfig::PostSide::Side::kLeft;
