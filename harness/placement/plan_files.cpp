@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 #include <tuple>
 
+#include "core/config/yaml_block.h"
 #include "sim/world/world_layout.h"
 
 namespace vinebench::harness {
@@ -85,19 +85,6 @@ std::vector<TagCandidate> planned_tags(const std::vector<TagCandidate>& candidat
 }
 
 std::string with_tags(const std::string& text, const std::vector<TagCandidate>& tags) {
-  std::istringstream lines(text);
-  std::string before;
-  std::string after;
-  bool found = false;
-  bool inside = false;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("tags:")) {
-      found = inside = true;
-      continue;
-    }
-    if (inside && !line.starts_with(' ') && !line.starts_with('-')) inside = false;
-    if (!inside) (found ? after : before) += line + "\n";
-  }
   std::string block = "tags:\n";
   for (const TagCandidate& tag : tags) {
     const auto& post = tag.tag.post.value();
@@ -105,7 +92,7 @@ std::string with_tags(const std::string& text, const std::vector<TagCandidate>& 
         "  - {{id: {}, size: {}, post: {{row: {}, index: {}, side: {}, height: {}}}}}\n",
         tag.tag.id, tag.tag.size, post.row, post.index, name_of(post.side), post.height);
   }
-  return before + block + after;
+  return with_block(text, "tags", block);
 }
 
 std::string tag_list(const std::vector<TagCandidate>& tags) {

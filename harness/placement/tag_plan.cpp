@@ -63,7 +63,7 @@ class Planner {
   TagPlan plan() const {
     TagPlan plan;
     plan.chosen = chosen_;
-    plan.information = chain_.information(measured_);
+    plan.information = information_;
     plan.most_information = plan.information + most_to_add();
     plan.errors = chain_.position_errors(measured_);
     plan.error = share_of(plan.errors, kPlannedShare);
@@ -76,6 +76,7 @@ class Planner {
 
   void take(std::size_t candidate) {
     add(candidates_[candidate], measured_);
+    information_ = chain_.information(measured_);
     is_chosen_[candidate] = true;
     chosen_.push_back(candidate);
   }
@@ -84,7 +85,7 @@ class Planner {
   double gain_of(std::size_t candidate) const {
     Measured with = measured_;
     add(candidates_[candidate], with);
-    return chain_.information(with) - chain_.information(measured_);
+    return chain_.information(with) - information_;
   }
 
   /// The sum of the greatest gains of as many others: no set of that size has more beside these.
@@ -126,11 +127,13 @@ class Planner {
   void sum_up() {
     measured_.assign(chain_.size(), Matrix6d::Zero());
     for (const std::size_t c : chosen_) add(candidates_[c], measured_);
+    information_ = chain_.information(measured_);
   }
 
   const PoseChain& chain_;
   const std::vector<TagCandidate>& candidates_;
   Measured measured_;
+  double information_ = 0;  ///< of these, nats
   std::vector<std::size_t> chosen_;
   std::vector<bool> is_chosen_;
 };

@@ -12,6 +12,7 @@
 #include <optional>
 #include <sstream>
 
+#include "core/config/yaml_block.h"
 #include "core/files/files.h"
 #include "core/files/output_file.h"
 #include "core/util/error.h"
@@ -127,22 +128,7 @@ std::string format_guard(const std::vector<GuardBound>& bounds, const std::strin
 }
 
 std::string with_guard(const std::string& text, const std::string& block) {
-  std::istringstream lines(text);
-  std::string before;
-  std::string after;
-  bool found = false;
-  bool inside = false;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("guard:")) {
-      found = inside = true;
-      continue;
-    }
-    // An empty line or comment at the first column ends the block too: it is of the next key.
-    if (inside && !line.starts_with(' ')) inside = false;
-    if (!inside) (found ? after : before) += line + "\n";
-  }
-  const bool apart = !found && !before.empty() && !before.ends_with("\n\n");
-  return before + (apart ? "\n" : "") + block + after;
+  return with_block(text, "guard", block);
 }
 
 void check_guard_place(const std::filesystem::path& scenario) {

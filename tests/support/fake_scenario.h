@@ -21,4 +21,15 @@ inline harness::ScenarioConfig fake_scenario() {
   return scenario;
 }
 
+/// After the start the estimate is off sideways by the seed in centimetres.
+inline harness::RunOutcome run_fake(const harness::ScenarioConfig& scenario, int,
+                                    const harness::RunOptions& options) {
+  const double offset = 0.01 * static_cast<double>(scenario.seed);
+  FakeSource source;
+  FakeSlam slam([&](Estimate& estimate) {
+    if (estimate.stamp > 0) estimate.T_map_body->translation.z() += offset;
+  });
+  return run_lockstep_and_judge(trial_of(scenario), source, slam, options);
+}
+
 }  // namespace vinebench::test

@@ -24,17 +24,6 @@ inline harness::ScenarioConfig load_fake(const std::string& name,
   return scenario;
 }
 
-/// After the start the estimate is off sideways by the seed in centimetres.
-inline harness::RunOutcome run_fake(const harness::ScenarioConfig& scenario, int,
-                                    const harness::RunOptions& options) {
-  const double offset = 0.01 * static_cast<double>(scenario.seed);
-  FakeSource source;
-  FakeSlam slam([&](Estimate& estimate) {
-    if (estimate.stamp > 0) estimate.T_map_body->translation.z() += offset;
-  });
-  return run_lockstep_and_judge(trial_of(scenario), source, slam, options);
-}
-
 /// Two scenarios, two points and three seeds: twelve tasks. A task of "row" costs 1 s, of "loop" 3.
 inline harness::SweepPlan fake_plan(int repeats = 1) {
   harness::SweepSpec spec;

@@ -6,30 +6,13 @@
 # together is refused with one message.
 # Usage: sweep_test.sh VINEBENCH
 set -uo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
 vinebench=$1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
-failures=0
-
-report() {
-  echo "FAILED: $1"
-  sed 's/^/    /' stdout stderr
-  failures=$((failures + 1))
-}
-
-# expect CODE NAME WORDS -- ARGUMENTS...: exit code, and words on stderr (on stdout for other than 2).
-expect() {
-  local code=$1 name=$2 words=$3
-  shift 4
-  "$vinebench" "$@" >stdout 2>stderr </dev/null
-  local got=$?
-  [[ $got -eq $code ]] || report "$name: exit code $got, expected $code"
-  local where=stdout
-  [[ $code -eq 2 ]] && where=stderr
-  grep -qF -- "$words" "$where" || report "$name: $where lacks '$words'"
-  [[ $(grep -c '^vinebench: ' stderr) -le 1 ]] || report "$name: more than one message"
-}
+# shellcheck source=tests/tools/expect.sh
+source "$here/expect.sh"
 
 cat >spec.yaml <<'EOF'
 scenarios: [quick-loop, aisle-loop]

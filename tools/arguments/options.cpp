@@ -17,6 +17,14 @@ std::vector<Override> parse_overrides(const std::vector<std::string>& texts) {
   return overrides;
 }
 
+Option jobs_option(int& jobs) {
+  return {.name = "--jobs",
+          .target = &jobs,
+          .help = "Runs side by side, which share the threads",
+          .show_default = true,
+          .range = Range::between(1, 256)};
+}
+
 Option threads_option(int& threads) {
   return {.name = "--threads",
           .target = &threads,

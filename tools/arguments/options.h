@@ -24,6 +24,9 @@ std::vector<Override> parse_overrides(const std::vector<std::string>& texts);
 Option threads_option(int& threads);
 int default_threads();
 
+/// --jobs, of runs side by side.
+Option jobs_option(int& jobs);
+
 /// --cache, of a command that needs plants, and the machine with the folder that it names.
 Option cache_option(std::filesystem::path& folder);
 harness::Machine with_cache(harness::Machine machine, const std::filesystem::path& folder);

@@ -108,11 +108,7 @@ Command guard_command(const Surroundings& surroundings) {
                        .help = "Folder for the runs; whole ones are kept, and not run again",
                        .type = "FOLDER",
                        .show_default = true},
-                      {.name = "--jobs",
-                       .target = &arguments->jobs,
-                       .help = "Runs side by side, which share the threads",
-                       .show_default = true,
-                       .range = Range::between(1, 256)},
+                      jobs_option(arguments->jobs),
                       threads_option(arguments->threads),
                       cache_option(arguments->cache)},
           .run = [arguments] { return guard(*arguments); }};

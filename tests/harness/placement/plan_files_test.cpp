@@ -41,7 +41,7 @@ TEST(PlanFilesTest, TheWorldsTagsAreReplaced) {
   EXPECT_EQ(
       with_tags("rows: []\ntags:\n  - {id: 1}\n  - {id: 2}\n# light\nsun: {}\n", {candidate(0, 3)}),
       "rows: []\n" + tags + "# light\nsun: {}\n");
-  EXPECT_EQ(with_tags("rows: []\n", {candidate(0, 3)}), "rows: []\n" + tags);
+  EXPECT_EQ(with_tags("rows: []\n", {candidate(0, 3)}), "rows: []\n\n" + tags);
 }
 
 TEST(PlanFilesTest, TheListIsForPeople) {

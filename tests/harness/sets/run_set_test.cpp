@@ -18,19 +18,9 @@ namespace {
 
 using testing::HasSubstr;
 
-/// After the start the estimate is off sideways by `seed` centimetres.
-RunOutcome slide(const ScenarioConfig& scenario, int, const RunOptions& options) {
-  const double offset = 0.01 * static_cast<double>(scenario.seed);
-  test::FakeSource source;
-  test::FakeSlam slam([&](Estimate& estimate) {
-    if (estimate.stamp > 0) estimate.T_map_body->translation.z() += offset;
-  });
-  return run_lockstep_and_judge(trial_of(scenario), source, slam, options);
-}
-
 class RunSetTest : public testing::Test {
  protected:
-  RunSetTest() { options_.run = slide; }
+  RunSetTest() { options_.run = test::run_fake; }
 
   std::vector<PlannedRun> plan(const std::vector<std::int64_t>& seeds) const {
     return plan_set({scenario_}, seeds, folder_.path(), repeats_);
@@ -70,7 +60,7 @@ TEST_F(RunSetTest, AFailedSystemFailsItsRunAndIsKept) {
     EXPECT_EQ(first.kept, kept);
     EXPECT_TRUE(first.failed());
     EXPECT_EQ(first.result.value().checks.at(0).measured, "slam.so: process: crashed (frame 3)");
-    options_.run = slide;  // as a system that crashes now and then
+    options_.run = test::run_fake;  // as a system that crashes now and then
   }
   EXPECT_THAT(progress_, HasSubstr("FAILED (kept)"));
   options_.force = true;
@@ -191,7 +181,7 @@ TEST_F(RunSetTest, WhatAnotherEnvironmentMadeRunsAgain) {
   options_.run = [this](const ScenarioConfig& scenario, int threads, const RunOptions& options) {
     RunOptions with_libraries = options;
     with_libraries.libraries = options_.libraries(scenario);
-    return slide(scenario, threads, with_libraries);
+    return test::run_fake(scenario, threads, with_libraries);
   };
   const auto draws = [&](const char* renderer) {
     options_.libraries = [renderer](const ScenarioConfig&) {
@@ -222,7 +212,7 @@ TEST_F(RunSetTest, WhatHasNoEnvironmentRunsAgain) {
 TEST_F(RunSetTest, ARunThatCrashesIsAnErrorOfItsOwn) {
   options_.run = [](const ScenarioConfig& scenario, int threads, const RunOptions& options) {
     if (scenario.seed == 2) raise(SIGKILL);
-    return slide(scenario, threads, options);
+    return test::run_fake(scenario, threads, options);
   };
   const auto runs = run({1, 2, 3});
   EXPECT_FALSE(outcome_.interrupted);
@@ -259,7 +249,7 @@ TEST_F(RunSetTest, AStopLeavesTheRestForAnotherTime) {
   options_.run = [](const ScenarioConfig& scenario, int threads, const RunOptions& options) {
     RunOptions undisturbed = options;
     undisturbed.stopped = {};
-    return slide(scenario, threads, undisturbed);
+    return test::run_fake(scenario, threads, undisturbed);
   };
   run({1, 2, 3});
   EXPECT_TRUE(outcome_.interrupted);

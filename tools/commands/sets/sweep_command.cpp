@@ -180,11 +180,7 @@ Command sweep_run_command(const std::shared_ptr<SweepArguments>& arguments) {
                    .target = &arguments->out,
                    .help = "Folder for the results, which shards may share (default: out/sweep)",
                    .type = "FOLDER"},
-                  {.name = "--jobs",
-                   .target = &arguments->jobs,
-                   .help = "Runs side by side, which share the threads",
-                   .show_default = true,
-                   .range = Range::between(1, 256)},
+                  jobs_option(arguments->jobs),
                   threads_option(arguments->threads),
                   cache_option(arguments->cache)},
       .footer =
