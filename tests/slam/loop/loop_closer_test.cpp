@@ -2,14 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/loop/loop_closer.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <numbers>
 
-#include "core/util/error.h"
-#include "slam/optimisation/bundle_adjustment.h"
 #include "slam/optimisation/gravity_fit.h"
 #include "tests/support/loop_closer_case.h"
 #include "tests/support/swinging_body.h"
