@@ -28,6 +28,7 @@ endif()
 
 find_package(assimp 5 REQUIRED)
 find_package(TinyGLTF REQUIRED)
+pkg_check_modules(NLOPT REQUIRED IMPORTED_TARGET nlopt)
 include(${CMAKE_CURRENT_LIST_DIR}/mujoco.cmake)
 # At least one of the two platforms for OpenGL without a display is required.
 foreach(platform OSMESA EGL)

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "core/util/error.h"
+#include "core/util/percentile.h"
 
 namespace vinebench::harness {
 namespace {
@@ -103,7 +104,8 @@ ErrorStatistics position_errors(const std::vector<PosePair>& pairs, const Pose& 
   const std::size_t n = errors.size();
   const double median = (errors[(n - 1) / 2] + errors[n / 2]) / 2;
   const double count = static_cast<double>(n);
-  return {std::sqrt(sum_of_squares / count), sum / count, median, errors.back()};
+  return {std::sqrt(sum_of_squares / count), sum / count, median, errors.back(),
+          percentile(errors, 0.95)};
 }
 
 std::optional<double> relative_error_percent(const std::vector<PosePair>& pairs, double delta) {

@@ -37,6 +37,7 @@ struct ErrorStatistics {
   double mean = 0;
   double median = 0;
   double max = 0;
+  double p95 = 0;  ///< 95 % of the poses are within it
 };
 ErrorStatistics position_errors(const std::vector<PosePair>& pairs, const Pose& T_world_map);
 

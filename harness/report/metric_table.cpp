@@ -62,6 +62,8 @@ const std::vector<Metric>& known_metrics() {
     const std::vector<Metric> others{
         {.key = "/ate_max_m", .title = "ATE max, mm", .scale = 1e3, .decimals = 2},
         {.key = "/ate_live_rmse_m", .title = "ATE live, mm", .scale = 1e3, .decimals = 2},
+        {.key = "/ate_world_rmse_m", .title = "ATE, world, mm", .scale = 1e3, .decimals = 2},
+        {.key = "/ate_world_p95_m", .title = "95 %, world, mm", .scale = 1e3, .decimals = 2},
         {.key = "/end_error_m", .title = "end error, mm", .scale = 1e3, .decimals = 1},
         {.key = "/lost_frames", .title = "lost frames", .compared_by = Scale::kOrdered},
         {.key = "/wall_seconds", .title = "wall, s", .decimals = 1, .of_estimate = false},

@@ -264,7 +264,28 @@ expect 0 "a planned world" -- render "$PWD/planned/world.yaml" --set vines.templ
   --camera 32x24@20 --pose 0,0,1,0 --out planned.png
 expect 1 "place-tags, not to be kept" "with all places that are seen" -- place-tags typical-vineyard --route typical-one-tag \
   --error 0.001 --out planned
+expect 0 "place-camera" "as it is" "mountings of 'side'" -- place-camera typical-vineyard --route typical-one-tag \
+  --yaw-step 90 --out mounted
+[[ -s mounted/rig.yaml && $(wc -l <mounted/mounts.csv) -eq 37 ]] || report "place-camera: no rig or list"
+expect 2 "place-camera, mistyped camera" "did you mean 'side'" -- place-camera typical-vineyard \
+  --route typical-one-tag --camera sid
 expect 2 "place-tags without a route" "--route" -- place-tags typical-vineyard
+
+# Searches. In a court without tags a scenario fails as it is; two runs lose no frame.
+printf 'difficulties:\n  - {name: speed, between: {route.speed: [0.5, 1]}}\n  - {name: gap, between: {sensors.drops.frame_rate: [0, 0.9]}}\n' >space.yaml
+search=(search quick-loop --space space.yaml "${moment[@]}" --proof 0)
+expect 0 "search" "Found: as it is, after 1 runs" -- "${search[@]}" --budget 1 --out searched
+[[ -s searched/search.md && -s searched/counter-example.yaml ]] || report "search: no report or scenario"
+expect 1 "search that finds nothing" -- "${search[@]}" --find losses_max --budget 1 --out searched
+grep -q "nothing breaks it within 1 runs" "$work/stdout" || report "search that finds nothing: does not say so"
+[[ $(wc -l <searched/runs.csv) -eq 2 ]] || report "search: expected a line for each run"
+expect 0 "search, a map" "map.svg and map.csv" -- "${search[@]}" --map speed --map gap --map-size 2 --budget 1 --out searched
+[[ $(wc -l <searched/map.csv) -eq 5 ]] || report "search: a map of four cells"
+expect 0 "search, a shard" "shard 1/3: 1 runs" -- "${search[@]}" --shard 1/3 --out searched
+expect 2 "search for another scenario's bound" "did you mean 'losses_max'" -- "${search[@]}" --find losses_mx
+expect 2 "search, mistyped difficulty" "did you mean 'speed'" -- "${search[@]}" --map sped --map gap
+sed 's/0.5, 1/0.5, -1/' space.yaml >impossible.yaml
+expect 2 "search, impossible values" "difficulty 'speed', severity 1: " -- search quick-loop --space impossible.yaml
 
 # Other SLAM systems, and scenarios that are not trusted.
 printf '#!/bin/sh\n[ "$(wc -l <"$1/frames.csv")" -gt 1 ] && kill -SEGV $$\n' >crashes.sh

@@ -54,7 +54,7 @@ TEST_F(ProgramTest, CommandsThatNeedPlantsTakeACache) {
   }
   EXPECT_EQ(with_cache, (std::set<std::string>{"guard", "explain", "run", "realism", "record",
                                                "render", "bench render", "bench slam",
-                                               "bench record", "dataset", "sweep run"}));
+                                               "bench record", "dataset", "search", "sweep run"}));
 }
 
 TEST_F(ProgramTest, WhatAnOptionExcludesIsAnOptionOfTheSameCommand) {

@@ -37,8 +37,16 @@ Command dataset_command(const Surroundings&) {
   return refusal("dataset");
 }
 
+Command search_command(const Surroundings&) {
+  return refusal("search");
+}
+
 Command place_tags_command() {
   return refusal("place-tags");
+}
+
+Command place_camera_command() {
+  return refusal("place-camera");
 }
 
 Command explain_command(const Surroundings&) {

@@ -87,6 +87,7 @@ TEST(ReportJsonTest, HasEveryKeyInItsOrder) {
                                           "tilt_max_deg",
                                           "worst_frame",
                                           "ate_world_rmse_m",
+                                          "ate_world_p95_m",
                                           "heading_world_rmse_deg",
                                           "tilt_world_rmse_deg",
                                           "drift_m",

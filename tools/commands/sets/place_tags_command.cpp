@@ -9,14 +9,12 @@
 #include "core/files/output_folder.h"
 #include "core/util/error.h"
 #include "harness/placement/plan_files.h"
+#include "harness/placement/planned_drive.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 
 namespace vinebench::tools {
 namespace {
-
-/// The poses of a drive that are planned with.
-constexpr double kPoseSpacing = 0.5;  // m
 
 struct PlaceTagsArguments {
   std::string world;
@@ -39,44 +37,34 @@ void tell(const char* what, std::size_t tags, const harness::TagPlan& plan) {
 }
 
 int place_tags(const PlaceTagsArguments& arguments) {
-  const std::string world_file = std::filesystem::absolute(arguments.world).string();
-  const harness::ScenarioConfig scenario =
-      harness::load_scenario(arguments.route, {{"world", "\"" + world_file + "\""}});
-  const sim::WorldConfig& world = scenario.simulation.world;
-  const Rig rig = load_rig(scenario.simulation.rover.rig);
-  if (rig.tag_cameras.empty()) fail("{}: the rover has no camera for tags", arguments.route);
+  const harness::PlannedDrive drive = harness::plan_drive(
+      arguments.world, arguments.route,
+      {1e-3 * arguments.drift_offset_mm, 1e-3 * arguments.drift_turn_mrad},
+      {arguments.survey_position, arguments.survey_rotation_deg * std::numbers::pi / 180});
   const FolderLock lock(arguments.out);
-  const std::vector<Pose> poses = harness::route_poses(scenario, kPoseSpacing);
-  const harness::PoseChain chain(
-      poses, {1e-3 * arguments.drift_offset_mm, 1e-3 * arguments.drift_turn_mrad});
-  harness::SightingModel model;
-  model.survey = {arguments.survey_position,
-                  arguments.survey_rotation_deg * std::numbers::pi / 180};
-  auto candidates = harness::post_candidates(world, arguments.height, arguments.size);
-  if (candidates.empty()) fail("{}: has no posts to hang tags on", arguments.world);
-  auto own = harness::own_tags(world);
-  harness::predict_sightings(candidates, poses, rig, world, model);
-  harness::predict_sightings(own, poses, rig, world, model);
+  const auto candidates = harness::post_candidates(drive, arguments.height, arguments.size);
+  const auto own = harness::own_tags(drive);
   const auto seen = std::ranges::count_if(
       candidates, [](const harness::TagCandidate& tag) { return !tag.information.empty(); });
-  fmt::print("{} poses over the route; {} of {} places on posts are seen\n", poses.size(), seen,
-             candidates.size());
-  tell("without tags", 0, harness::predict_tags(chain, {}));
-  if (!own.empty()) tell("the world's own", own.size(), harness::predict_tags(chain, own));
+  fmt::print("{} poses over the route; {} of {} places on posts are seen\n", drive.poses.size(),
+             seen, candidates.size());
+  tell("without tags", 0, harness::predict_tags(drive.chain, {}));
+  if (!own.empty()) tell("the world's own", own.size(), harness::predict_tags(drive.chain, own));
   harness::TagDemand demand;
   demand.budget = static_cast<int>(arguments.budget);
   if (arguments.error_mm > 0) {
     demand.error = 1e-3 * arguments.error_mm;
     demand.budget = static_cast<int>(candidates.size());
   }
-  const harness::TagPlan plan = harness::plan_tags(chain, candidates, demand);
+  const harness::TagPlan plan = harness::plan_tags(drive.chain, candidates, demand);
   const auto tags = harness::planned_tags(candidates, plan);
   tell("planned", tags.size(), plan);
   fmt::print("no other {} tags have more than {:.1f} nats\n", tags.size(), plan.most_information);
   const std::filesystem::path out = arguments.out;
   write_file_atomically(out / "world.yaml", harness::with_tags(read_file(arguments.world), tags));
   write_file_atomically(out / "tags.csv", harness::tag_list(tags));
-  write_file_atomically(out / "plan.svg", harness::plan_svg(world, poses, tags, plan));
+  write_file_atomically(out / "plan.svg",
+                        harness::plan_svg(drive.world(), drive.poses, tags, plan));
   fmt::print("world.yaml, tags.csv and plan.svg are in {}\n",
              std::filesystem::absolute(out).string());
   if (demand.error && plan.error > *demand.error) {

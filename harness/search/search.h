@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "harness/search/find_failure.h"
+#include "harness/search/search_runs.h"
+
+namespace vinebench::harness {
+
+/// What one seed says of a counter-example.
+struct SeedProof {
+  std::int64_t seed = 0;
+  Answer system;
+  /// Of the reference; without one, of the system without the difficulties; empty where there are
+  /// none either.
+  std::optional<Answer> other{};
+
+  bool holds() const;
+};
+
+struct CounterExample {
+  Condition found;               ///< by the search, before it was shrunk
+  std::size_t runs_to_find = 0;  ///< that it took
+  Condition condition;
+  std::vector<SeedProof> proof;  ///< with seeds that were not searched with
+  std::size_t wanted = 0;        ///< seeds of the proof
+
+  std::size_t agreeing() const;
+  bool is_proven() const { return wanted > 0 && agreeing() == wanted; }
+};
+
+struct SearchSettings {
+  std::vector<std::int64_t> seeds;  ///< that are searched and shrunk with
+  std::size_t proof_seeds = 20;
+  std::int64_t first_proof_seed = 101;
+  std::size_t at_once = 1;                ///< runs side by side
+  std::optional<std::uint64_t> random{};  ///< searches at random, with this draw
+};
+
+/// Finds a failure, shrinks it and proves it with other seeds. Where a seed does not agree, the
+/// severities grow by a step, and new seeds are asked, while the budget lasts. Empty if nothing is
+/// found.
+std::optional<CounterExample> search(SearchRuns& runs, const SearchSettings& settings,
+                                     const Tell& tell);
+
+}  // namespace vinebench::harness

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "harness/search/search.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/fake_search.h"
+
+namespace vinebench::harness {
+namespace {
+
+using test::FakeSearch;
+
+SearchSettings settings() {
+  SearchSettings settings;
+  settings.seeds = {1, 2, 3};
+  return settings;
+}
+
+std::optional<CounterExample> search_with(FakeSearch& fake, std::size_t budget) {
+  SearchRuns runs = fake.runs(budget);
+  return search(runs, settings(), test::tell_nobody);
+}
+
+TEST(SearchTest, FindsShrinksAndProvesWithOtherSeeds) {
+  FakeSearch fake(
+      [](const ScenarioConfig& scenario, std::int64_t) {
+        return test::speed_of(scenario) > 0.9 ? test::kBadError : test::kGoodError;
+      },
+      [](const ScenarioConfig&, std::int64_t) { return test::kGoodError; });
+  const auto example = search_with(fake, 200);
+  ASSERT_TRUE(example);
+  EXPECT_TRUE(example->is_proven());
+  ASSERT_EQ(example->proof.size(), 20u);
+  EXPECT_EQ(example->proof.front().seed, 101);
+  EXPECT_EQ(example->proof.front().other->verdict, RunVerdict::kPassed);
+  EXPECT_EQ(example->condition.difficulties(), 1);
+}
+
+// Every other seed of the proof fails from 1.0 m/s on alone: severities grow, and the seeds that
+// said so are not asked again.
+TEST(SearchTest, GrowsWithNewSeedsWhereTheProofDoesNotAgree) {
+  FakeSearch fake(
+      [](const ScenarioConfig& scenario, std::int64_t seed) {
+        const double least = seed > 100 && seed % 2 == 0 ? 1.0 : 0.9;
+        return test::speed_of(scenario) > least ? test::kBadError : test::kGoodError;
+      },
+      [](const ScenarioConfig&, std::int64_t) { return test::kGoodError; });
+  const auto example = search_with(fake, 200);
+  ASSERT_TRUE(example);
+  EXPECT_TRUE(example->is_proven());
+  EXPECT_GT(example->condition.severities[0], 0.625);  // 1.0 m/s
+  EXPECT_GT(example->proof.front().seed, 101);
+}
+
+TEST(SearchTest, WithoutAReferenceTheSystemPassesWithoutTheDifficulties) {
+  FakeSearch fake([](const ScenarioConfig& scenario, std::int64_t seed) {
+    return test::speed_of(scenario) > 0.9 || seed == 105 ? test::kBadError : test::kGoodError;
+  });
+  const auto example = search_with(fake, 200);
+  ASSERT_TRUE(example);
+  // Seed 105 fails in any case: not every seed is one that the difficulty breaks.
+  EXPECT_FALSE(example->is_proven());
+}
+
+TEST(SearchTest, NothingWhereNothingBreaksIt) {
+  FakeSearch fake([](const ScenarioConfig&, std::int64_t) { return test::kGoodError; });
+  EXPECT_FALSE(search_with(fake, 100));
+  EXPECT_LE(fake.made, 100);
+}
+
+}  // namespace
+}  // namespace vinebench::harness
