@@ -116,7 +116,7 @@ def vocabulary(settings, python):
     return file
 
 
-def run_peer(settings, folder, scenario, seed, python, words):
+def run_peer(settings, folder, scenario, seed, python, words, changes=()):
     """A run of the bench with ORB-SLAM3 in the core's place; its recording is kept."""
     arguments = [ROOT / "examples/orb_slam3/run_wheel.py", "{recording}", "{output}",
                  "--vocabulary", words]
@@ -125,6 +125,7 @@ def run_peer(settings, folder, scenario, seed, python, words):
               "trajectory": "f_vinebench.txt", "poses_of": "front_left", "keep_recording": "true"}
     options = [part for key, value in values.items()
                for part in ("--set", f"slam.external.{key}={value}")]
+    options += [part for change in changes for part in ("--set", change)]
     # 1: it has failed, or the scenario's expectations are not met.
     call(settings.vinebench, "run", scenario, "--set", f"seed={seed}", *options, "--out",
          folder, allowed=(0, 1))
@@ -155,9 +156,9 @@ def errors_on_peers_frames(settings, folders):
         result.write_text(json.dumps({row[0]: float(row[1]) for row in rows if len(row) == 2}))
 
 
-def run_case(settings, scenario, seed, python, words):
-    """All systems on one drive, which is rendered once."""
-    folders = {system: settings.folder(scenario, seed, system) for system in (PEER, *OURS)}
+def run_case(settings, scenario, seed, python, words, name=None, changes=()):
+    """All systems on one drive, which is rendered once; its folder is the scenario's or `name`."""
+    folders = {system: settings.folder(name or scenario, seed, system) for system in (PEER, *OURS)}
     bench = settings.bench(scenario)
     with_bench = settings.frames > 0 and seed == settings.seeds[0] and not bench.is_file()
     if not with_bench and all((f / "metrics.json").is_file() for f in folders.values()):
@@ -165,10 +166,10 @@ def run_case(settings, scenario, seed, python, words):
         return
     recording = folders[PEER] / RECORDING
     if not (recording / "mav0").is_dir() or not (folders[PEER] / "metrics.json").is_file():
-        run_peer(settings, folders[PEER], scenario, seed, python, words)
-    for system, changes in OURS.items():
+        run_peer(settings, folders[PEER], scenario, seed, python, words, changes)
+    for system, keys in OURS.items():
         if not (folders[system] / "metrics.json").is_file():
-            run_ours(settings, folders[system], recording, folders[PEER] / "groundtruth.tum", changes)
+            run_ours(settings, folders[system], recording, folders[PEER] / "groundtruth.tum", keys)
     if with_bench:
         call(settings.vinebench, "bench", "slam", recording, "--frames", settings.frames,
              "--json", bench)

@@ -54,7 +54,7 @@ for option in "$@"; do
       packages+=(blender)
       ;;
     --cluster)
-      packages+=(slurm-wlm munge parallel libfaketime)
+      packages+=(slurm-wlm munge parallel libfaketime bindfs)
       ;;
     *)
       echo "setup.sh: $option is no option; usage: setup.sh [--ros] [--browser] [--fuzz] [--packages] [--cycles] [--cluster]" >&2

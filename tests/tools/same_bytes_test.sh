@@ -7,10 +7,8 @@
 set -euo pipefail
 vinebench=$1 root=$2 work=$3
 
-# Of glibc 2.36 and, with its other names, of later ones; unknown names are ignored.
-glibc=GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2_Usable,-FMA_Usable,-AVX2,-FMA,-FMA4,-AVX512F
-opencv=OPENCV_CPU_DISABLE=SSE4.1,SSE4.2,AVX,FP16,AVX2,FMA3,AVX512F,AVX512-SKX
-mesa=GALLIUM_OVERRIDE_CPU_CAPS=sse4.1  # without AVX and FMA
+# shellcheck source=tests/tools/masks.sh
+source "$(dirname "$0")/masks.sh"
 
 # A value of the run's metrics.json.
 metric() { sed -nE "s/^ *\"$2\": \"?([^\",]*)\"?,?\$/\1/p" "$work/$1/metrics.json"; }

@@ -68,12 +68,16 @@ std::vector<harness::CollectionSequence> chosen(const harness::Collection& colle
   return sequences;
 }
 
-void list(const std::vector<harness::CollectionSequence>& sequences) {
+/// With all settings, those that the sequences share first.
+void list(const harness::Collection& collection,
+          const std::vector<harness::CollectionSequence>& sequences) {
   for (const harness::CollectionSequence& sequence : sequences) {
-    std::string set;
-    for (const auto& [key, value] : sequence.set) set += fmt::format(" {}={}", key, value);
+    std::string text;
+    for (const auto& settings : {collection.set, sequence.set}) {
+      for (const auto& [key, value] : settings) text += fmt::format(" {}={}", key, value);
+    }
     fmt::print("{:<24} {:<10} {} seed {}{}\n", sequence.name, sequence.split, sequence.scenario,
-               sequence.seed ? std::to_string(*sequence.seed) : "secret", set);
+               sequence.seed ? std::to_string(*sequence.seed) : "secret", text);
   }
 }
 
@@ -164,7 +168,7 @@ int dataset(const DatasetArguments& arguments) {
     harness::unseal(collection, harness::read_secrets(arguments.secrets));
   }
   if (arguments.list) {
-    list(chosen(collection, arguments));
+    list(collection, chosen(collection, arguments));
     return 0;
   }
   const harness::CollectionRequest request = request_of(arguments, collection);
