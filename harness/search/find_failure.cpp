@@ -232,11 +232,11 @@ std::vector<Query> first_queries(const SearchProblem& problem, std::int64_t seed
 }
 
 std::optional<Condition> find_at_random(SearchRuns& runs, std::int64_t seed, std::uint64_t draw,
-                                        int difficulties, double severity) {
+                                        int difficulties, double severity, std::size_t reserve) {
   RandomSequence random(RandomStream(draw, "search"));
   const int size = static_cast<int>(runs.problem().space.difficulties.size());
   std::optional<Condition> best;
-  for (int k = 0; k < kDraws && runs.left() > 0 && !runs.interrupted(); ++k) {
+  for (int k = 0; k < kDraws && runs.left() > reserve && !runs.interrupted(); ++k) {
     Condition condition{Severities(static_cast<std::size_t>(size))};
     for (int count = 1 + random.below(2); count > 0; --count) {
       condition.severities[static_cast<std::size_t>(random.below(size))] =

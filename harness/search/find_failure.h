@@ -33,10 +33,10 @@ std::optional<Condition> find_failure(SearchRuns& runs, std::int64_t seed, const
 
 /// For comparison, at random: one or two difficulties of any severity, until a condition that
 /// breaks the system has `difficulties` at most and a sum of severities of `severity` at most; the
-/// mildest so far where the budget ends before. The draws depend on `draw` and the number of
-/// difficulties alone.
+/// mildest so far where no more than `reserve` runs of the budget are left before. The draws depend
+/// on `draw` and the number of difficulties alone.
 std::optional<Condition> find_at_random(SearchRuns& runs, std::int64_t seed, std::uint64_t draw,
-                                        int difficulties, double severity);
+                                        int difficulties, double severity, std::size_t reserve = 0);
 
 /// The runs whose answers find_failure() asks for whatever they are: parts of them can be made
 /// elsewhere before.

@@ -11,7 +11,8 @@
 namespace vinebench::harness {
 namespace {
 
-constexpr int kProofs = 4;  // that are tried, each with seeds of its own
+constexpr std::size_t kShrinkingRuns = 30;  // that a search at random leaves for it
+constexpr int kProofs = 4;                  // that are tried, each with seeds of its own
 
 std::vector<SeedProof> ask_seeds(SearchRuns& runs, const Condition& condition,
                                  const std::vector<std::int64_t>& seeds) {
@@ -90,9 +91,10 @@ std::size_t CounterExample::agreeing() const {
 std::optional<CounterExample> search(SearchRuns& runs, const SearchSettings& settings,
                                      const Tell& tell) {
   const std::int64_t seed = settings.seeds.front();
-  const std::optional<Condition> found = settings.random
-                                             ? find_at_random(runs, seed, *settings.random, 0, 0)
-                                             : find_failure(runs, seed, tell);
+  const std::size_t reserve = 2 * settings.proof_seeds + kShrinkingRuns;
+  const std::optional<Condition> found =
+      settings.random ? find_at_random(runs, seed, *settings.random, 0, 0, reserve)
+                      : find_failure(runs, seed, tell);
   if (!found || runs.interrupted()) return std::nullopt;
   CounterExample example{*found, runs.count(), *found, {}, 0};
   tell(fmt::format("breaks under {}, after {} runs",

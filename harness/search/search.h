@@ -37,8 +37,10 @@ struct SearchSettings {
   std::vector<std::int64_t> seeds;  ///< that are searched and shrunk with
   std::size_t proof_seeds = 20;
   std::int64_t first_proof_seed = 101;
-  std::size_t at_once = 1;                ///< runs side by side
-  std::optional<std::uint64_t> random{};  ///< searches at random, with this draw
+  std::size_t at_once = 1;  ///< runs side by side
+  /// Searches at random, with this draw, as far as the budget has more than shrinking and proof
+  /// need.
+  std::optional<std::uint64_t> random{};
 };
 
 /// Finds a failure, shrinks it and proves it with other seeds. Where a seed does not agree, the

@@ -205,7 +205,7 @@ std::vector<Option> how_to_look(SearchArguments& arguments) {
            .range = Range::between(2, 65)},
           {.name = "--random",
            .target = &arguments.random,
-           .help = "For comparison: draw conditions at random, with this number as seed",
+           .help = "For comparison: draw conditions at random instead, with this number as seed",
            .range = Range::between(1, 1e9)},
           {.name = "--shard",
            .target = &arguments.shard,
