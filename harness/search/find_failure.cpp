@@ -86,22 +86,22 @@ class Guided {
     return found;
   }
 
-  /// The least severity of one of a condition's difficulties with which the system still fails;
-  /// `passes` gets the largest one that it is known to stand.
-  Condition halve(Condition condition, std::size_t i, double* passes = nullptr) {
+  /// The least severity of one of a condition's difficulties with which it still breaks the system,
+  /// or with which that fails at least, where the reference fails too.
+  Condition halve(Condition condition, std::size_t i, bool alone = true) {
     double low = 0;
     for (double high = condition.severities[i]; high - low > kFinest;) {
       const double middle = rounded((low + high) / 2);
       Condition milder = condition;
       milder.severities[i] = middle;
-      if (failed(milder)) {
+      if (alone ? breaks(runs_, milder, seed_) : failed(milder)) {
         condition = milder;
         high = middle;
       } else {
         low = middle;
       }
     }
-    if (passes != nullptr) *passes = low;
+    if (condition.difficulties() == 1) stands_[i] = low;
     return condition;
   }
 
@@ -118,17 +118,17 @@ class Guided {
     const std::vector<Condition> found = breaking(worst, &in_both);
     tell_(fmt::format("one difficulty at its worst: {} break the system", found.size()));
     stands_.assign(size_, 1);
-    if (std::optional<Condition> condition = mildest(halved(found))) return condition;
+    if (std::optional<Condition> condition = mildest(halved(found, true))) return condition;
     // Where both fail at the worst there may be less with which one does alone.
-    return mildest(halved(in_both));
+    return mildest(halved(in_both, false));
   }
 
-  std::vector<Condition> halved(const std::vector<Condition>& conditions) {
+  std::vector<Condition> halved(const std::vector<Condition>& conditions, bool alone) {
     std::vector<Condition> milder;
     for (const Condition& condition : conditions) {
       const auto hard = std::ranges::find_if(condition.severities, [](double s) { return s > 0; });
       const auto i = static_cast<std::size_t>(hard - condition.severities.begin());
-      milder.push_back(halve(condition, i, &stands_[i]));
+      milder.push_back(halve(condition, i, alone));
     }
     return milder;
   }
@@ -142,14 +142,20 @@ class Guided {
       }
     }
     std::vector<Condition> in_both;
-    std::vector<Condition> found = breaking(worst, &in_both);
+    const std::vector<Condition> found = breaking(worst, &in_both);
     tell_(fmt::format("two difficulties at the worst that each is stood alone: {} break the system",
                       found.size()));
-    // In those in which both fail, the reference may stand less.
-    found.insert(found.end(), in_both.begin(), in_both.end());
-    found.resize(std::min(found.size(), kPairs));
+    if (std::optional<Condition> condition = mildest_of_pairs(found)) return condition;
+    // Where both fail at the worst there may be less with which one does alone.
+    return mildest_of_pairs(in_both);
+  }
+
+  /// Of the first ones.
+  std::optional<Condition> mildest_of_pairs(const std::vector<Condition>& pairs) {
     std::vector<Condition> milder;
-    for (const Condition& pair : found) milder.push_back(mildest_of_pair(pair));
+    for (std::size_t k = 0; k < std::min(pairs.size(), kPairs); ++k) {
+      milder.push_back(mildest_of_pair(pairs[k]));
+    }
     return mildest(milder);
   }
 

@@ -56,24 +56,39 @@ std::vector<SeedProof> prove(SearchRuns& runs, const Condition& condition, std::
   return proof;
 }
 
-void prove(SearchRuns& runs, CounterExample& example, const SearchSettings& settings,
-           const Tell& tell) {
+/// A seed with which the system fails and what it is compared with does too.
+bool is_too_hard(const std::vector<SeedProof>& proof) {
+  return std::ranges::any_of(proof, [](const SeedProof& seed) {
+    return seed.system.verdict == RunVerdict::kFailed && !seed.holds();
+  });
+}
+
+/// Where seeds do not agree, with more severity if the system passes, and with the step of
+/// shrinking before if the others fail too.
+void prove(SearchRuns& runs, std::vector<Condition> steps, CounterExample& example,
+           const SearchSettings& settings, const Tell& tell) {
   example.wanted = settings.proof_seeds;
   std::int64_t first = settings.first_proof_seed;
   for (int k = 1; k <= kProofs && settings.proof_seeds > 0; ++k) {
-    const Condition harsher = harder(example.condition);
-    const bool last = k == kProofs || harsher == example.condition ||
-                      runs.left() < 4 * settings.proof_seeds;  // for this one and the next
+    example.condition = steps.back();
+    const bool last = k == kProofs || runs.left() < 4 * settings.proof_seeds;
     example.proof = prove(runs, example.condition, first, settings, !last);
     tell(fmt::format("{}: proven by {} of {} other seeds",
                      text_of(runs.problem().space, example.condition.severities),
                      example.agreeing(), example.proof.size()));
     if (last || example.is_proven() || runs.interrupted()) return;
-    const bool too_hard = std::ranges::any_of(example.proof, [](const SeedProof& seed) {
-      return seed.system.verdict == RunVerdict::kFailed && !seed.holds();
-    });
-    if (too_hard) return;
-    example.condition = harsher;
+    for (const SeedProof& seed : example.proof) {
+      if (!seed.holds()) example.disagreed.emplace_back(example.condition, seed);
+    }
+    if (!is_too_hard(example.proof)) {
+      const Condition harsher = harder(example.condition);
+      if (harsher == example.condition) return;
+      steps.back() = harsher;
+    } else if (steps.size() > 1) {
+      steps.pop_back();
+    } else {
+      return;
+    }
     first += static_cast<std::int64_t>(settings.proof_seeds);
   }
 }
@@ -96,11 +111,10 @@ std::optional<CounterExample> search(SearchRuns& runs, const SearchSettings& set
       settings.random ? find_at_random(runs, seed, *settings.random, 0, 0, reserve)
                       : find_failure(runs, seed, tell);
   if (!found || runs.interrupted()) return std::nullopt;
-  CounterExample example{*found, runs.count(), *found, {}, 0};
+  CounterExample example{*found, runs.count(), *found, {}};
   tell(fmt::format("breaks under {}, after {} runs",
                    text_of(runs.problem().space, found->severities), runs.count()));
-  example.condition = shrink(runs, *found, settings.seeds, tell);
-  prove(runs, example, settings, tell);
+  prove(runs, shrink(runs, *found, settings.seeds, tell), example, settings, tell);
   return example;
 }
 

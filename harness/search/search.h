@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "harness/search/find_failure.h"
@@ -28,6 +29,8 @@ struct CounterExample {
   Condition condition;
   std::vector<SeedProof> proof;  ///< with seeds that were not searched with
   std::size_t wanted = 0;        ///< seeds of the proof
+  /// Seeds that did not agree on conditions that were tried before this one.
+  std::vector<std::pair<Condition, SeedProof>> disagreed{};
 
   std::size_t agreeing() const;
   bool is_proven() const { return wanted > 0 && agreeing() == wanted; }
@@ -43,9 +46,9 @@ struct SearchSettings {
   std::optional<std::uint64_t> random{};
 };
 
-/// Finds a failure, shrinks it and proves it with other seeds. Where a seed does not agree, the
-/// severities grow by a step, and new seeds are asked, while the budget lasts. Empty if nothing is
-/// found.
+/// Finds a failure, shrinks it and proves it with other seeds. Where the system passes with one of
+/// them, the severities grow by a step; where the reference fails too, the last step of shrinking
+/// is taken back; and new seeds are asked, while the budget lasts. Empty if nothing is found.
 std::optional<CounterExample> search(SearchRuns& runs, const SearchSettings& settings,
                                      const Tell& tell);
 

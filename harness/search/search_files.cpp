@@ -87,8 +87,14 @@ std::string search_report(const SearchRuns& runs, const CounterExample& example)
                     seed.other ? name_of(seed.other->verdict) : "–", excess_text(seed.system),
                     seed.holds() ? seed.system.why : "**does not agree** " + seed.system.why});
   }
-  return text + markdown_table(rows, 5) +
-         "\nExcess: the binary logarithm of measured over allowed.\n";
+  text += markdown_table(rows, 5) + "\nExcess: the binary logarithm of measured over allowed.\n";
+  for (const auto& [condition, seed] : example.disagreed) {
+    text += fmt::format("\nSeed {} did not agree on {} ({}): system {}, {} {}.\n", seed.seed,
+                        text_of(problem.space, condition.severities), cut_text(runs, condition),
+                        name_of(seed.system.verdict), other,
+                        seed.other ? name_of(seed.other->verdict) : "not run");
+  }
+  return text;
 }
 
 std::string search_csv(const SearchRuns& runs) {

@@ -32,17 +32,16 @@ class Shrinking {
   Shrinking(SearchRuns& runs, const std::vector<std::int64_t>& seeds, const Tell& tell)
       : runs_(runs), seeds_(seeds), tell_(tell) {}
 
-  Condition shrink(Condition condition) {
-    condition = with_all_seeds(condition);
-    condition = drop_difficulties(condition);
+  std::vector<Condition> shrink(const Condition& found) {
+    std::vector<Condition> steps{drop_difficulties(with_all_seeds(found))};
     for (const auto& step :
          {&Shrinking::end_earlier, &Shrinking::start_later, &Shrinking::drive_shorter}) {
-      const Condition shorter = (this->*step)(condition);
-      if (shorter == condition || !holds_for_all(shorter)) continue;
-      condition = shorter;
-      tell_(fmt::format("route shortened to {:.1f} s", duration_of(condition)));
+      const Condition shorter = (this->*step)(steps.back());
+      if (shorter == steps.back() || !holds_for_all(shorter)) continue;
+      steps.push_back(shorter);
+      tell_(fmt::format("route shortened to {:.1f} s", duration_of(shorter)));
     }
-    return condition;
+    return steps;
   }
 
  private:
@@ -134,8 +133,8 @@ class Shrinking {
 
 }  // namespace
 
-Condition shrink(SearchRuns& runs, const Condition& condition,
-                 const std::vector<std::int64_t>& seeds, const Tell& tell) {
+std::vector<Condition> shrink(SearchRuns& runs, const Condition& condition,
+                              const std::vector<std::int64_t>& seeds, const Tell& tell) {
   return Shrinking(runs, seeds, tell).shrink(condition);
 }
 

@@ -16,9 +16,9 @@ namespace vinebench::harness {
 /// goes by the first seed, and keeps a step only if all of `seeds` say the same; where the seeds
 /// differ about the condition itself, its severities grow until they agree. Without a reference
 /// the system must pass the shorter route under no difficulty, so that a route on which the bounds
-/// cannot be met is none.
-Condition shrink(SearchRuns& runs, const Condition& condition,
-                 const std::vector<std::int64_t>& seeds, const Tell& tell);
+/// cannot be met is none. Returns the steps that were kept, of which the last one is the smallest.
+std::vector<Condition> shrink(SearchRuns& runs, const Condition& condition,
+                              const std::vector<std::int64_t>& seeds, const Tell& tell);
 
 /// The same, more severe by a step in each of its difficulties; at the worst it stays.
 Condition harder(const Condition& condition);

@@ -69,6 +69,23 @@ TEST(FindFailureTest, NothingWhereTheReferenceFailsToo) {
   EXPECT_FALSE(find(fake));
 }
 
+// Where the reference fails at a milder point than the worst: 1.0 to 1.1 m/s do it no good.
+TEST(FindFailureTest, APairWhoseReferenceIsNotMonotonous) {
+  FakeSearch fake(
+      [](const auto& scenario, auto) {
+        return test::speed_of(scenario) > 1.0 && test::sun_of(scenario) < 27 ? test::kBadError
+                                                                             : test::kGoodError;
+      },
+      [](const auto& scenario, auto) {
+        const double speed = test::speed_of(scenario);
+        return speed > 1.0 && speed < 1.1 ? test::kBadError : test::kGoodError;
+      });
+  const auto found = find(fake);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->difficulties(), 2);
+  EXPECT_GE(found->severities[0], 0.75);  // 1.1 m/s
+}
+
 TEST(FindFailureTest, ThreeAtOnceByTheirGrowingError) {
   FakeSearch fake([](const auto& scenario, auto) {
     const double speed = (test::speed_of(scenario) - 0.5) / 0.8;

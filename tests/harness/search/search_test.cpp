@@ -53,14 +53,34 @@ TEST(SearchTest, GrowsWithNewSeedsWhereTheProofDoesNotAgree) {
   EXPECT_GT(example->proof.front().seed, 101);
 }
 
+// On the shortest route the reference fails with the seeds of the proof: the last step of shrinking
+// is taken back.
+TEST(SearchTest, TakesAStepBackWhereTheReferenceFailsToo) {
+  FakeSearch fake(
+      [](const ScenarioConfig& scenario, std::int64_t) {
+        return test::speed_of(scenario) > 0.9 ? test::kBadError : test::kGoodError;
+      },
+      [](const ScenarioConfig& scenario, std::int64_t seed) {
+        const bool shortest = scenario.simulation.duration.has_value();
+        return seed > 100 && shortest ? test::kBadError : test::kGoodError;
+      });
+  const auto example = search_with(fake, 200);
+  ASSERT_TRUE(example);
+  EXPECT_TRUE(example->is_proven());
+  EXPECT_FALSE(example->condition.cut.duration);
+  EXPECT_EQ(example->proof.front().seed, 121);
+}
+
 TEST(SearchTest, WithoutAReferenceTheSystemPassesWithoutTheDifficulties) {
   FakeSearch fake([](const ScenarioConfig& scenario, std::int64_t seed) {
-    return test::speed_of(scenario) > 0.9 || seed == 105 ? test::kBadError : test::kGoodError;
+    return test::speed_of(scenario) > 0.9 || seed % 5 == 0 ? test::kBadError : test::kGoodError;
   });
   const auto example = search_with(fake, 200);
   ASSERT_TRUE(example);
-  // Seed 105 fails in any case: not every seed is one that the difficulty breaks.
+  // Seed 105 and others fail in any case: not every seed is one that the difficulty breaks.
   EXPECT_FALSE(example->is_proven());
+  ASSERT_FALSE(example->disagreed.empty());
+  EXPECT_EQ(example->disagreed.front().second.seed, 105);
 }
 
 TEST(SearchTest, NothingWhereNothingBreaksIt) {

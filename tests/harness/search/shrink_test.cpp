@@ -22,7 +22,7 @@ bool turns(const ScenarioConfig& scenario) {
 
 Condition shrunk(FakeSearch& fake, const Condition& condition) {
   SearchRuns runs = fake.runs();
-  return shrink(runs, condition, {1, 2, 3}, test::tell_nobody);
+  return shrink(runs, condition, {1, 2, 3}, test::tell_nobody).back();
 }
 
 TEST(ShrinkTest, DropsDifficultiesAndWhatTheRouteDoesNotNeed) {
