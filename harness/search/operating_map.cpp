@@ -19,6 +19,7 @@ constexpr int kCell = 64;     // px
 constexpr int kLeft = 190;    // px
 constexpr int kTop = 44;      // px
 constexpr int kBottom = 110;  // px
+constexpr int kLegend = 420;  // px, of its longest line
 
 double severity_of(std::size_t index, std::size_t size) {
   return std::round(static_cast<double>(index) / static_cast<double>(size - 1) / kSeverityStep) *
@@ -100,7 +101,16 @@ std::string colour_of(const OperatingMap::Cell& cell) {
   return fmt::format("#{:02x}{:02x}{:02x}", mix(205, 240, 60), mix(60, 205, 160), mix(50, 90, 90));
 }
 
-/// "world.sun.elevation_deg=38.8" without all of the key but its end.
+/// "speed (route.acceleration, route.speed)".
+std::string title_of(const Difficulty& difficulty) {
+  std::string keys;
+  for (const auto& [key, value] : values_at(difficulty, 1)) {
+    keys += (keys.empty() ? "" : ", ") + key;
+  }
+  return difficulty.name + " (" + keys + ")";
+}
+
+/// What a difficulty sets at a severity, without its keys.
 std::string label_of(const SearchSpace& space, std::size_t difficulty, double severity) {
   Severities severities(space.difficulties.size());
   severities[difficulty] = severity;
@@ -168,14 +178,14 @@ std::string map_csv(const OperatingMap& map, const SearchSpace& space) {
 
 std::string map_svg(const OperatingMap& map, const SearchSpace& space, const std::string& title) {
   const int side = kCell * static_cast<int>(map.size);
-  const int width = kLeft + side + 30;
+  const int width = kLeft + std::max(side, kLegend) + 30;
   const int height = kTop + side + kBottom;
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
       "height=\"{1}\" font-family=\"sans-serif\">\n<rect width=\"100%\" height=\"100%\" "
       "fill=\"white\"/>\n",
       width, height);
-  svg += label(kLeft, 26, "start", title, 16);
+  svg += label(12, 20, "start", title, 16);
   for (std::size_t y = 0; y < map.size; ++y) {
     const double top = kTop + kCell * static_cast<double>(map.size - 1 - y);
     svg += label(kLeft - 8, top + kCell / 2.0 + 4, "end", label_of(space, map.up, map.at(0, y).up));
@@ -187,9 +197,9 @@ std::string map_svg(const OperatingMap& map, const SearchSpace& space, const std
     svg += label(kLeft + kCell * (static_cast<double>(x) + 0.5), kTop + side + 18, "middle",
                  label_of(space, map.across, map.at(x, 0).across));
   }
-  svg += label(kLeft + side / 2.0, kTop + side + 42, "middle", space.difficulties[map.across].name,
-               14);
-  svg += label(12, kTop + 14, "start", space.difficulties[map.up].name, 14);
+  svg += label(kLeft + side / 2.0, kTop + side + 42, "middle",
+               title_of(space.difficulties[map.across]), 14);
+  svg += label(12, kTop - 2, "start", title_of(space.difficulties[map.up]), 14);
   svg += label(kLeft, kTop + side + 70, "start",
                "runs that pass, of those made: green all, red none; paler where few tell");
   svg += label(kLeft, kTop + side + 88, "start", "× no such scenario, – not run");
