@@ -36,6 +36,7 @@ class Guided {
     const bool fails = failed(plain);
     if (runs_.problem().reference) {
       const Answer reference = runs_.ask({plain, Role::kReference, seed_});
+      if (reference.verdict == RunVerdict::kUnknown) return std::nullopt;
       if (reference.verdict != RunVerdict::kPassed) {
         fail("the reference does not pass the scenario as it is: {}", reference.why);
       }

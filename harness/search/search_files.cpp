@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "harness/report/metric_table.h"
+#include "harness/sweep/run_cost_estimate.h"
 
 namespace vinebench::harness {
 namespace {

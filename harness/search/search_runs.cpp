@@ -13,7 +13,7 @@
 #include "core/util/error.h"
 #include "harness/run/run_hash.h"
 #include "harness/search/excess.h"
-#include "sim/rover/route.h"
+#include "harness/sweep/run_cost_estimate.h"
 
 namespace vinebench::harness {
 namespace {
@@ -92,11 +92,6 @@ ScenarioConfig scenario_of(const SearchProblem& problem, const Condition& condit
   scenario.guard.reset();
   cut_route(scenario.simulation, condition.cut);
   return scenario;
-}
-
-double drive_duration(const ScenarioConfig& scenario) {
-  const double route = to_seconds(sim::Route(scenario.simulation.route).duration());
-  return std::min(scenario.simulation.duration.value_or(route), route);
 }
 
 void check_problem(const SearchProblem& problem) {

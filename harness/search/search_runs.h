@@ -84,9 +84,6 @@ struct SearchProblem {
 /// scenario as it is alone, is left out. Throws Error.
 ScenarioConfig scenario_of(const SearchProblem& problem, const Condition& condition, Role role);
 
-/// How long its rover drives, s.
-double drive_duration(const ScenarioConfig& scenario);
-
 /// Throws Error, which names the difficulty, if one cannot be had at its mildest or its worst, or
 /// the bound is none of the scenario's.
 void check_problem(const SearchProblem& problem);

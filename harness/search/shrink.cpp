@@ -9,6 +9,7 @@
 #include <functional>
 #include <optional>
 
+#include "harness/sweep/run_cost_estimate.h"
 #include "sim/rover/route.h"
 
 namespace vinebench::harness {

@@ -19,11 +19,15 @@ constexpr double kPerMegapixel = 0.052;  // s
 
 }  // namespace
 
+double drive_duration(const ScenarioConfig& scenario) {
+  const double route = to_seconds(sim::Route(scenario.simulation.route).duration());
+  return std::min(scenario.simulation.duration.value_or(route), route);
+}
+
 double estimate_cost(const ScenarioConfig& scenario) {
   const sim::SimulationConfig& simulation = scenario.simulation;
   const Rig rig = load_rig(simulation.rover.rig);
-  const double route = to_seconds(sim::Route(simulation.route).duration());
-  const double seconds = std::min(simulation.duration.value_or(route), route);
+  const double seconds = drive_duration(scenario);
   double megapixels = 0;
   for (const RigCamera& camera : rig.cameras) {
     megapixels += 1e-6 * camera.model.width * camera.model.height;

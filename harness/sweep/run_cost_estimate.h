@@ -10,6 +10,9 @@
 
 namespace vinebench::harness {
 
+/// How long a scenario's rover drives, s.
+double drive_duration(const ScenarioConfig& scenario);
+
 /// What a run takes, s of one core, by the frames of its route and the pixels of its rig: for
 /// dividing work, and within a factor of five (leaves near the cameras, global adjustments).
 /// Throws Error if the rig cannot be read.

@@ -16,6 +16,7 @@
 #include "harness/judge/results.h"
 #include "harness/judge/verdict.h"
 #include "harness/search/search.h"
+#include "harness/sweep/run_cost_estimate.h"
 #include "tests/search/honest_runs.h"
 
 namespace vinebench::search_faults {

@@ -37,6 +37,20 @@ int default_threads() {
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
+std::vector<Option> drive_options(std::string& world, std::string& route) {
+  return {{.name = "WORLD",
+           .target = &world,
+           .help = "World file (YAML), or the name of a world",
+           .required = true,
+           .data = harness::DataKind::kWorld},
+          {.name = "--route",
+           .target = &route,
+           .help = "Scenario whose route and rover drive there",
+           .type = "SCENARIO",
+           .required = true,
+           .data = harness::DataKind::kScenario}};
+}
+
 Option cache_option(std::filesystem::path& folder) {
   return {.name = "--cache",
           .target = &folder,

@@ -31,6 +31,9 @@ Option jobs_option(int& jobs);
 Option cache_option(std::filesystem::path& folder);
 harness::Machine with_cache(harness::Machine machine, const std::filesystem::path& folder);
 
+/// WORLD and --route, of a drive through a world that is planned.
+std::vector<Option> drive_options(std::string& world, std::string& route);
+
 /// --untrusted.
 Option untrusted_option(bool& untrusted);
 

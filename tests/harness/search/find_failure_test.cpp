@@ -112,6 +112,13 @@ TEST(FindFailureTest, TheReferenceMustPassTheScenarioAsItIs) {
   EXPECT_THAT(test::error_of([&] { find(fake); }), testing::HasSubstr("the reference does not"));
 }
 
+// That is no verdict on the reference.
+TEST(FindFailureTest, FindsNothingWhereTheBudgetDoesNotReachTheReference) {
+  const auto good = [](const auto&, auto) { return test::kGoodError; };
+  FakeSearch fake(good, good);
+  EXPECT_FALSE(find(fake, 1));
+}
+
 TEST(FindFailureTest, EndsWithItsBudget) {
   FakeSearch fake([](const auto&, auto) { return test::kGoodError; });
   EXPECT_FALSE(find(fake, 5));

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/sweep/run_cost_estimate.h"
 #include "tests/support/fake_search.h"
 #include "tests/support/test_folder.h"
 

@@ -69,32 +69,23 @@ int place_camera(const PlaceCameraArguments& arguments) {
 
 Command place_camera_command() {
   const auto arguments = std::make_shared<PlaceCameraArguments>();
+  std::vector<Option> options = drive_options(arguments->world, arguments->route);
+  append(options, {{.name = "--camera",
+                    .target = &arguments->camera,
+                    .help = "Name of a camera for tags (default: the rig's first)"},
+                   {.name = "--yaw-step",
+                    .target = &arguments->grid.yaw_step_deg,
+                    .help = "degrees between the directions that are tried",
+                    .show_default = true,
+                    .range = Range::between(1, 90)},
+                   {.name = "--out",
+                    .target = &arguments->out,
+                    .help = "Folder for rig.yaml and mounts.csv",
+                    .type = "FOLDER",
+                    .show_default = true}});
   return {.name = "place-camera",
           .description = "Find the mounting of a camera that sees most of a vineyard's tags",
-          .options = {{.name = "WORLD",
-                       .target = &arguments->world,
-                       .help = "World file (YAML), or the name of a world, with its tags",
-                       .required = true,
-                       .data = harness::DataKind::kWorld},
-                      {.name = "--route",
-                       .target = &arguments->route,
-                       .help = "Scenario whose route and rover drive there",
-                       .type = "SCENARIO",
-                       .required = true,
-                       .data = harness::DataKind::kScenario},
-                      {.name = "--camera",
-                       .target = &arguments->camera,
-                       .help = "Name of a camera for tags (default: the rig's first)"},
-                      {.name = "--yaw-step",
-                       .target = &arguments->grid.yaw_step_deg,
-                       .help = "degrees between the directions that are tried",
-                       .show_default = true,
-                       .range = Range::between(1, 90)},
-                      {.name = "--out",
-                       .target = &arguments->out,
-                       .help = "Folder for rig.yaml and mounts.csv",
-                       .type = "FOLDER",
-                       .show_default = true}},
+          .options = options,
           .run = [arguments] { return place_camera(*arguments); }};
 }
 
