@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/front_end.h"
 
+#include <algorithm>
 #include <chrono>
 #include <opencv2/imgproc.hpp>
 
@@ -121,6 +122,13 @@ std::vector<StereoMatch> FrontEnd::match_pair(std::size_t p) {
   }
   balance.measure(left, right_[p].pyramid, matches, extractor_);
   alignments_[p].measure(left, right_[p].pyramid, matches, extractor_);
+  if (count_found(matches) < static_cast<std::size_t>(stereo_.few)) {
+    StereoConfig config = stereo_;
+    config.max_residual = std::max(config.max_residual, config.dirty_residual);
+    std::vector<StereoMatch> looser =
+        match_stereo(left, right_[p], pair.lens, pair.baseline, extractor_, config);
+    if (is_dirty(matches, looser, stereo_)) matches = std::move(looser);
+  }
   return matches;
 }
 

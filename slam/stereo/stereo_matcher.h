@@ -35,6 +35,8 @@ struct StereoConfig {
   /// Windows that show two depths, a stem before the ground, differ more: they would be biased
   /// towards the nearer one.
   double max_residual = 0.1;
+  /// Likewise where dirt on a lens has taken contrast from nearly every window.
+  double dirty_residual = 0.4;
   bool self_calibration = true;  ///< corrects the pairs' calibrations where the map shows them off
   double calibration_sigma = 1;  ///< px, accuracy of the disparities as the rig file has them
   double noise = 1.5;            ///< grey levels, difference that the sensor's noise alone explains
@@ -52,6 +54,7 @@ struct StereoConfig {
     archive("min_depth", min_depth, Range::positive());
     archive("uniqueness", uniqueness, Range::between(1, 10));
     archive("max_residual", max_residual, Range::between(0.01, 2));
+    archive("dirty_residual", dirty_residual, Range::between(0.01, 2));
     archive("self_calibration", self_calibration);
     archive("calibration_sigma", calibration_sigma, Range::positive());
     archive("noise", noise, Range::between(0, 50));
@@ -85,6 +88,11 @@ int count_with_depth(const std::vector<StereoMatch>& matches);
 std::vector<StereoMatch> match_stereo(const Extraction& left, const Extraction& right,
                                       const PinholeCamera& camera, double baseline,
                                       const OrbExtractor& extractor, const StereoConfig& config);
+
+/// Whether dirt on a lens explains that few windows agree within StereoConfig::max_residual
+/// (`matches`), where those within the dirty_residual are that many more (`looser`).
+bool is_dirty(const std::vector<StereoMatch>& matches, const std::vector<StereoMatch>& looser,
+              const StereoConfig& config);
 
 /// Gives matches beyond the limit their depth where fewer than StereoConfig::few lie within it.
 /// They say little of the way but much of the heading, and are found again wherever the next frame

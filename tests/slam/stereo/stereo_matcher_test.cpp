@@ -136,6 +136,58 @@ TEST(StereoMatcherTest, NothingIsNearerThanTheNearestDepth) {
   EXPECT_LT(before.matched, before.visible * 3 / 100);
 }
 
+/// An image through a lens with specks of grey dirt, 9 px apart, on the columns from `first`: in
+/// the middle of each a share `opacity` of the light is the dirt's.
+cv::Mat through_dirt(const cv::Mat& image, int first, double opacity) {
+  cv::Mat seen = image.clone();
+  for (int y = 0; y < seen.rows; ++y) {
+    auto* row = seen.ptr<std::uint8_t>(y);
+    for (int x = first; x < seen.cols; ++x) {
+      const double dirt = std::pow(std::sin(x * M_PI / 9) * std::sin(y * M_PI / 9), 2) * opacity;
+      row[x] = cv::saturate_cast<std::uint8_t>((1 - dirt) * row[x] + dirt * 128);
+    }
+  }
+  return seen;
+}
+
+StereoConfig looser_config() {
+  StereoConfig config;
+  config.max_residual = config.dirty_residual;
+  return config;
+}
+
+TEST(StereoMatcherTest, DirtExplainsWindowsThatDifferALot) {
+  const SyntheticPlane plane{23.4};
+  const cv::Mat left = plane.left(kNoise);
+  const cv::Mat right = through_dirt(plane.right(kNoise), 0, 0.9);
+  const Matched strict = match(left, right);
+  const Matched looser = match(left, right, looser_config());
+  EXPECT_TRUE(is_dirty(strict.matches, looser.matches, {}));
+  const Quality quality = judge(looser, [&](double x, double y) { return plane.disparity(x, y); });
+  EXPECT_GT(quality.matched, quality.visible / 2);
+  // By chance one feature in 25 matches.
+  EXPECT_GT(quality.right, quality.matched * 96 / 100);
+}
+
+TEST(StereoMatcherTest, DirtIsNoExplanationWhereHalfOfTheLensIsClean) {
+  const SyntheticPlane plane{23.4};
+  const cv::Mat left = plane.left(kNoise);
+  const cv::Mat right = through_dirt(plane.right(kNoise), left.cols / 2, 0.9);
+  StereoConfig any;
+  any.few = 10000;  // whether enough are left or not
+  EXPECT_FALSE(
+      is_dirty(match(left, right).matches, match(left, right, looser_config()).matches, any));
+}
+
+TEST(StereoMatcherTest, NorWhereTheEyesSeeSomethingElse) {
+  SyntheticPlane other{10};
+  other.texture = 12;
+  const cv::Mat left = SyntheticPlane{10}.left(kNoise);
+  const cv::Mat right = other.right(kNoise);
+  EXPECT_FALSE(
+      is_dirty(match(left, right).matches, match(left, right, looser_config()).matches, {}));
+}
+
 TEST(StereoMatcherTest, RepeatedPatternsAreRefused) {
   // Posts every 30 px: the true disparity, 8 px, is as good as 38, 68, ... On levels 0 and 1 these
   // are whole pixels, 30 and 25, and the rivals are equal; on others they fall between pixels.
