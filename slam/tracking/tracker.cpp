@@ -30,8 +30,8 @@ constexpr double kHeadingNoise = 0.05;  // rad
 /// Vines this far apart can be exactly alike in what a few dozen features see of them.
 constexpr double kLookAlike = 0.5;  // m
 
-/// What no robot's speed changes by faster: five times what falls.
-constexpr double kMaxAcceleration = 50;  // m/s^2
+/// What no robot's speed changes by faster from one image to the next: what falls.
+constexpr double kMaxAcceleration = 10;  // m/s^2
 
 /// Of the landmarks that a pose would have in view, at least this share must be there. After
 /// blackouts of 1 to 5 s between rows of plants that repeat, poses that were right found 19 to 27 %

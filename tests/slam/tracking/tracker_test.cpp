@@ -216,17 +216,17 @@ TEST_F(TrackerTest, AJumpByLooksMustBeBorneOutByWhatIsThere) {
   EXPECT_TRUE(track_every(2, other, 4, ahead(0.8, 0.4)).tracked);
 }
 
-// Expected at 0.08 m. Within a fifteenth of a second 50 m/s^2 make 0.22 m, and a pose has 0.05 m of
+// Expected at 0.08 m. Within a fifteenth of a second 10 m/s^2 make 0.04 m, and a pose has 0.05 m of
 // noise: what is farther must be borne out as well, by whichever way it was found.
 TEST_F(TrackerTest, AJoltThatNoRobotMakesMustBeBorneOutByWhatIsThere) {
   Tracker gentle = moving(3);
-  EXPECT_TRUE(track_every(12, gentle, 4, ahead(0.08 + 0.25)).tracked);
+  EXPECT_TRUE(track_every(12, gentle, 4, ahead(0.08 + 0.08)).tracked);
   Tracker tracker = moving(3);
-  const TrackedFrame few = track_every(12, tracker, 4, ahead(0.08 + 0.3));
+  const TrackedFrame few = track_every(12, tracker, 4, ahead(0.08 + 0.11));
   EXPECT_FALSE(few.tracked);
   EXPECT_GE(few.motion.inliers, settings_.tracking.min_inliers);
   Tracker other = moving(3);
-  EXPECT_TRUE(track_every(2, other, 4, ahead(0.08 + 0.3)).tracked);
+  EXPECT_TRUE(track_every(2, other, 4, ahead(0.08 + 0.11)).tracked);
   // After a start nobody knows how fast it moves.
   Tracker started(settings_);
   started.start(ahead(0), stamp_of_frame(0, 15));
