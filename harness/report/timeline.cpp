@@ -4,8 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
+#include "core/files/csv_field.h"
 
 namespace vinebench::harness {
 namespace {
@@ -14,19 +13,6 @@ using Json = nlohmann::ordered_json;
 
 /// Unknown values, as NumPy and pandas read them.
 constexpr const char* kUnknown = ",nan";
-
-/// A field of a CSV file (RFC 4180), on one line.
-std::string csv_field(std::string text) {
-  std::ranges::replace_if(
-      text, [](unsigned char c) { return std::iscntrl(c) != 0; }, '_');
-  if (text.find_first_of(",\"") == std::string::npos) return text;
-  std::string quoted;
-  for (const char c : text) {
-    if (c == '"') quoted += c;
-    quoted += c;
-  }
-  return fmt::format("\"{}\"", quoted);
-}
 
 std::string header_of(const Rig& rig) {
   std::string line = "t,frame,status,keyframe,xx,xy,xz,yy,yz,zz";

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/files/csv_field.h"
 #include "core/util/error.h"
 #include "core/util/xml_text.h"
 #include "harness/statistics/shares.h"
@@ -17,7 +18,7 @@ namespace {
 constexpr double kAlpha = 0.05;
 constexpr int kCell = 64;     // px
 constexpr int kLeft = 190;    // px
-constexpr int kTop = 44;      // px
+constexpr int kTop = 54;      // px
 constexpr int kBottom = 110;  // px
 constexpr int kLegend = 420;  // px, of its longest line
 
@@ -164,14 +165,15 @@ OperatingMap map_envelope(SearchRuns& runs, std::size_t across, std::size_t up, 
 }
 
 std::string map_csv(const OperatingMap& map, const SearchSpace& space) {
-  std::string text =
-      fmt::format("{},{},severity_across,severity_up,runs,passed,rate_low,rate_high\n",
-                  space.difficulties[map.across].name, space.difficulties[map.up].name);
+  std::string text = fmt::format(
+      "{},{},severity_across,severity_up,runs,passed,rate_low,rate_high\n",
+      csv_field(space.difficulties[map.across].name), csv_field(space.difficulties[map.up].name));
   for (const OperatingMap::Cell& cell : map.cells) {
     const Interval rate = cell.runs > 0 ? rate_of(cell) : Interval{0, 1};
     text += fmt::format("{},{},{:.4f},{:.4f},{},{},{:.3f},{:.3f}\n",
-                        label_of(space, map.across, cell.across), label_of(space, map.up, cell.up),
-                        cell.across, cell.up, cell.runs, cell.passed, rate.low, rate.high);
+                        csv_field(label_of(space, map.across, cell.across)),
+                        csv_field(label_of(space, map.up, cell.up)), cell.across, cell.up,
+                        cell.runs, cell.passed, rate.low, rate.high);
   }
   return text;
 }
@@ -199,7 +201,7 @@ std::string map_svg(const OperatingMap& map, const SearchSpace& space, const std
   }
   svg += label(kLeft + side / 2.0, kTop + side + 42, "middle",
                title_of(space.difficulties[map.across]), 14);
-  svg += label(12, kTop - 2, "start", title_of(space.difficulties[map.up]), 14);
+  svg += label(12, kTop - 8, "start", title_of(space.difficulties[map.up]), 14);
   svg += label(kLeft, kTop + side + 70, "start",
                "runs that pass, of those made: green all, red none; paler where few tell");
   svg += label(kLeft, kTop + side + 88, "start", "× no such scenario, – not run");

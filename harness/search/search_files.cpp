@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "core/files/csv_field.h"
 #include "harness/report/metric_table.h"
 #include "harness/sweep/run_cost_estimate.h"
 
@@ -39,12 +40,6 @@ std::string excess_text(const Answer& answer) {
   return answer.verdict == RunVerdict::kPassed || answer.verdict == RunVerdict::kFailed
              ? fmt::format("{:+.2f}", answer.excess)
              : "–";
-}
-
-std::string csv_field(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : c == '\n' ? " " : std::string(1, c);
-  return quoted + "\"";
 }
 
 }  // namespace

@@ -166,7 +166,10 @@ SweepPlan read_plan(const fs::path& file) {
       fail("{}:{}: {}", file.string(), number, error.what());
     }
   }
-  if (number == 0 || plan.tasks.size() != expected) {
+  if (number == 0) {
+    fail("{}: is empty: expected a plan as `vinebench sweep plan` prints it", file.string());
+  }
+  if (plan.tasks.size() != expected) {
     fail("{}: expected {} tasks, found {}: a part of the file is missing", file.string(), expected,
          plan.tasks.size());
   }

@@ -302,9 +302,13 @@ expect 2 "trajectory elsewhere" "slam.external.trajectory: expected a file in" -
   --set slam.external.trajectory=/tmp/poses.txt
 expect 2 "no plug-in" "slam.plugin.library: " "crashes.sh" -- \
   run quick-loop "${court[@]}" --out crashed --set slam.plugin.library=crashes.sh
+cat >space.yaml <<'END'
+difficulties:
+  - {name: low sun, between: {world.sun.elevation_deg: [50, 4]}}
+END
 for command in "run quick-loop --out untrusted" "run quick-loop --seeds 1..2 --out untrusted" \
   "record quick-loop --format rgb --out untrusted" "bench record --scenario quick-loop" \
-  "bench slam --scenario quick-loop"; do
+  "bench slam --scenario quick-loop" "search quick-loop --space space.yaml --out untrusted"; do
   # shellcheck disable=SC2086
   expect 2 "untrusted plug-in, $command" "slam.plugin: is code" -- $command "${court[@]}" \
     --untrusted --set slam.plugin.library=crashes.sh

@@ -23,6 +23,12 @@ expect 0 "plan" '{"sweep_plan":1,' -- sweep plan spec.yaml
 mv stdout plan.jsonl
 [[ $(wc -l <plan.jsonl) -eq 7 ]] || report "plan: expected a line and six tasks"
 
+touch code.so
+sed 's/duration: 0.3/slam.plugin.library: code.so/' spec.yaml >code.yaml
+"$vinebench" sweep plan code.yaml >code.jsonl 2>/dev/null
+expect 2 "untrusted" "slam.plugin: is code" -- sweep run code.jsonl --untrusted --out untrusted
+[[ ! -e untrusted ]] || report "untrusted: leaves a folder"
+
 # In one go; the drives end too early for their expectations.
 fake=(--set renderer.engine=fake --set duration=0.3)
 "$vinebench" run quick-loop aisle-loop --seeds 1..3 --jobs 2 "${fake[@]}" --out whole >stdout 2>stderr

@@ -55,7 +55,7 @@ TEST_F(SweepPlanTest, AFileHoldsAllOfIt) {
 
 TEST_F(SweepPlanTest, WhatIsNoPlanIsRefused) {
   const std::string text = format_plan(test::fake_plan());
-  EXPECT_THAT(error_of_text(""), HasSubstr("a part of the file is missing"));
+  EXPECT_THAT(error_of_text(""), HasSubstr("is empty"));
   EXPECT_THAT(error_of_text("{}\n"), HasSubstr("plan.jsonl:1: expected a line of a plan"));
   EXPECT_THAT(error_of_text(text.substr(0, text.size() / 2)),
               HasSubstr("expected a line of a plan"));

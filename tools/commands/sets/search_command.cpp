@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "core/files/files.h"
 #include "core/files/output_folder.h"
 #include "core/util/error.h"
+#include "harness/experiment/trust.h"
 #include "harness/search/operating_map.h"
 #include "harness/search/search.h"
 #include "harness/search/search_files.h"
@@ -40,6 +42,7 @@ struct SearchArguments {
   std::string out = "out/search";
   int jobs = 1;
   int threads = default_threads();
+  bool untrusted = false;
   std::filesystem::path cache;
   Surroundings surroundings;
 };
@@ -48,8 +51,11 @@ harness::SearchProblem problem_of(const SearchArguments& arguments) {
   harness::SearchProblem problem;
   const fs::path file = arguments.scenario;
   const std::string platform = arguments.surroundings.machine.gl_platform;
-  problem.load = [file, platform](const std::vector<Override>& overrides) {
+  std::optional<harness::Untrusted> untrusted;
+  if (arguments.untrusted) untrusted = harness::Untrusted{arguments.surroundings.data_folders};
+  problem.load = [file, platform, untrusted](const std::vector<Override>& overrides) {
     harness::ScenarioConfig scenario = harness::load_scenario(file, overrides);
+    if (untrusted) harness::check_untrusted(scenario, file, *untrusted);
     if (scenario.earlier_visit) {
       fail("{}: a scenario with an earlier visit cannot be searched", file.string());
     }
@@ -218,7 +224,8 @@ std::vector<Option> how_to_look(SearchArguments& arguments) {
            .show_default = true},
           jobs_option(arguments.jobs),
           threads_option(arguments.threads),
-          cache_option(arguments.cache)};
+          cache_option(arguments.cache),
+          untrusted_option(arguments.untrusted)};
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "core/files/output_folder.h"
 #include "core/util/error.h"
 #include "harness/catalogue/catalogue.h"
+#include "harness/experiment/trust.h"
 #include "harness/sets/set_report.h"
 #include "harness/sweep/run_cost_estimate.h"
 #include "harness/sweep/shards.h"
@@ -41,14 +42,17 @@ struct SweepArguments {
   std::vector<std::string> folders;
   int jobs = 1;
   int threads = default_threads();
+  bool untrusted = false;
   std::filesystem::path cache;
   Surroundings surroundings;
 };
 
-harness::ScenarioLoader loader_of(const Surroundings& surroundings) {
-  return [surroundings](const std::string& name, const std::vector<Override>& overrides) {
+harness::ScenarioLoader loader_of(const SweepArguments& arguments) {
+  return [surroundings = arguments.surroundings, untrusted = arguments.untrusted](
+             const std::string& name, const std::vector<Override>& overrides) {
     const fs::path file = surroundings.catalogue.find(harness::DataKind::kScenario, name);
     harness::ScenarioConfig scenario = harness::load_scenario(file, overrides);
+    if (untrusted) harness::check_untrusted(scenario, file, {surroundings.data_folders});
     sim::choose_backend(scenario.simulation.renderer, surroundings.machine.gl_platform);
     return scenario;
   };
@@ -61,8 +65,8 @@ int plan(const SweepArguments& arguments) {
   }
   std::map<std::string, double> measured;
   if (!arguments.measured.empty()) measured = harness::measured_costs(arguments.measured);
-  const harness::SweepPlan plan = harness::make_plan(
-      spec, loader_of(arguments.surroundings), [&](const harness::ScenarioConfig& scenario) {
+  const harness::SweepPlan plan =
+      harness::make_plan(spec, loader_of(arguments), [&](const harness::ScenarioConfig& scenario) {
         const auto found = measured.find(scenario.name);
         return found != measured.end() ? found->second : harness::estimate_cost(scenario);
       });
@@ -92,7 +96,7 @@ int run(const SweepArguments& arguments) {
   const std::vector<std::size_t> tasks = harness::tasks_of(shard, costs_of(plan));
   const fs::path out = arguments.out.empty() ? kSweepFolder : arguments.out;
   const std::vector<harness::PlannedRun> runs =
-      harness::planned_runs(plan, tasks, loader_of(arguments.surroundings), out);
+      harness::planned_runs(plan, tasks, loader_of(arguments), out);
   const harness::SetOutcome outcome =
       make_planned_runs(runs, {with_cache(arguments.surroundings.machine, arguments.cache),
                                arguments.jobs, arguments.threads});
@@ -115,8 +119,7 @@ int merge(const SweepArguments& arguments) {
   }
   const fs::path out = arguments.out.empty() ? folders.front() : fs::path(arguments.out);
   const FolderLock lock(out);
-  harness::MergedSweep merged =
-      harness::merge_sweep(plan, folders, loader_of(arguments.surroundings));
+  harness::MergedSweep merged = harness::merge_sweep(plan, folders, loader_of(arguments));
   const std::string csv = harness::format_csv(plan, merged);
   const auto passed = std::ranges::count_if(merged.outcome.runs, &harness::SetRun::passed);
   const auto scenarios = harness::summarise(merged.plan, std::move(merged.outcome));
@@ -182,7 +185,8 @@ Command sweep_run_command(const std::shared_ptr<SweepArguments>& arguments) {
                    .type = "FOLDER"},
                   jobs_option(arguments->jobs),
                   threads_option(arguments->threads),
-                  cache_option(arguments->cache)},
+                  cache_option(arguments->cache),
+                  untrusted_option(arguments->untrusted)},
       .footer =
           "Exit code: 0 when all runs of the shard have results, whatever their verdict, 2 "
           "when one could not be made, 130 when interrupted. The same command goes on.",
