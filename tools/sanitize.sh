@@ -10,7 +10,7 @@
 #            of, and which take most of the time; the tests of core, and those of slam that go through
 #            most of it, without the long drives; and the fuzzers of all readers, 6 s each
 #   thread   what has threads in slam
-#   address  all tests of core and slam but the long drives, with the default compiler
+#   address  all tests of core and slam but the longest, with the default compiler
 #   sanitize everything, with all checks
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

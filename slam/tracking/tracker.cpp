@@ -35,8 +35,8 @@ constexpr double kMaxAcceleration = 10;  // m/s^2
 
 /// Of the landmarks that a pose would have in view, at least this share must be there. After
 /// blackouts of 1 to 5 s between rows of plants that repeat, poses that were right found 19 to 27 %
-/// of them, wrong ones, with up to 73 inliers, 3 to 4 % (many-rows-short); wrong ones in quick turns
-/// with one pair at 10 Hz 5 to 10 %.
+/// of them, wrong ones, with up to 73 inliers, 3 to 4 % (many-rows-short); wrong ones in quick
+/// turns with one pair at 10 Hz 5 to 10 %.
 constexpr double kMinFound = 0.15;
 
 /// How well a seen pose is known against those of the frames before and after it: better than the

@@ -6,12 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "core/util/error.h"
+#include "tests/support/dirty_lens.h"
 #include "tests/support/synthetic_plane.h"
 #include "tests/support/synthetic_tag.h"
 
@@ -156,17 +156,7 @@ TEST_F(FrontEndTest, MatchesAPairWhoseEyesAreOnOtherRows) {
 
 TEST_F(FrontEndTest, MatchesAPairWithADirtyEye) {
   const auto clean = process(frame_);
-  // Specks of grey dirt, 9 px apart, that are 90 % opaque in their middle.
-  cv::Mat& image = frame_.images[1];
-  cv::Mat dirty = image.clone();
-  for (int y = 0; y < dirty.rows; ++y) {
-    for (int x = 0; x < dirty.cols; ++x) {
-      const double dirt = 0.9 * std::pow(std::sin(x * M_PI / 9) * std::sin(y * M_PI / 9), 2);
-      auto& grey = dirty.at<std::uint8_t>(y, x);
-      grey = cv::saturate_cast<std::uint8_t>((1 - dirt) * grey + dirt * 128);
-    }
-  }
-  image = dirty;
+  frame_.images[1] = test::through_dirt(frame_.images[1]);
   const auto features = process(frame_);
   EXPECT_GT(on_the_wall(features->views[0]), on_the_wall(clean->views[0]) / 2);
 }
