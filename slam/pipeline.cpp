@@ -66,13 +66,13 @@ Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
       rig_(rig, config.features, config.refinement),
       map_(config.features.scale),
       tracker_({config.tracking, config.dead_reckoning, config.refinement, config.stereo,
-                config.inertial, config.wheels}),
+                inertial_noise(config.inertial, rig.imu), config.wheels}),
       mapper_({config.mapping, config.refinement.enabled, config.tracking.max_hamming,
-               config.loop.corner_sigma, config.inertial}),
+               config.loop.corner_sigma, inertial_noise(config.inertial, rig.imu)}),
       scheduler_(config.mapping, one_thread),
-      loop_closer_(
-          {config.loop, config.tags.size, config.mapping.global_iterations, config.inertial},
-          rig_.tag_cameras, tags),
+      loop_closer_({config.loop, config.tags.size, config.mapping.global_iterations,
+                    inertial_noise(config.inertial, rig.imu)},
+                   rig_.tag_cameras, tags),
       recovery_(tracker_, loop_closer_, rig_, map_),
       calibration_(config.calibration, config.stereo.calibration_sigma, rig_) {
   rig_.wheels = config.dead_reckoning.wheels;
@@ -130,6 +130,7 @@ std::vector<SupportingFeature> Pipeline::supporting_features() const {
 void Pipeline::join_due_mapping() {
   scheduler_.tick();
   if (scheduler_.due()) join_mapping();
+  if (global_adjuster_.done() && !scheduler_.busy()) join_global_adjustment();
 }
 
 /// Depths as self-calibration has found the pairs to measure.
@@ -157,6 +158,7 @@ void Pipeline::find_carried(TrackedFrame& tracked) {
 void Pipeline::carry(const Pose& T_map_body, TrackedFrame& tracked) {
   if (scheduler_.busy()) join_mapping(&tracked);
   records_.withdraw_reckoned(recovery_.move_to(T_map_body, tracked));
+  global_adjuster_.outdate();
 }
 
 /// Leaves the frame the sightings that are to be believed.
@@ -174,6 +176,7 @@ void Pipeline::settle_dissent(TrackedFrame& tracked) {
   const std::optional<Pose> T_map_world = map_.world();
   if (const auto to = loop_closer_.gates().settle_dissent(T_map_body, map_)) carry(*to, tracked);
   if (!T_map_world || T_map_world->translation == map_.world()->translation) return;
+  global_adjuster_.outdate();
   // Poses are told in the map: it moves, so that the world is where it was.
   const Pose T_new_old = keep_world(map_, *T_map_world);
   tracker_.correct(T_new_old * tracker_.T_map_body());
@@ -188,7 +191,9 @@ void Pipeline::release_images(FrameFeatures& frame) {
 
 void Pipeline::record_tags(const TrackedFrame& tracked) {
   if (!tracked.tracked) return;
+  const bool placed = map_.world().has_value();
   loop_closer_.record(*tracked.frame, tracker_.T_map_body(), path_length_, map_);
+  if (map_.world().has_value() != placed) global_adjuster_.outdate();
 }
 
 /// Keeps the frame's pose against the latest keyframe, and reports it.
@@ -201,6 +206,8 @@ void Pipeline::record_pose(const TrackedFrame& tracked, Estimate& estimate) {
 
 SlamSummary Pipeline::finish() {
   join_mapping();
+  while (global_adjuster_.busy()) join_global_adjustment();
+  if (look_.busy()) calibration_.finish_look(look_.take(), rig_);
   const auto calibration = calibration_.latest();
   if (calibration) use_calibration(*calibration);
   if (tags_since_adjustment_ || calibration) {
@@ -278,8 +285,7 @@ bool Pipeline::wants_new_keyframe(const TrackedFrame& tracked) const {
   if (!tracked.tracked) return false;
   if (!started_ || tracked.link) return true;
   // Live, a robot's tracking waits for the mapping before only when it would soon be lost.
-  const bool waits = config_.mapping.schedule == MappingSchedule::kLockstep ||
-                     tracked.motion.inliers < config_.keyframes.min_inliers / 2;
+  const bool waits = !is_live() || tracked.motion.inliers < config_.keyframes.min_inliers / 2;
   if (scheduler_.busy() && !waits) return false;
   if (is_covered(tracked, map_, config_.keyframes)) {
     return loop_closer_.sees_loop(*tracked.frame, path_length_);
@@ -296,6 +302,25 @@ void Pipeline::join_mapping(TrackedFrame* tracked) {
   const Pose T_new_old = scheduler_.join(map_, times_);
   tracker_.correct(T_new_old * tracker_.T_map_body());
   if (tracked != nullptr) tracked->motion.T_map_body = T_new_old * tracked->motion.T_map_body;
+}
+
+/// At once in lockstep; live, beside tracking.
+void Pipeline::adjust_globally() {
+  if (is_live()) {
+    global_adjuster_.start(loop_closer_, rig_, map_);
+  } else {
+    loop_closer_.adjust_globally(rig_, map_);
+  }
+}
+
+/// Takes over what an adjustment beside tracking found; the latest poses move with it.
+void Pipeline::join_global_adjustment() {
+  const bool another = global_adjuster_.wants_another();
+  if (const std::optional<Pose> T_new_old = global_adjuster_.join(map_, times_)) {
+    tracker_.correct(*T_new_old * tracker_.T_map_body());
+    believe_gravity();
+  }
+  if (another) adjust_globally();
 }
 
 void Pipeline::map_keyframe(TrackedFrame& tracked, Estimate& estimate) {
@@ -335,7 +360,11 @@ void Pipeline::grow_uncertainty(const TrackedFrame& tracked) {
 void Pipeline::close_loop(int keyframe, Estimate& estimate) {
   const ScopedTimer timer(times_, "global adjustment");
   take_calibration(estimate);
-  estimate.loop_closure = loop_closer_.close(keyframe, path_length_, rig_, map_);
+  estimate.loop_closure = loop_closer_.close(keyframe, path_length_, rig_, map_, !is_live());
+  if (is_live()) {
+    global_adjuster_.outdate();
+    adjust_globally();
+  }
   believe_gravity();
   const Matrix6d of_tags = by_tag_covariance() + loop_closer_.gates().localisation_covariance(
                                                      map_.keyframe(keyframe).frame->tags);
@@ -364,7 +393,11 @@ void Pipeline::close_loop_by_place(int keyframe, Estimate& estimate) {
   const auto found = places_->look(keyframe, path_length_, now, map_, rig_);
   if (!found || estimate.loop_closure) return;
   take_calibration(estimate);
-  estimate.loop_closure = loop_closer_.close(*found, keyframe, mapper_, rig_, map_);
+  estimate.loop_closure = loop_closer_.close(*found, keyframe, mapper_, rig_, map_, !is_live());
+  if (is_live()) {
+    global_adjuster_.outdate();
+    adjust_globally();
+  }
   believe_gravity();
   const Matrix6d by_place =
       carry_covariance(found->earlier_covariance, estimate.loop_closure->T_earlier_later) +
@@ -387,12 +420,28 @@ void Pipeline::calibrate(Estimate& estimate) {
     calibration_.feel(map_, rig_, mapper_.adjustment_options());
     calibration_error_ = calibration_.error(rig_);
   }
+  if (is_live()) return calibrate_live(estimate);
   if (!calibration_.due(map_)) return;
   const ScopedTimer timer(times_, "calibration");
-  const auto found = calibration_.look(map_, rig_, mapper_.adjustment_options());
+  take_look(calibration_.look(map_, rig_, mapper_.adjustment_options()), estimate);
+}
+
+/// Looks beside tracking.
+void Pipeline::calibrate_live(Estimate& estimate) {
+  if (look_.done()) take_look(calibration_.finish_look(look_.take(), rig_), estimate);
+  if (look_.busy() || !calibration_.due(map_)) return;
+  look_.start(
+      [job = std::shared_ptr(calibration_.begin_look(map_, rig_, mapper_.adjustment_options()))] {
+        job->solve();
+        return job->calibration();
+      });
+}
+
+void Pipeline::take_look(const std::optional<std::vector<PairCalibration>>& found,
+                         Estimate& estimate) {
   if (found) {
     use_calibration(*found);
-    loop_closer_.adjust_globally(rig_, map_);
+    adjust_globally();
     believe_gravity();
     estimate.calibration = *found;
   }

@@ -17,6 +17,8 @@
 #include "slam/mapping/local_mapper.h"
 #include "slam/optimisation/pose_uncertainty.h"
 #include "slam/recovery.h"
+#include "slam/runtime/background.h"
+#include "slam/runtime/global_adjuster.h"
 #include "slam/runtime/mapping_scheduler.h"
 #include "slam/tracking/tracker.h"
 
@@ -64,6 +66,9 @@ class Pipeline {
   void settle_dissent(TrackedFrame& tracked);
   bool wants_new_keyframe(const TrackedFrame& tracked) const;
   void join_mapping(TrackedFrame* tracked = nullptr);
+  bool is_live() const { return config_.mapping.schedule == MappingSchedule::kLive; }
+  void adjust_globally();
+  void join_global_adjustment();
   void map_keyframe(TrackedFrame& tracked, Estimate& estimate);
   void grow_uncertainty(const TrackedFrame& tracked);
   void close_loop(int keyframe, Estimate& estimate);
@@ -71,6 +76,8 @@ class Pipeline {
   void take_calibration(Estimate& estimate);
   void believe_gravity();
   void calibrate(Estimate& estimate);
+  void calibrate_live(Estimate& estimate);
+  void take_look(const std::optional<std::vector<PairCalibration>>& found, Estimate& estimate);
   void use_calibration(const std::vector<PairCalibration>& pairs);
   Matrix6d covariance(const TrackedFrame& tracked, bool keyframe) const;
   Estimate report(const TrackedFrame& tracked) const;
@@ -85,8 +92,10 @@ class Pipeline {
   std::optional<PlaceLoops> places_;
   Recovery recovery_;
   CalibrationWatch calibration_;
-  PoseUncertainty uncertainty_;        ///< of the latest keyframe
-  Eigen::MatrixXd calibration_error_;  ///< second moments, as CalibrationWatch has them
+  GlobalAdjuster global_adjuster_;        ///< live
+  Background<CalibrationMarginal> look_;  ///< live: of calibration_
+  PoseUncertainty uncertainty_;           ///< of the latest keyframe
+  Eigen::MatrixXd calibration_error_;     ///< second moments, as CalibrationWatch has them
   StageTimes times_;
   TrajectoryRecord records_;
   std::vector<std::vector<Eigen::Vector2f>> supporting_;  ///< px, of the last frame's views

@@ -40,6 +40,7 @@ Rig RigConfig::make() const {
   Rig rig;
   rig.name = name;
   rig.rate_hz = rate_hz;
+  rig.imu = imu;
   for (const Camera& c : cameras) {
     if (c.name.starts_with('.') || c.name.find('/') != std::string::npos) {
       fail("rig '{}': camera '{}': expected a name without '/' that begins with no '.'", name,

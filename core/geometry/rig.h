@@ -32,6 +32,28 @@ struct StereoPair {
   int right = 0;
 };
 
+/// Noise of an inertial unit as its data sheet or a calibration has it (unit u = rad/s or m/s^2).
+struct ImuNoise {
+  struct Axes {
+    double noise_density = 0;     ///< u/sqrt(Hz), white noise
+    double bias_random_walk = 0;  ///< u/s/sqrt(Hz), white noise of the bias's rate
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive("noise_density", noise_density, Range::positive());
+      archive("bias_random_walk", bias_random_walk, Range::positive());
+    }
+  };
+  Axes gyroscope;
+  Axes accelerometer;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("gyroscope", gyroscope);
+    archive("accelerometer", accelerometer);
+  }
+};
+
 /// N rigidly mounted cameras exposed at the same instant. A camera is data: its index.
 struct Rig {
   std::string name;
@@ -39,6 +61,7 @@ struct Rig {
   std::vector<RigCamera> cameras;
   std::vector<StereoPair> stereo_pairs;  ///< used for tracking
   std::vector<int> tag_cameras;          ///< in which AprilTags are detected
+  std::optional<ImuNoise> imu;           ///< of its inertial unit, where it is known
 
   /// Index of the camera with that name, or -1.
   int find_camera(const std::string& name) const;
@@ -105,6 +128,7 @@ struct RigConfig {
   std::vector<Camera> cameras;
   std::vector<Pair> stereo_pairs;
   std::vector<std::string> tag_cameras;  ///< names of those that search for tags
+  std::optional<ImuNoise> imu;           ///< what is known of its inertial unit
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -113,6 +137,7 @@ struct RigConfig {
     archive("cameras", cameras);
     archive("stereo_pairs", stereo_pairs);
     archive("tag_cameras", tag_cameras);
+    archive("imu", imu);
     check(archive);
   }
 

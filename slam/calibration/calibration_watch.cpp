@@ -136,15 +136,28 @@ bool CalibrationWatch::may_feel(const Map& map) const {
 void CalibrationWatch::feel(const Map& map, const EstimatorRig& rig,
                             const AdjustmentOptions& options) {
   felt_ = true;
-  keep_drift(measure(kFew, map, rig, options), kFew);
+  const auto few = job(kFew, map, rig, options);
+  few->solve();
+  keep_drift(few->calibration(), kFew);
 }
 
 std::optional<std::vector<PairCalibration>> CalibrationWatch::look(
     const Map& map, const EstimatorRig& rig, const AdjustmentOptions& options) {
-  const CalibrationMarginal found = measure(kPart, map, rig, options);
-  const CalibrationBelief& part = found.belief;
+  const auto part = begin_look(map, rig, options);
+  part->solve();
+  return finish_look(part->calibration(), rig);
+}
+
+std::unique_ptr<AdjustmentJob> CalibrationWatch::begin_look(const Map& map, const EstimatorRig& rig,
+                                                            const AdjustmentOptions& options) {
   looked_ = map.keyframes().size();
   ++looks_;
+  return job(kPart, map, rig, options);
+}
+
+std::optional<std::vector<PairCalibration>> CalibrationWatch::finish_look(
+    const CalibrationMarginal& found, const EstimatorRig& rig) {
+  const CalibrationBelief part = found.belief + prior_ * -1;
   if (!part.information.allFinite() || !part.information_vector.allFinite()) return std::nullopt;
   keep_drift(found, kPart);
   add(part);
@@ -180,20 +193,17 @@ std::optional<std::vector<PairCalibration>> CalibrationWatch::latest() const {
   return from_vector(average_.mean);
 }
 
-CalibrationMarginal CalibrationWatch::measure(std::size_t keyframes, const Map& map,
-                                              const EstimatorRig& rig,
-                                              const AdjustmentOptions& options) const {
+std::unique_ptr<AdjustmentJob> CalibrationWatch::job(std::size_t keyframes, const Map& map,
+                                                     const EstimatorRig& rig,
+                                                     const AdjustmentOptions& options) const {
   AdjustmentOptions unknown = options;
   unknown.iterations = kIterations;
   unknown.tags = false;  // their corners err alike from frame to frame, by more than they tell
   unknown.min_keyframes = kMinKeyframes;
   unknown.calibration = prior_;
   const std::size_t end = map.keyframes().size();
-  AdjustmentJob job(map, keyframes_between(end - keyframes, end), rig, unknown);
-  job.solve();
-  CalibrationMarginal found = job.calibration();
-  found.belief = found.belief + prior_ * -1;
-  return found;
+  return std::make_unique<AdjustmentJob>(map, keyframes_between(end - keyframes, end), rig,
+                                         unknown);
 }
 
 void CalibrationWatch::keep_drift(const CalibrationMarginal& marginal, std::size_t keyframes) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -51,6 +52,12 @@ class CalibrationWatch {
   std::optional<std::vector<PairCalibration>> look(const Map& map, const EstimatorRig& rig,
                                                    const AdjustmentOptions& options);
 
+  /// look() in two steps, between which the first one's job is to be solved, on any thread.
+  std::unique_ptr<AdjustmentJob> begin_look(const Map& map, const EstimatorRig& rig,
+                                            const AdjustmentOptions& options);
+  std::optional<std::vector<PairCalibration>> finish_look(const CalibrationMarginal& found,
+                                                          const EstimatorRig& rig);
+
   /// The calibrations as they are known now, if they were replaced once.
   std::optional<std::vector<PairCalibration>> latest() const;
 
@@ -67,8 +74,8 @@ class CalibrationWatch {
   const Eigen::MatrixXd& drift() const { return drift_; }
 
  private:
-  CalibrationMarginal measure(std::size_t keyframes, const Map& map, const EstimatorRig& rig,
-                              const AdjustmentOptions& options) const;
+  std::unique_ptr<AdjustmentJob> job(std::size_t keyframes, const Map& map, const EstimatorRig& rig,
+                                     const AdjustmentOptions& options) const;
   void keep_drift(const CalibrationMarginal& marginal, std::size_t keyframes);
   std::optional<std::vector<PairCalibration>> look_at_one_pair(const CalibrationBelief& now,
                                                                const EstimatorRig& rig);

@@ -16,17 +16,6 @@
 
 namespace vinebench::slam {
 
-/// Where an inertial unit sits, and its noise (unit u = rad/s or m/s^2).
-struct InertialCalibration {
-  struct Axes {
-    double noise_density = 0;     ///< u/sqrt(Hz)
-    double bias_random_walk = 0;  ///< u/s/sqrt(Hz)
-  };
-  Pose T_body_imu;
-  Axes gyroscope;
-  Axes accelerometer;
-};
-
 /// What the estimator knows of its cameras and their noise: a value that is derived once and handed
 /// to whoever needs it. Self-calibration makes another one; work that runs beside tracking keeps
 /// the one it was given.
@@ -45,8 +34,7 @@ struct EstimatorRig {
   std::vector<Pose> T_body_cams;                   ///< of these
   TagCameras tag_cameras;
   MeasurementNoise noise;
-  std::optional<InertialCalibration> imu;  ///< where an inertial unit takes part
-  std::optional<MecanumWheels> wheels;     ///< where there are any
+  std::optional<MecanumWheels> wheels;  ///< where there are any
 };
 
 }  // namespace vinebench::slam

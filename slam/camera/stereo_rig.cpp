@@ -61,6 +61,7 @@ StereoRig make_stereo_rig(const Rig& rig, const std::vector<std::string>& names)
   };
   StereoRig used;
   used.cameras = rig.cameras;
+  used.imu = rig.imu;
   for (const StereoPair& pair : rig.stereo_pairs) {
     if (selected(pair.name)) used.pairs.push_back(make_pair(rig, pair));
   }

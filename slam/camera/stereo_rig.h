@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct StereoRig {
   std::vector<RectifiedPair> pairs;
   std::vector<int> tag_cameras;    ///< indices into Rig::cameras
   std::vector<RigCamera> cameras;  ///< all of the rig's
+  std::optional<ImuNoise> imu;     ///< of its inertial unit, where it is known
 };
 
 /// Selects the pairs and tag cameras that `names` lists (all where it is empty). Throws Error for

@@ -54,7 +54,7 @@ std::optional<Eigen::Quaterniond> levelling_turn(const MapGravity& felt,
 }
 
 void level_about(Map& map, const Pose& T_map_tag, const Eigen::Matrix3d& turn,
-                 const Eigen::Vector3d& down, const InertialConfig& inertial) {
+                 const Eigen::Vector3d& down, const InertialNoise& inertial) {
   const auto felt = fit_gravity(map, inertial);
   if (!felt) return;
   const Eigen::Matrix3d R = T_map_tag.rotation.toRotationMatrix();

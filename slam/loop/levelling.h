@@ -23,6 +23,6 @@ std::optional<Eigen::Quaterniond> levelling_turn(const MapGravity& felt,
 /// (rad^2); what all of the way is turned by against it, by the errors of its steps, adds to that.
 /// Nothing changes where no gravity was felt, or not such.
 void level_about(Map& map, const Pose& T_map_tag, const Eigen::Matrix3d& turn,
-                 const Eigen::Vector3d& down, const InertialConfig& inertial);
+                 const Eigen::Vector3d& down, const InertialNoise& inertial);
 
 }  // namespace vinebench::slam

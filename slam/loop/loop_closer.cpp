@@ -79,7 +79,7 @@ std::optional<LoopCloser::EarlierEnd> LoopCloser::earlier_end(const Keyframe& la
 }
 
 LoopClosure LoopCloser::close(int keyframe_id, double path_length, const EstimatorRig& rig,
-                              Map& map) {
+                              Map& map, bool adjusts) {
   const Keyframe& later = map.keyframe(keyframe_id);
   const TagSighting* sighting = gates_.loop_sighting(*later.frame, path_length);
   const auto earlier = sighting ? earlier_end(later, *sighting, map) : std::nullopt;
@@ -100,7 +100,7 @@ LoopClosure LoopCloser::close(int keyframe_id, double path_length, const Estimat
     if (map.find_tag(seen.family, seen.id) == nullptr) gates_.add_tag(seen, later.T_map_body, map);
     gates_.remember_visit(seen, later.frame->stamp, path_length, true);
   }
-  adjust_globally(rig, map);
+  if (adjusts) adjust_globally(rig, map);
   if (!same_tag(*earlier->sighting, *sighting)) {
     // One sighting's turn swings what is measured by way of another tag: all of them know better.
     closure.T_earlier_later =
@@ -114,7 +114,7 @@ LoopClosure LoopCloser::close(int keyframe_id, double path_length, const Estimat
 }
 
 LoopClosure LoopCloser::close(const PlaceReturn& place, int keyframe, const LocalMapper& mapper,
-                              const EstimatorRig& rig, Map& map) const {
+                              const EstimatorRig& rig, Map& map, bool adjusts) const {
   const Keyframe& earlier = map.keyframe(place.earlier);
   const Keyframe& later = map.keyframe(keyframe);
   const Pose before = later.T_map_body;
@@ -130,7 +130,7 @@ LoopClosure LoopCloser::close(const PlaceReturn& place, int keyframe, const Loca
       mapper.tie(place.landmarks, k, rig, map);
     }
   }
-  adjust_globally(rig, map);
+  if (adjusts) adjust_globally(rig, map);
   if (place.tied) closure.T_earlier_later = earlier.T_map_body.inverse() * later.T_map_body;
   closure.correction = (later.T_map_body.translation - before.translation).norm();
   return closure;

@@ -19,9 +19,9 @@ namespace vinebench::slam {
 /// What LoopCloser is set by.
 struct LoopCloserSettings {
   LoopConfig loop;
-  double tag_size = 0.161;                   ///< m, of tags that are not registered
-  int global_iterations = 25;                ///< of a global adjustment
-  std::optional<InertialConfig> inertial{};  ///< of a unit that takes part
+  double tag_size = 0.161;                  ///< m, of tags that are not registered
+  int global_iterations = 25;               ///< of a global adjustment
+  std::optional<InertialNoise> inertial{};  ///< of a unit that takes part
 };
 
 /// Loop closing by tags (paper, Sect. III-B): a tag that was seen, left, and is seen again ties the
@@ -47,13 +47,15 @@ class LoopCloser {
   void record(const FrameFeatures& frame, const Pose& T_map_body, double path_length, Map& map);
 
   /// Closes the loop that `keyframe`, made of a frame that sees_loop, sees: moves the way since the
-  /// earlier visit onto the tag's constraint, then adjusts the whole map.
-  LoopClosure close(int keyframe, double path_length, const EstimatorRig& rig, Map& map);
+  /// earlier visit onto the tag's constraint, then adjusts the whole map, unless the caller does
+  /// that.
+  LoopClosure close(int keyframe, double path_length, const EstimatorRig& rig, Map& map,
+                    bool adjusts = true);
 
   /// Closes the loop that a return to a place makes: moves the way since then, ties the last
-  /// keyframes to what was mapped there, and adjusts the whole map.
+  /// keyframes to what was mapped there, and adjusts the whole map, unless the caller does that.
   LoopClosure close(const PlaceReturn& place, int keyframe, const LocalMapper& mapper,
-                    const EstimatorRig& rig, Map& map) const;
+                    const EstimatorRig& rig, Map& map, bool adjusts = true) const;
 
   /// Global bundle adjustment of the map, levelled first. The world stays where it is in the map.
   void adjust_globally(const EstimatorRig& rig, Map& map) const;

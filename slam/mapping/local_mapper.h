@@ -19,7 +19,7 @@ struct LocalMapperSettings {
   bool refinement = true;          ///< features are placed on their landmark's patch
   int max_hamming = 64;            ///< bits
   double tag_corner_sigma = 0.15;  ///< px, by which a tag's corner is off besides its noise
-  std::optional<InertialConfig> inertial{};  ///< of a unit that takes part
+  std::optional<InertialNoise> inertial{};  ///< of a unit that takes part
 };
 
 /// Local mapping: what a new keyframe adds to the map.

@@ -7,7 +7,7 @@
 namespace vinebench::slam {
 
 DeadReckoning::DeadReckoning(const DeadReckoningConfig& config,
-                             const std::optional<InertialConfig>& inertial,
+                             const std::optional<InertialNoise>& inertial,
                              const std::optional<WheelFusionConfig>& wheels)
     : config_(config) {
   if (inertial) inertial_.emplace(*inertial, wheels);

@@ -37,7 +37,7 @@ struct DeadReckoningConfig {
 class DeadReckoning {
  public:
   explicit DeadReckoning(const DeadReckoningConfig& config,
-                         const std::optional<InertialConfig>& inertial = {},
+                         const std::optional<InertialNoise>& inertial = {},
                          const std::optional<WheelFusionConfig>& wheels = {});
 
   /// A frame's inertial readings and the wheels' motion, before it is looked at.

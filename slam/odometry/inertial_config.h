@@ -2,15 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "core/config/config_field.h"
+#include "core/geometry/rig.h"
 
 namespace vinebench::slam {
 
-/// What an inertial unit's data sheet says of three axes (unit u = rad/s or m/s^2).
+/// What is known of three axes of an inertial unit (unit u = rad/s or m/s^2).
 struct InertialAxesConfig {
-  double noise_density = 0;     ///< u/sqrt(Hz), white noise
-  double bias_random_walk = 0;  ///< u/s/sqrt(Hz), white noise of the bias's rate
-  double bias = 0;              ///< u, standard deviation of the bias when the unit is switched on
+  std::optional<double> noise_density;     ///< u/sqrt(Hz), white noise; default: the rig file's
+  std::optional<double> bias_random_walk;  ///< u/s/sqrt(Hz), of the bias; default: the rig file's
+  std::optional<double> bias;  ///< u, standard deviation of the bias when the unit is switched on
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -20,12 +23,10 @@ struct InertialAxesConfig {
   }
 };
 
-/// An inertial unit at the body's origin with the body's axes. The defaults are those of a usual
-/// one (Bosch BMI088), with room for what its data sheet leaves out: vibration between two
-/// readings, scale and temperature.
+/// An inertial unit at the body's origin with the body's axes.
 struct InertialConfig {
-  InertialAxesConfig gyroscope{4e-4, 1e-5, 5e-3};
-  InertialAxesConfig accelerometer{5e-3, 5e-4, 5e-2};
+  InertialAxesConfig gyroscope;
+  InertialAxesConfig accelerometer;
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -33,6 +34,24 @@ struct InertialConfig {
     archive("accelerometer", accelerometer);
   }
 };
+
+/// What the estimator takes an inertial unit's errors to be (unit u = rad/s or m/s^2). The defaults
+/// are those of a usual one (Bosch BMI088), with room for what its data sheet leaves out: vibration
+/// between two readings, scale and temperature.
+struct InertialNoise {
+  struct Axes {
+    double noise_density = 0;     ///< u/sqrt(Hz)
+    double bias_random_walk = 0;  ///< u/s/sqrt(Hz)
+    double bias = 0;              ///< u, standard deviation when the unit is switched on
+  };
+  Axes gyroscope{4e-4, 1e-5, 5e-3};
+  Axes accelerometer{5e-3, 5e-4, 5e-2};
+};
+
+/// Where an inertial unit takes part: what was set, else what the rig's file says, else the
+/// default.
+std::optional<InertialNoise> inertial_noise(const std::optional<InertialConfig>& config,
+                                            const std::optional<ImuNoise>& of_rig);
 
 /// How far wheels are believed beside an inertial unit.
 struct WheelFusionConfig {

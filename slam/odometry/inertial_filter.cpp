@@ -43,8 +43,8 @@ void InertialFilter::begin(const Pose& T_map_body, const Matrix6d& covariance) {
     covariance_.diagonal().segment<3>(part).setConstant(sigma * sigma);
   };
   diagonal(kVelocity, kFirstVelocity);
-  diagonal(kGyroscope, config_.gyroscope.bias);
-  diagonal(kAccelerometer, config_.accelerometer.bias);
+  diagonal(kGyroscope, noise_.gyroscope.bias);
+  diagonal(kAccelerometer, noise_.accelerometer.bias);
   const Eigen::Matrix3d along = up * up.transpose();
   covariance_.block<3, 3>(kGravity, kGravity) =
       std::pow(kFirstAcceleration, 2) * (Eigen::Matrix3d::Identity() - along) +
@@ -105,10 +105,10 @@ void InertialFilter::integrate(const ImuSample& reading, Stamp until) {
   };
   // A gap in the readings: what happened in it is not known.
   const double doubt = dt > kLongestStep ? 100 : 1;
-  grow(kVelocity, 3, doubt * config_.accelerometer.noise_density);
-  grow(kRotation, 3, doubt * config_.gyroscope.noise_density);
-  grow(kGyroscope, 3, config_.gyroscope.bias_random_walk);
-  grow(kAccelerometer, 3, config_.accelerometer.bias_random_walk);
+  grow(kVelocity, 3, doubt * noise_.accelerometer.noise_density);
+  grow(kRotation, 3, doubt * noise_.gyroscope.noise_density);
+  grow(kGyroscope, 3, noise_.gyroscope.bias_random_walk);
+  grow(kAccelerometer, 3, noise_.accelerometer.bias_random_walk);
   grow(kGravity, 3, kGravityWalk);
   if (wheel_config_) {
     grow(kWheels, 2, wheel_config_->scale_walk);

@@ -21,8 +21,8 @@ namespace vinebench::slam {
 /// cameras see, and goes on where they do not.
 class InertialFilter {
  public:
-  InertialFilter(const InertialConfig& inertial, const std::optional<WheelFusionConfig>& wheels)
-      : config_(inertial), wheel_config_(wheels) {}
+  InertialFilter(const InertialNoise& inertial, const std::optional<WheelFusionConfig>& wheels)
+      : noise_(inertial), wheel_config_(wheels) {}
 
   /// Whether a pose was seen, and readings have come.
   bool running() const { return running_; }
@@ -78,7 +78,7 @@ class InertialFilter {
   void update(const Eigen::VectorXd& innovation, const Eigen::MatrixXd& H,
               const Eigen::MatrixXd& noise);
 
-  InertialConfig config_;
+  InertialNoise noise_;
   std::optional<WheelFusionConfig> wheel_config_;
   bool running_ = false;
   Stamp stamp_ = 0;

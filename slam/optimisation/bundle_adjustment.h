@@ -15,11 +15,11 @@ namespace vinebench::slam {
 
 struct AdjustmentOptions {
   int iterations = 6;
-  double tag_corner_sigma = 0.3;             ///< px, besides the noise that a sighting knows of
-  bool global = false;                       ///< all of the map: to the end; mapped tags move too
-  bool tags = true;                          ///< tags that keyframes saw take part
-  int min_keyframes = 1;                     ///< landmarks that fewer see are left out
-  std::optional<InertialConfig> inertial{};  ///< where an inertial unit feels gravity
+  double tag_corner_sigma = 0.3;            ///< px, besides the noise that a sighting knows of
+  bool global = false;                      ///< all of the map: to the end; mapped tags move too
+  bool tags = true;                         ///< tags that keyframes saw take part
+  int min_keyframes = 1;                    ///< landmarks that fewer see are left out
+  std::optional<InertialNoise> inertial{};  ///< where an inertial unit feels gravity
   /// Where the pairs' calibrations are unknown: what is believed of them beforehand.
   std::optional<CalibrationBelief> calibration;
 };

@@ -18,7 +18,7 @@ constexpr double kGlobalInflation = 1e4;
 
 }  // namespace
 
-GravityFactors::GravityFactors(const std::optional<InertialConfig>& inertial, bool global)
+GravityFactors::GravityFactors(const std::optional<InertialNoise>& inertial, bool global)
     : inertial_(inertial), global_(global), huber_(std::sqrt(kChiSquared3)) {}
 
 void GravityFactors::add_to(ProblemBuilder& problem, const Map& map) {

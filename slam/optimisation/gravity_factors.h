@@ -22,7 +22,7 @@ class GravityFactors : public FactorSource {
  public:
   /// None without an inertial unit. In a `global` adjustment what the map believes of gravity
   /// hardly counts, unless the world says it: it came from the same readings, and they say it anew.
-  GravityFactors(const std::optional<InertialConfig>& inertial, bool global);
+  GravityFactors(const std::optional<InertialNoise>& inertial, bool global);
   void add_to(ProblemBuilder& problem, const Map& map) override;
 
   /// After a `global` adjustment the map's gravity is what was found; what comes of a few keyframes
@@ -32,7 +32,7 @@ class GravityFactors : public FactorSource {
  private:
   void believe(const MapGravity& known, ProblemBuilder& problem);
 
-  std::optional<InertialConfig> inertial_;
+  std::optional<InertialNoise> inertial_;
   bool global_;
   std::array<double, 6> gravity_{};  ///< and the bias
   std::unique_ptr<ceres::NormalPrior> belief_;

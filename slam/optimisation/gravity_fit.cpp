@@ -21,7 +21,7 @@ bool is_usable(const std::optional<PreintegratedMotion>& motion) {
 
 /// White noise of density s, integrated twice over t and divided by it, is s sqrt(t / 3) in each of
 /// the two mean velocities. The turn within an interval turns gravity.
-double sigma(double seconds, const InertialConfig& inertial) {
+double sigma(double seconds, const InertialNoise& inertial) {
   const double force = 2 * inertial.accelerometer.noise_density / std::sqrt(3 * seconds);
   const double turn = inertial.gyroscope.noise_density * std::sqrt(seconds / 3);
   return std::hypot(force, kStandardGravity * turn);
@@ -29,7 +29,7 @@ double sigma(double seconds, const InertialConfig& inertial) {
 
 }  // namespace
 
-std::optional<FeltGravity> felt_gravity(const Map& map, int last, const InertialConfig& inertial) {
+std::optional<FeltGravity> felt_gravity(const Map& map, int last, const InertialNoise& inertial) {
   if (last < 2) return std::nullopt;
   const std::optional<PreintegratedMotion>& before = map.keyframe(last - 1).motion;
   const std::optional<PreintegratedMotion>& after = map.keyframe(last).motion;
@@ -37,7 +37,7 @@ std::optional<FeltGravity> felt_gravity(const Map& map, int last, const Inertial
   return FeltGravity{*before, *after, sigma(before->seconds + after->seconds, inertial)};
 }
 
-std::optional<MapGravity> fit_gravity(const Map& map, const InertialConfig& inertial) {
+std::optional<MapGravity> fit_gravity(const Map& map, const InertialNoise& inertial) {
   // The factor is linear in gravity and bias: its residual at zero and its Jacobian say all.
   Matrix6d information = Matrix6d::Zero();
   Vector6d pull = Vector6d::Zero();

@@ -21,7 +21,7 @@ struct TrackerSettings {
   DeadReckoningConfig dead_reckoning;
   RefinementConfig refinement;
   StereoConfig stereo;
-  std::optional<InertialConfig> inertial{};   ///< of a unit that takes part
+  std::optional<InertialNoise> inertial{};    ///< of a unit that takes part
   std::optional<WheelFusionConfig> wheels{};  ///< that take part beside it
 };
 

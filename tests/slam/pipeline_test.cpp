@@ -224,6 +224,30 @@ TEST_F(RoundTripTest, SoDoesOneThatWasMappedAtFirstSight) {
   expect_the_loop_closed();
 }
 
+// Live, the adjustments run beside tracking, and join when they are done. A keyframe waits for the
+// local one before it, so that the loop may be closed some frames later.
+TEST_F(RoundTripTest, LiveALoopIsClosedBesideTracking) {
+  SlamConfig config;
+  config.mapping.schedule = MappingSchedule::kLive;
+  Pipeline pipeline(config, aisle_.rig, {});
+  for (std::int64_t i = 0; i <= kReturn + 20; ++i) {
+    truth_.push_back(round_trip(std::min(i, kReturn + 1)));
+    const bool sees_tag = i < 3 || i >= kReturn;
+    const Estimate estimate =
+        pipeline.process(sees_tag ? aisle_.frame_with_tag(i, truth_.back(), T_world_tag_)
+                                  : aisle_.frame(i, truth_.back()));
+    ASSERT_EQ(estimate.status, TrackingStatus::kTracking) << i;
+    if (estimate.loop_closure) closed_at_.push_back(i);
+  }
+  summary_ = pipeline.finish();
+  ASSERT_EQ(closed_at_.size(), 1u);
+  const Pose last = summary_.trajectory.front().pose.inverse() * summary_.trajectory.back().pose;
+  const Pose last_truth = truth_.front().inverse() * truth_.back();
+  // As in lockstep.
+  EXPECT_LT((last.translation - last_truth.translation).norm(), 0.002);
+  EXPECT_LT(worst_error(summary_.trajectory, truth_), 0.01);
+}
+
 TEST_F(RoundTripTest, ATagThatWasMovedOrIsThereTwiceClosesNone) {
   // The path is about 4 m long: a drift of at most 0.13 m is accepted.
   Pose moved = T_world_tag_;

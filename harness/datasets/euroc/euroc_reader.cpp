@@ -58,7 +58,7 @@ std::vector<Stamp> read_instants(const fs::path& folder, const ImageList& first_
 }
 
 /// cam0 and cam1 are a pair, and so are cam2 and cam3; further cameras are tag cameras.
-Rig rig_of_sensors(const std::vector<fs::path>& folders) {
+Rig rig_of_sensors(const fs::path& sensors, const std::vector<fs::path>& folders) {
   Rig rig;
   rig.name = "EuRoC";
   for (const fs::path& folder : folders) {
@@ -71,6 +71,9 @@ Rig rig_of_sensors(const std::vector<fs::path>& folders) {
   for (int i = folders.size() >= 4 ? 4 : 2; i < static_cast<int>(folders.size()); ++i) {
     rig.tag_cameras.push_back(i);
   }
+  if (const fs::path imu = sensors / "imu0/sensor.yaml"; is_present(imu)) {
+    rig.imu = SensorFile(imu).imu_noise();
+  }
   return rig;
 }
 
@@ -82,7 +85,7 @@ Rig read_rig(const fs::path& folder, const std::vector<fs::path>& cameras,
   if (cameras.size() < 2) {
     fail("{}: expected a cam1 beside cam0: a stereo pair", sensor_folder(folder).string());
   }
-  return rig_of_sensors(cameras);
+  return rig_of_sensors(sensor_folder(folder), cameras);
 }
 
 void read_imu(const fs::path& folder, Recording& recording) {

@@ -147,12 +147,30 @@ PinholeCamera SensorFile::camera() const {
   return camera;
 }
 
+std::optional<double> SensorFile::positive(const std::string& key) const {
+  double value = 0;
+  const YAML::Node node = root_[key];
+  if (!node.IsDefined() || !YAML::convert<double>::decode(node, value)) return {};
+  if (!(value > 0 && std::isfinite(value))) return {};
+  return value;
+}
+
 std::optional<double> SensorFile::rate_hz() const {
-  double rate = 0;
-  const YAML::Node node = root_["rate_hz"];
-  if (!node.IsDefined() || !YAML::convert<double>::decode(node, rate)) return {};
-  if (!(rate > 0 && rate <= kHighestRate)) return {};
-  return rate;
+  const std::optional<double> rate = positive("rate_hz");
+  return rate && *rate <= kHighestRate ? rate : std::nullopt;
+}
+
+std::optional<ImuNoise> SensorFile::imu_noise() const {
+  const auto of = [this](const std::string& axes) -> std::optional<ImuNoise::Axes> {
+    const auto density = positive(axes + "_noise_density");
+    const auto walk = positive(axes + "_random_walk");
+    if (!density || !walk) return std::nullopt;
+    return ImuNoise::Axes{*density, *walk};
+  };
+  const auto gyroscope = of("gyroscope");
+  const auto accelerometer = of("accelerometer");
+  if (!gyroscope || !accelerometer) return std::nullopt;
+  return ImuNoise{*gyroscope, *accelerometer};
 }
 
 }  // namespace vinebench::harness

@@ -11,6 +11,7 @@
 
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
+#include "core/geometry/rig.h"
 
 namespace vinebench::harness {
 
@@ -27,9 +28,12 @@ class SensorFile {
   Pose T_BS() const;             ///< sensor to body
   PinholeCamera camera() const;  ///< with any lens of LensModel, by the names of sensor_lens()
   std::optional<double> rate_hz() const;
+  /// Noise of an inertial unit; none unless all four numbers are there and above 0.
+  std::optional<ImuNoise> imu_noise() const;
 
  private:
   LensModel lens_model() const;
+  std::optional<double> positive(const std::string& key) const;
   [[noreturn]] void fault(const YAML::Node& node, const std::string& message) const;
   std::vector<double> numbers(const YAML::Node& node, const std::string& key,
                               std::size_t count) const;

@@ -14,23 +14,13 @@
 
 namespace vinebench::harness {
 
-/// Noise of an inertial unit as calibration files have it (unit u = rad/s or m/s^2).
-struct ImuNoise {
-  struct Axes {
-    double noise_density = 0;     ///< u/sqrt(Hz)
-    double bias_random_walk = 0;  ///< u/s/sqrt(Hz)
-  };
-  Axes gyroscope;
-  Axes accelerometer;
-};
-
 /// The metadata of a recording.
 struct RecordingNotes {
   RigConfig rig;  ///< the nominal rig
   std::vector<RegisteredTag> tags;
   slam::SlamConfig slam;
   double imu_rate_hz = 200;
-  ImuNoise imu;
+  ImuNoise imu;                              ///< zero where the unit has none
   std::optional<ImuSample> first_reading{};  ///< inertial, before those of the first frame
   std::string scenario;                      ///< name
   std::string world;                         ///< name

@@ -73,6 +73,25 @@ TEST(RigTest, ALensHasItsOwnCoefficients) {
   EXPECT_THROW(rig_with("lens: equidistant, distortion: [0, 0, 0, 0, 0]"), Error);
 }
 
+TEST(RigTest, MaySayTheNoiseOfAnInertialUnit) {
+  const test::TestFolder folder;
+  const auto rig_with = [&](const std::string& imu) {
+    return load_rig(folder.write("rig_test.yaml", "cameras: [{name: a}]\n" + imu));
+  };
+  EXPECT_FALSE(rig_with("").imu);
+  const Rig rig = rig_with(
+      "imu:\n  gyroscope: {noise_density: 1.7e-4, bias_random_walk: 2e-5}\n"
+      "  accelerometer: {noise_density: 2e-3, bias_random_walk: 3e-3}\n");
+  ASSERT_TRUE(rig.imu);
+  EXPECT_EQ(rig.imu->gyroscope.bias_random_walk, 2e-5);
+  EXPECT_EQ(rig.imu->accelerometer.noise_density, 2e-3);
+  // Half of it would leave the filter with noise of zero.
+  EXPECT_THAT(test::error_of([&] {
+                rig_with("imu: {gyroscope: {noise_density: 1.7e-4, bias_random_walk: 2e-5}}\n");
+              }),
+              testing::HasSubstr("imu.accelerometer"));
+}
+
 TEST(RigTest, TheBackPairLooksTheOppositeWay) {
   // Back-left is 0.30 m behind front-left and 0.12 m to its right; the left and right cameras of
   // the back pair swap sides of the rover.

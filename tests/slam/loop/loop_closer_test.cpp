@@ -207,7 +207,7 @@ class LevelTest : public LoopCloserTest {
   static constexpr double kLean = 0.2 * std::numbers::pi / 180;
 
   LevelTest() {
-    settings_.inertial = InertialConfig{};
+    settings_.inertial = InertialNoise{};
     settings_.inertial->accelerometer.bias = 1e-3;  // m/s^2: gravity is known to 0.006 degrees
     settings_.loop.corner_sigma = 1;                // px
     for (int k = 0; k < 20; ++k) {
@@ -229,7 +229,7 @@ class LevelTest : public LoopCloserTest {
 
   /// rad
   double lean() const {
-    const Eigen::Vector3d gravity = fit_gravity(map_, InertialConfig{})->gravity;
+    const Eigen::Vector3d gravity = fit_gravity(map_, InertialNoise{})->gravity;
     return std::asin(gravity.normalized().cross(down_).norm());
   }
 

@@ -40,7 +40,7 @@ TEST(DeadReckoningTest, DoubtsWheelsByTheWayTheyWent) {
 // Local adjustments turn the newest keyframe a little nearer to gravity, again and again: if
 // gravity were turned along, the map would turn for good.
 TEST(DeadReckoningTest, ACorrectedPoseLeavesGravityInTheMap) {
-  DeadReckoning reckoning{DeadReckoningConfig{}, InertialConfig{}};
+  DeadReckoning reckoning{DeadReckoningConfig{}, InertialNoise{}};
   ImuSample stands;
   stands.stamp = 1'000'000'000;
   stands.specific_force = {0, 0, 9.8};

@@ -31,8 +31,8 @@ Eigen::Vector3d velocity_at(double t) {
 struct Errors {
   Eigen::Vector3d gyroscope_bias = Eigen::Vector3d::Zero();
   Eigen::Vector3d accelerometer_bias = Eigen::Vector3d::Zero();
-  double scale = 0;      ///< by which the body goes farther than its wheels say
-  InertialConfig noise;  ///< of the unit, where there is some
+  double scale = 0;     ///< by which the body goes farther than its wheels say
+  InertialNoise noise;  ///< of the unit, where there is some
   bool noisy = false;
   std::uint64_t seed = 1;
 };
@@ -124,7 +124,7 @@ double off(const Drive& drive, const InertialFilter& filter) {
 }
 
 TEST(InertialFilterTest, WaitsForReadingsAndForAPose) {
-  InertialFilter filter{InertialConfig{}, {}};
+  InertialFilter filter{InertialNoise{}, {}};
   filter.see(Pose{}, Matrix6d::Identity());
   EXPECT_FALSE(filter.running());
   filter.advance({{kReadingPeriod, Eigen::Vector3d::Zero(), {0, 0, kGravity}}}, {}, kFramePeriod);
@@ -134,7 +134,7 @@ TEST(InertialFilterTest, WaitsForReadingsAndForAPose) {
 }
 
 TEST(InertialFilterTest, GoesOnWhereCamerasSeeNothing) {
-  InertialFilter filter{InertialConfig{}, {}};
+  InertialFilter filter{InertialNoise{}, {}};
   Drive drive{Errors{}};
   drive.go(filter, 20);
   EXPECT_LT(
@@ -151,7 +151,7 @@ TEST(InertialFilterTest, FindsBiasesAndGravity) {
   Errors errors;
   errors.gyroscope_bias = {3e-3, -2e-3, 4e-3};
   errors.accelerometer_bias = {0.03, -0.04, 0.02};
-  InertialFilter filter{InertialConfig{}, {}};
+  InertialFilter filter{InertialNoise{}, {}};
   Drive drive{errors};
   drive.go(filter, 60);
   // 4e-4 rad/s/sqrt(Hz) of noise over a minute, and a walk of the bias of about as much.
@@ -220,7 +220,7 @@ TEST(InertialFilterTest, DoesNotBelieveWheelsThatSpin) {
 // before, and gravity lies in the map as it did.
 TEST(InertialFilterTest, SetDownElsewhereItMovesOn) {
   const Pose T_new_old{from_roll_pitch_yaw({0.02, -0.03, 1.2}), {3, -2, 0.5}};
-  InertialFilter filter{InertialConfig{}, {}};
+  InertialFilter filter{InertialNoise{}, {}};
   Drive drive{Errors{}};
   drive.go(filter, 10, false, true);
   const Vector6d velocity = filter.velocity();
@@ -237,7 +237,7 @@ TEST(InertialFilterTest, SetDownElsewhereItMovesOn) {
 TEST(InertialFilterTest, SaysWhatWasMeasuredBetweenTwoCalls) {
   Errors errors;
   errors.accelerometer_bias = {0.03, -0.02, 0.01};
-  InertialFilter filter{InertialConfig{}, {}};
+  InertialFilter filter{InertialNoise{}, {}};
   Drive drive{errors};
   EXPECT_FALSE(filter.take_motion());  // it does not run yet
   drive.go(filter, 30);
@@ -256,7 +256,7 @@ TEST(InertialFilterTest, SaysWhatWasMeasuredBetweenTwoCalls) {
 }
 
 TEST(InertialFilterTest, AMotionWithoutReadingsIsNoneAndTheNextIsOne) {
-  InertialFilter filter{InertialConfig{}, {}};
+  InertialFilter filter{InertialNoise{}, {}};
   Drive drive{Errors{}};
   drive.go(filter, 1);
   InertialFilter gap = filter;
@@ -270,7 +270,7 @@ TEST(InertialFilterTest, AMotionWithoutReadingsIsNoneAndTheNextIsOne) {
 // A body that stands feels gravity and its bias together: their difference, by g - R b, is known
 // far better than either.
 TEST(InertialFilterTest, StandingItKnowsGravityTogetherWithTheBiasAlone) {
-  InertialFilter filter{InertialConfig{}, {}};
+  InertialFilter filter{InertialNoise{}, {}};
   const Matrix6d seen = 1e-7 * Matrix6d::Identity();
   Stamp stamp = 0;
   for (int i = 0; i < 60; ++i) {
@@ -288,7 +288,7 @@ TEST(InertialFilterTest, StandingItKnowsGravityTogetherWithTheBiasAlone) {
 }
 
 TEST(InertialFilterTest, AFrameCountsOnce) {
-  InertialFilter filter{InertialConfig{}, {}};
+  InertialFilter filter{InertialNoise{}, {}};
   Drive drive{Errors{}};
   drive.go(filter, 1);
   const Pose before = filter.T_map_body();

@@ -43,7 +43,7 @@ class GravityFactorsTest : public testing::Test {
   static AdjustmentWindow last_moves() { return only_moves(kKeyframes - 1); }
 
   /// Cost reached, keyframes written back.
-  double adjusted(const AdjustmentWindow& window, const std::optional<InertialConfig>& inertial,
+  double adjusted(const AdjustmentWindow& window, const std::optional<InertialNoise>& inertial,
                   bool global = false) {
     ProblemBuilder problem(map_, window);
     GravityFactors factors(inertial, global);
@@ -72,7 +72,7 @@ class GravityFactorsTest : public testing::Test {
 // The last pose's place is determined by the two before it; its turn is not.
 TEST_F(GravityFactorsTest, TheLastKeyframeComesToItsPlace) {
   map_.keyframe(kKeyframes - 1).T_map_body.translation += Eigen::Vector3d(0.02, -0.01, 0.03);
-  EXPECT_NEAR(adjusted(last_moves(), InertialConfig{}), 0, 1e-3);
+  EXPECT_NEAR(adjusted(last_moves(), InertialNoise{}), 0, 1e-3);
   const Pose last = map_.keyframe(kKeyframes - 1).T_map_body;
   // 3e-5 m/s^2 over 0.3 s squared: 3 um.
   EXPECT_NEAR((last.translation - truth(kKeyframes - 1).translation).norm(), 0, 1e-5);
@@ -86,7 +86,7 @@ TEST_F(GravityFactorsTest, AKeyframeIsTurnedUpright) {
   map_.keyframe(k).T_map_body.rotation =
       map_.keyframe(k).T_map_body.rotation * exp_so3({half_degree, 0, 0});
   EXPECT_GT(tilt(k), 0.9 * half_degree);  // its axis is nearly level
-  EXPECT_NEAR(adjusted(only_moves(k), InertialConfig{}), 0, 1e-3);
+  EXPECT_NEAR(adjusted(only_moves(k), InertialNoise{}), 0, 1e-3);
   EXPECT_LT(tilt(k), 2e-5);  // rad: 3e-5 of 9.8 m/s^2, and the solver's end
 }
 
@@ -97,7 +97,7 @@ TEST_F(GravityFactorsTest, AGlobalAdjustmentFindsGravity) {
   const auto found = [&](bool global, bool by_world) {
     map_.gravity() =
         MapGravity{off, Eigen::Vector3d::Zero(), 1e-8 * Matrix6d::Identity(), by_world};
-    adjusted(only_moves(5), InertialConfig{}, global);
+    adjusted(only_moves(5), InertialNoise{}, global);
     return map_.gravity()->gravity;
   };
   EXPECT_EQ(found(false, false), off);
@@ -113,7 +113,7 @@ TEST_F(GravityFactorsTest, WithoutAUnitOrGravityThereIsNoFactor) {
   adjusted(last_moves(), std::nullopt);
   EXPECT_EQ(map_.keyframe(kKeyframes - 1).T_map_body.translation, off.translation);
   map_.gravity().reset();
-  adjusted(last_moves(), InertialConfig{});
+  adjusted(last_moves(), InertialNoise{});
   EXPECT_EQ(map_.keyframe(kKeyframes - 1).T_map_body.translation, off.translation);
 }
 
@@ -121,10 +121,10 @@ TEST_F(GravityFactorsTest, AnIntervalThatIsMissingOrLongIsLeftOut) {
   const Pose off{Eigen::Quaterniond::Identity(), {1, 2, 3}};
   map_.keyframe(kKeyframes - 1).T_map_body = off;
   map_.keyframe(kKeyframes - 1).motion->seconds = 2.1;
-  adjusted(last_moves(), InertialConfig{});
+  adjusted(last_moves(), InertialNoise{});
   EXPECT_EQ(map_.keyframe(kKeyframes - 1).T_map_body.translation, off.translation);
   map_.keyframe(kKeyframes - 1).motion.reset();
-  adjusted(last_moves(), InertialConfig{});
+  adjusted(last_moves(), InertialNoise{});
   EXPECT_EQ(map_.keyframe(kKeyframes - 1).T_map_body.translation, off.translation);
 }
 

@@ -31,7 +31,7 @@ Map swinging_map(const SwingingBody& body, int keyframes, const Eigen::Vector3d&
 TEST(GravityFitTest, FindsGravityAndBias) {
   const SwingingBody body;
   const Eigen::Vector3d bias(0.02, -0.01, 0.03);
-  const InertialConfig inertial;
+  const InertialNoise inertial;
   const auto found = fit_gravity(swinging_map(body, 40, bias), inertial);
   ASSERT_TRUE(found);
   EXPECT_FALSE(found->by_world);
@@ -54,7 +54,7 @@ TEST(GravityFitTest, ABodyThatStandsDoesNotTellThemApart) {
     stands.add(Eigen::Vector3d::Zero(), -gravity, Eigen::Vector3d::Zero(), kInterval);
     if (k > 0) map.keyframe(k).motion = stands;
   }
-  const InertialConfig inertial;
+  const InertialNoise inertial;
   const auto found = fit_gravity(map, inertial);
   ASSERT_TRUE(found);
   EXPECT_LT((found->gravity - gravity).norm(), 1e-9);
@@ -69,13 +69,13 @@ TEST(GravityFitTest, ABodyThatStandsDoesNotTellThemApart) {
 
 TEST(GravityFitTest, WithoutReadingsThereIsNone) {
   const SwingingBody body;
-  EXPECT_FALSE(fit_gravity(Map{1.2}, InertialConfig{}));
+  EXPECT_FALSE(fit_gravity(Map{1.2}, InertialNoise{}));
   Map map = swinging_map(body, 3, Eigen::Vector3d::Zero());
-  EXPECT_TRUE(fit_gravity(map, InertialConfig{}));
+  EXPECT_TRUE(fit_gravity(map, InertialNoise{}));
   map.keyframe(1).motion->seconds = 2.1;
-  EXPECT_FALSE(fit_gravity(map, InertialConfig{}));
+  EXPECT_FALSE(fit_gravity(map, InertialNoise{}));
   map.keyframe(1).motion.reset();
-  EXPECT_FALSE(fit_gravity(map, InertialConfig{}));
+  EXPECT_FALSE(fit_gravity(map, InertialNoise{}));
 }
 
 }  // namespace

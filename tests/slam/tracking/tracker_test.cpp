@@ -149,7 +149,7 @@ double braking(double t) {
 }
 
 TEST_F(TrackerTest, WithoutSightItsInertialUnitKnowsThatItBrakes) {
-  settings_.inertial = InertialConfig{};
+  settings_.inertial = InertialNoise{};
   Tracker tracker(settings_);
   tracker.start(ahead(0), 0);
   for (int i = 1; i <= 48; ++i) {

@@ -51,6 +51,25 @@ TEST_F(EurocReaderTest, ReadsCamerasAndFrames) {
   }
 }
 
+TEST_F(EurocReaderTest, TheUnitsFileSaysItsNoise) {
+  EXPECT_FALSE(open_recording(root_).rig.imu);  // there is none
+  const std::string lines =
+      "sensor_type: imu\nT_BS:\n  data: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n"
+      "gyroscope_noise_density: 1.7e-4\ngyroscope_random_walk: 2e-5\n"
+      "accelerometer_noise_density: 2e-3\n";
+  set_sensor("imu0", lines + "accelerometer_random_walk: 3e-3\n");
+  const std::optional<ImuNoise> noise = open_recording(root_).rig.imu;
+  ASSERT_TRUE(noise);
+  EXPECT_EQ(noise->gyroscope.noise_density, 1.7e-4);
+  EXPECT_EQ(noise->gyroscope.bias_random_walk, 2e-5);
+  EXPECT_EQ(noise->accelerometer.noise_density, 2e-3);
+  EXPECT_EQ(noise->accelerometer.bias_random_walk, 3e-3);
+  for (const char* walk : {"", "accelerometer_random_walk: 0\n"}) {
+    set_sensor("imu0", lines + walk);  // 0: of one that somebody made up
+    EXPECT_FALSE(open_recording(root_).rig.imu);
+  }
+}
+
 TEST_F(EurocReaderTest, GivesImagesReadingsAndInterpolatedTruth) {
   const std::vector<Sample> samples = test::play_all(root_);
   ASSERT_EQ(samples.size(), 5u);
