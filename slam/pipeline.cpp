@@ -44,6 +44,13 @@ bool several_surveys(const Map& map) {
          1;
 }
 
+/// Whether there ought to have been a keyframe for as long a way again.
+bool is_overdue(const TrackedFrame& tracked, const Map& map, const KeyframeConfig& config) {
+  const Pose step = map.keyframes().back().T_map_body.inverse() * tracked.motion.T_map_body;
+  return step.translation.norm() > 2 * config.distance ||
+         angle_of(step.rotation) > 2 * config.angle_deg * std::numbers::pi / 180;
+}
+
 /// Whether a loaded map knows the place as well as a new keyframe would.
 bool is_covered(const TrackedFrame& tracked, const Map& map, const KeyframeConfig& config) {
   if (tracked.motion.inliers < config.min_inliers) return false;
@@ -285,7 +292,8 @@ bool Pipeline::wants_new_keyframe(const TrackedFrame& tracked) const {
   if (!tracked.tracked) return false;
   if (!started_ || tracked.link) return true;
   // Live, a robot's tracking waits for the mapping before only when it would soon be lost.
-  const bool waits = !is_live() || tracked.motion.inliers < config_.keyframes.min_inliers / 2;
+  const bool waits = !is_live() || tracked.motion.inliers < config_.keyframes.min_inliers / 2 ||
+                     is_overdue(tracked, map_, config_.keyframes);
   if (scheduler_.busy() && !waits) return false;
   if (is_covered(tracked, map_, config_.keyframes)) {
     return loop_closer_.sees_loop(*tracked.frame, path_length_);
