@@ -321,6 +321,12 @@ void Pipeline::adjust_globally() {
   }
 }
 
+/// Live, after a loop moved the map: what is under way is of before.
+void Pipeline::adjust_moved_map() {
+  global_adjuster_.outdate();
+  adjust_globally();
+}
+
 /// Takes over what an adjustment beside tracking found; the latest poses move with it.
 void Pipeline::join_global_adjustment() {
   const bool another = global_adjuster_.wants_another();
@@ -369,10 +375,7 @@ void Pipeline::close_loop(int keyframe, Estimate& estimate) {
   const ScopedTimer timer(times_, "global adjustment");
   take_calibration(estimate);
   estimate.loop_closure = loop_closer_.close(keyframe, path_length_, rig_, map_, !is_live());
-  if (is_live()) {
-    global_adjuster_.outdate();
-    adjust_globally();
-  }
+  if (is_live()) adjust_moved_map();
   believe_gravity();
   const Matrix6d of_tags = by_tag_covariance() + loop_closer_.gates().localisation_covariance(
                                                      map_.keyframe(keyframe).frame->tags);
@@ -402,10 +405,7 @@ void Pipeline::close_loop_by_place(int keyframe, Estimate& estimate) {
   if (!found || estimate.loop_closure) return;
   take_calibration(estimate);
   estimate.loop_closure = loop_closer_.close(*found, keyframe, mapper_, rig_, map_, !is_live());
-  if (is_live()) {
-    global_adjuster_.outdate();
-    adjust_globally();
-  }
+  if (is_live()) adjust_moved_map();
   believe_gravity();
   const Matrix6d by_place =
       carry_covariance(found->earlier_covariance, estimate.loop_closure->T_earlier_later) +

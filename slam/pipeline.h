@@ -68,6 +68,7 @@ class Pipeline {
   void join_mapping(TrackedFrame* tracked = nullptr);
   bool is_live() const { return config_.mapping.schedule == MappingSchedule::kLive; }
   void adjust_globally();
+  void adjust_moved_map();
   void join_global_adjustment();
   void map_keyframe(TrackedFrame& tracked, Estimate& estimate);
   void grow_uncertainty(const TrackedFrame& tracked);

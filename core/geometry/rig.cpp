@@ -36,27 +36,10 @@ Rig Rig::stereo(const PinholeCamera& lens, double baseline) {
   return rig;
 }
 
-namespace {
-
-/// A filter that takes a reading to be exact is none.
-bool is_complete(const ImuNoise& noise) {
-  for (const ImuNoise::Axes& axes : {noise.gyroscope, noise.accelerometer}) {
-    if (!(axes.noise_density > 0 && axes.bias_random_walk > 0)) return false;
-  }
-  return true;
-}
-
-}  // namespace
-
 Rig RigConfig::make() const {
   Rig rig;
   rig.name = name;
   rig.rate_hz = rate_hz;
-  if (imu && !is_complete(*imu)) {
-    fail(
-        "rig '{}': imu: expected noise_density and bias_random_walk of gyroscope and accelerometer",
-        name);
-  }
   rig.imu = imu;
   for (const Camera& c : cameras) {
     if (c.name.starts_with('.') || c.name.find('/') != std::string::npos) {

@@ -43,6 +43,9 @@ struct ImuNoise {
       archive("noise_density", noise_density, Range::positive());
       archive("bias_random_walk", bias_random_walk, Range::positive());
     }
+
+    /// A filter that takes a reading to be exact is none.
+    bool is_complete() const { return noise_density > 0 && bias_random_walk > 0; }
   };
   Axes gyroscope;
   Axes accelerometer;
@@ -153,6 +156,9 @@ struct RigConfig {
     archive.require(
         cameras.size() <= kMostCameras, "cameras",
         fmt::format("expected at most {} cameras, found {}", kMostCameras, cameras.size()));
+    archive.require(!imu || (imu->gyroscope.is_complete() && imu->accelerometer.is_complete()),
+                    "imu",
+                    "expected noise_density and bias_random_walk of gyroscope and accelerometer");
     std::set<std::string> names;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       archive.require(names.insert(cameras[i].name).second, fmt::format("cameras.{}", i),

@@ -27,10 +27,10 @@ struct SlamBenchmark {
 std::vector<Frame> preload(FrameSource& source, std::int64_t most);
 
 /// Measures the whole rig; its stereo pairs only, if it also has tag cameras; and its first pair
-/// only, if it has several. For each `wall_ms` and `cpu_ms` (mean, p50, p95, max; all
-/// threads) a frame, `cpu_ms_by_quarter` of the run, `stages_ms`, `tracked` share and `memory_mib`,
-/// the peak memory beyond the frames. For single images `orb_cpu_ms` and `tags_cpu_ms` (likewise).
-/// Throws Error if there are too few frames.
+/// only, if it has several. For each `wall_ms` and `cpu_ms` (all threads) a frame (mean, p50, p95,
+/// max), `cpu_ms_by_quarter` of the run, `stages_ms`, `tracked` share and `memory_mib`, the peak
+/// memory beyond the frames. For single images `orb_cpu_ms` and `tags_cpu_ms`. Throws Error if
+/// there are too few frames.
 nlohmann::ordered_json measure_slam(const SlamBenchmark& benchmark);
 
 /// The result as a human-readable table.
