@@ -24,7 +24,8 @@ std::string identity_of(const SimulationConfig& config, std::uint64_t seed) {
 DrawnScene::DrawnScene(const SimulationConfig& config, std::uint64_t seed, const CacheFolder& cache,
                        std::size_t users)
     : identity_(identity_of(config, seed)) {
-  Scene scene = build_scene(config.world, seed, cache);
+  Scene scene =
+      build_scene(config.world, seed, cache, config.renderer.engine != RenderEngineKind::kFake);
   light_ = scene.light;
   something_moves_ = !scene.motions.empty();
   add_rover(scene, config.rover.model);

@@ -7,8 +7,8 @@
 # `thread`:
 #   fuzz     with clang: address and undefined behaviour, but for the checks for null and misaligned
 #            pointers and the sizes of objects, which address errors and Eigen's own assertions tell
-#            of, and which take most of the time; the tests of core, and those of slam that go through
-#            most of it, without the long drives; and the fuzzers of all readers, 6 s each
+#            of, and which take most of the time; the tests of core, and the fuzzers of all readers,
+#            6 s each
 #   thread   what has threads in slam
 #   address  all tests of core and slam but the longest, with the default compiler
 #   sanitize everything, with all checks

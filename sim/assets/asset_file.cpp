@@ -132,6 +132,12 @@ cv::Mat decode_image(std::string_view bytes, const std::string& where) {
   return rgba;
 }
 
+cv::Mat DecodedImages::decode(std::string_view bytes, const std::string& where) {
+  const auto known = images_.find(bytes);
+  if (known != images_.end()) return known->second;
+  return images_.emplace(bytes, decode_image(bytes, where)).first->second;
+}
+
 void compute_normals(Primitive& primitive) {
   for (Vertex& vertex : primitive.vertices) vertex.normal.setZero();
   for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
@@ -177,8 +183,9 @@ ImportedMesh sound(ImportedMesh mesh, const std::filesystem::path& file) {
 
 }  // namespace
 
-Asset asset_of_glb(const std::string& bytes, const std::filesystem::path& file) {
-  return sound(read_gltf(bytes, file, Strictness::kStrict), file).asset;
+Asset asset_of_glb(const std::string& bytes, const std::filesystem::path& file,
+                   DecodedImages& images) {
+  return sound(read_gltf(bytes, file, Strictness::kStrict, images), file).asset;
 }
 
 Asset load_asset(const std::filesystem::path& file) {
@@ -190,7 +197,8 @@ ImportedMesh load_mesh(const std::filesystem::path& file, Strictness strictness)
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return std::tolower(c); });
   if (extension == ".glb" || extension == ".gltf") {
-    return sound(read_gltf(read_mesh_file(file), file, strictness), file);
+    DecodedImages images;
+    return sound(read_gltf(read_mesh_file(file), file, strictness, images), file);
   }
   if (extension == ".obj" || extension == ".stl" || extension == ".dae") {
     return sound(import_mesh(file, strictness), file);

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <string>
+#include <string_view>
 
 #include "core/files/input_file.h"
 #include "sim/assets/asset.h"
@@ -19,8 +22,20 @@ Asset load_asset(const std::filesystem::path& file);
 /// The same with the names of its parts. Unless it is strict, an image that is missing or broken
 /// and whatever else a mesh can be drawn without is noted in place of an Error.
 ImportedMesh load_mesh(const std::filesystem::path& file, Strictness strictness);
+
+/// Images by the bytes of their files, so that one that several meshes share is decoded once.
+class DecodedImages {
+ public:
+  /// decode_image, or the same pixels as the last time: not to be changed.
+  cv::Mat decode(std::string_view bytes, const std::string& where);
+
+ private:
+  std::map<std::string, cv::Mat, std::less<>> images_;
+};
+
 /// The same of a .glb file's bytes that are in memory already; `file` is its name.
-Asset asset_of_glb(const std::string& bytes, const std::filesystem::path& file);
+Asset asset_of_glb(const std::string& bytes, const std::filesystem::path& file,
+                   DecodedImages& images);
 
 /// The asset as the bytes of a .glb file with its images inside. Viewers show its finest level;
 /// load_asset restores all levels and materials exactly, but for colours of vertices.
@@ -42,7 +57,7 @@ std::string to_glb(const Scene& scene, const std::vector<PlacedMesh>& placed);
 
 /// Of a .glb's or .gltf's bytes; `file` is its name.
 ImportedMesh read_gltf(const std::string& bytes, const std::filesystem::path& file,
-                       Strictness strictness);
+                       Strictness strictness, DecodedImages& images);
 /// With assimp. Equal vertices are joined. Where there are no normals, and for .stl, they are
 /// computed; edges of more than 60 degrees stay sharp.
 ImportedMesh import_mesh(const std::filesystem::path& file, Strictness strictness);

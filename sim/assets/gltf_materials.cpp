@@ -7,7 +7,6 @@
 #include <map>
 #include <optional>
 
-#include "sim/assets/asset_file.h"
 #include "sim/assets/gltf_accessor.h"
 
 namespace vinebench::sim {
@@ -22,8 +21,13 @@ constexpr std::array<const char*, 13> kNumberedLabels{"sky",  "ground", "grass",
 
 class GltfMaterials {
  public:
-  GltfMaterials(const tinygltf::Model& model, const std::string& file, ImportedMesh& mesh)
-      : model_(model), file_(file), mesh_(mesh), textures_(model.textures.size(), -1) {}
+  GltfMaterials(const tinygltf::Model& model, const std::string& file, DecodedImages& images,
+                ImportedMesh& mesh)
+      : model_(model),
+        file_(file),
+        images_(images),
+        mesh_(mesh),
+        textures_(model.textures.size(), -1) {}
 
   void read(Strictness strictness) {
     for (std::size_t i = 0; i < textures_.size() && strictness == Strictness::kStrict; ++i) {
@@ -54,7 +58,7 @@ class GltfMaterials {
     return -1;
   }
 
-  Texture texture_of(const tinygltf::Texture& from) const {
+  Texture texture_of(const tinygltf::Texture& from) {
     if (from.source < 0 && !from.extensions.empty()) {
       fail("{}: expected an image (PNG, JPEG, TIFF), found only one by {}", file_,
            from.extensions.begin()->first);
@@ -64,12 +68,12 @@ class GltfMaterials {
     texture.name = image.name.empty() ? image.uri : image.name;
     const std::string where = fmt::format("{}: image \"{}\"", file_, texture.name);
     if (image.bufferView >= 0) {
-      texture.rgba = decode_image(gltf_view(model_, image.bufferView, file_), where);
+      texture.rgba = images_.decode(gltf_view(model_, image.bufferView, file_), where);
     } else if (image.image.empty()) {
       fail("{}: the file {} cannot be read", where, image.uri);
     } else {
       const auto* bytes = reinterpret_cast<const char*>(image.image.data());
-      texture.rgba = decode_image({bytes, image.image.size()}, where);
+      texture.rgba = images_.decode({bytes, image.image.size()}, where);
     }
     if (from.sampler >= 0) {
       const tinygltf::Sampler& sampler = gltf_item(model_.samplers, from.sampler, "sampler", file_);
@@ -132,6 +136,7 @@ class GltfMaterials {
 
   const tinygltf::Model& model_;
   const std::string& file_;
+  DecodedImages& images_;
   ImportedMesh& mesh_;
   std::vector<int> textures_;            ///< the asset's, by their number in the file; else -1
   std::map<int, std::string> problems_;  ///< why one cannot be read
@@ -150,8 +155,8 @@ double gltf_number(const tinygltf::Value& value, const char* what, double least,
 }
 
 void read_gltf_materials(const tinygltf::Model& model, const std::string& file,
-                         Strictness strictness, ImportedMesh& mesh) {
-  GltfMaterials(model, file, mesh).read(strictness);
+                         Strictness strictness, DecodedImages& images, ImportedMesh& mesh) {
+  GltfMaterials(model, file, images, mesh).read(strictness);
 }
 
 }  // namespace vinebench::sim

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/util/error.h"
+#include "sim/assets/asset_file.h"
 #include "sim/assets/gltf.h"
 #include "sim/assets/imported_mesh.h"
 
@@ -15,7 +16,7 @@ namespace vinebench::sim {
 /// that names `file`. If it is not strict, images are read when a material asks for them, and one
 /// that cannot be read is noted; other parts of a material that are not drawn are noted too.
 void read_gltf_materials(const tinygltf::Model& model, const std::string& file,
-                         Strictness strictness, ImportedMesh& mesh);
+                         Strictness strictness, DecodedImages& images, ImportedMesh& mesh);
 
 /// A number within bounds; `what` names it. Throws Error that names `file`.
 double gltf_number(const tinygltf::Value& value, const char* what, double least, double most,

@@ -25,8 +25,10 @@ Eigen::Matrix4f z_up() {
 
 class GltfReader {
  public:
-  GltfReader(const std::string& bytes, const std::filesystem::path& file, Strictness strictness)
-      : file_(file.string()),
+  GltfReader(const std::string& bytes, const std::filesystem::path& file, Strictness strictness,
+             DecodedImages& images)
+      : images_(images),
+        file_(file.string()),
         lenient_(strictness == Strictness::kLenient),
         model_(parse_gltf(bytes, file)) {
     mesh_.up_axis = UpAxis::kY;
@@ -34,7 +36,7 @@ class GltfReader {
 
   ImportedMesh read() {
     const Strictness strictness = lenient_ ? Strictness::kLenient : Strictness::kStrict;
-    read_gltf_materials(model_, file_, strictness, mesh_);
+    read_gltf_materials(model_, file_, strictness, images_, mesh_);
     asset_.model.name = std::filesystem::path(file_).stem().string();
     note_contents();
     add_levels();
@@ -295,6 +297,7 @@ class GltfReader {
     return default_material_;
   }
 
+  DecodedImages& images_;
   std::string file_;
   bool lenient_ = false;
   tinygltf::Model model_;
@@ -308,8 +311,8 @@ class GltfReader {
 }  // namespace
 
 ImportedMesh read_gltf(const std::string& bytes, const std::filesystem::path& file,
-                       Strictness strictness) {
-  return GltfReader(bytes, file, strictness).read();
+                       Strictness strictness, DecodedImages& images) {
+  return GltfReader(bytes, file, strictness, images).read();
 }
 
 }  // namespace vinebench::sim

@@ -32,11 +32,12 @@ std::string plant_name(const PlantBrief& brief, std::uint64_t seed, int index) {
   return fmt::format("vine-{:016x}-{}.glb", fnv1a(key), index);
 }
 
-std::optional<Asset> cached_plant(const CacheFolder& cache, const std::string& name) {
+std::optional<Asset> cached_plant(const CacheFolder& cache, const std::string& name,
+                                  DecodedImages& images) {
   const std::optional<std::string> bytes = read_cached(cache, name);
   if (!bytes) return std::nullopt;
   try {
-    return asset_of_glb(*bytes, name);
+    return asset_of_glb(*bytes, name, images);
   } catch (const Error&) {
     return std::nullopt;
   }
@@ -77,8 +78,9 @@ std::vector<Asset> load_or_generate(const PlantBrief& brief, std::uint64_t seed,
   std::vector<std::string> names;
   for (int i = 0; i < count; ++i) names.push_back(plant_name(brief, seed, i));
   std::vector<Asset> plants;
+  DecodedImages images;  // all plants of a set have the same
   for (const std::string& name : names) {
-    std::optional<Asset> plant = cached_plant(cache, name);
+    std::optional<Asset> plant = cached_plant(cache, name, images);
     if (!plant) break;
     plants.push_back(*std::move(plant));
   }
@@ -87,7 +89,9 @@ std::vector<Asset> load_or_generate(const PlantBrief& brief, std::uint64_t seed,
   keep(cache, names, files);
   plants.clear();
   // Read back, as all later runs will see them.
-  for (std::size_t i = 0; i < files.size(); ++i) plants.push_back(asset_of_glb(files[i], names[i]));
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    plants.push_back(asset_of_glb(files[i], names[i], images));
+  }
   return plants;
 }
 

@@ -122,6 +122,14 @@ struct Scene {
   Light light;
   Wind wind;
   std::uint64_t seed = 0;  ///< for procedural content of the renderer, such as clouds
+  bool painted = true;     ///< else large textures are one grey texel: it is listed, not drawn
 };
+
+/// What `paint` makes where the scene is painted, else one grey texel of that name.
+template <class Paint>
+Texture painted_texture(const Scene& scene, const char* name, const Paint& paint) {
+  if (scene.painted) return paint();
+  return {name, cv::Mat(1, 1, CV_8UC4, cv::Scalar(128, 128, 128, 255)), true};
+}
 
 }  // namespace vinebench::sim

@@ -24,7 +24,7 @@ cv::Mat value_noise(cv::Size size, cv::Size cells, const RandomStream& random) {
   const cv::Size large(cvRound(wrapped.cols * sx), cvRound(wrapped.rows * sy));
   cv::Mat smooth;
   cv::resize(wrapped, smooth, large, 0, 0, cv::INTER_CUBIC);
-  return smooth(cv::Rect(cv::Point(cvRound(kRim * sx), cvRound(kRim * sy)), size)).clone();
+  return smooth(cv::Rect(cv::Point(cvRound(kRim * sx), cvRound(kRim * sy)), size));
 }
 
 cv::Mat fractal_noise(cv::Size size, cv::Size cells, int octaves, double gain, std::uint64_t seed,

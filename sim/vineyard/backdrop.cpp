@@ -57,7 +57,7 @@ void add_backdrop(Scene& scene, const WorldConfig& world, const Terrain& terrain
   const double edge = 0.5 * world.ground_size;
   const double withered = withered_share(world.vines.bbch);
   Asset hedge;
-  hedge.add(hedge_texture(seed, withered));
+  hedge.add(painted_texture(scene, "hedge", [&] { return hedge_texture(seed, withered); }));
   hedge.add(make_material("hedge", Label::kGrass, 0));
   hedge.materials[0].cutout = true;
   hedge.model.name = "hedge";
@@ -73,7 +73,7 @@ void add_backdrop(Scene& scene, const WorldConfig& world, const Terrain& terrain
 
   const RandomStream random(seed, "hills");
   Asset hills;
-  hills.add(woods_texture(seed, withered));
+  hills.add(painted_texture(scene, "woods", [&] { return woods_texture(seed, withered); }));
   hills.add(make_material("hills", Label::kGrass, 0));
   hills.model.name = "hills";
   const double far = std::min(4 * edge, kHillsWithin);

@@ -252,20 +252,20 @@ Primitive apron_mesh(const WorldConfig& world, const Terrain& terrain) {
   return primitive;
 }
 
-Asset ground_asset(const WorldConfig& world, const Terrain& terrain, std::uint64_t seed) {
+Asset ground_asset(const Scene& scene, const WorldConfig& world, const Terrain& terrain,
+                   std::uint64_t seed) {
   Asset asset;
   const double withered = withered_share(world.vines.bbch);
   if (world.ground.aisles == WorldConfig::Ground::Aisles::kSoil) {
-    asset.add(soil_texture(seed, withered));
+    asset.add(painted_texture(scene, "soil", [&] { return soil_texture(seed, withered); }));
     asset.add(make_material("soil", Label::kGround, 0));
     asset.materials[0].terrain = true;
     return asset;
   }
-  asset.add(meadow_texture(seed, withered));
-  asset.add(aisle_texture(seed,
-                          {terrain.frame().spacing, world.ground.bare_strip,
-                           world.ground.track_gauge, world.ground.track_width},
-                          withered));
+  const AisleProfile aisle{terrain.frame().spacing, world.ground.bare_strip,
+                           world.ground.track_gauge, world.ground.track_width};
+  asset.add(painted_texture(scene, "meadow", [&] { return meadow_texture(seed, withered); }));
+  asset.add(painted_texture(scene, "aisle", [&] { return aisle_texture(seed, aisle, withered); }));
   asset.add(make_material("meadow", Label::kGrass, 0));
   asset.add(make_material("aisle", Label::kGround, 1));
   for (Material& material : asset.materials) material.terrain = true;
@@ -277,7 +277,7 @@ Asset ground_asset(const WorldConfig& world, const Terrain& terrain, std::uint64
 void add_ground(Scene& scene, const WorldConfig& world, const WorldLayout& layout,
                 std::uint64_t seed) {
   const Terrain& terrain = layout.terrain;
-  Asset asset = ground_asset(world, terrain, seed);
+  Asset asset = ground_asset(scene, world, terrain, seed);
   GroundMesher mesher(world, layout, seed);
   // Textures are large: they are added to the scene once and shared by the tiles.
   asset.model.name = "apron";

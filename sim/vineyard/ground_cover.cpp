@@ -204,8 +204,10 @@ class Strewer {
         rows_(layout.rows),
         random_(RandomStream(seed, "ground cover")) {
     const double withered = withered_share(world.vines.bbch);
-    const std::vector<Texture> textures{grass_texture(seed, withered), stone_texture(seed),
-                                        leaf_texture(seed), sward_texture(seed, withered)};
+    const std::vector<Texture> textures{
+        grass_texture(seed, withered), stone_texture(seed),
+        painted_texture(scene, "leaf", [&] { return leaf_texture(seed); }),
+        painted_texture(scene, "sward", [&] { return sward_texture(seed, withered); })};
     for (std::size_t kind = 0; kind < kPatches.size(); ++kind) {
       for (int v = 0; v < kVariants; ++v) {
         models_[kind][v] = add_patch(scene, kPatches[kind], seed, v, textures);

@@ -66,8 +66,10 @@ void add_vines(Scene& scene, const WorldConfig& world, const WorldLayout& layout
 
 }  // namespace
 
-Scene build_scene(const WorldConfig& world, std::uint64_t seed, const CacheFolder& cache) {
+Scene build_scene(const WorldConfig& world, std::uint64_t seed, const CacheFolder& cache,
+                  bool painted) {
   Scene scene;
+  scene.painted = painted;
   scene.seed = seed;
   scene.light = daylight(world.sun, world.sky, usual_overcast(world.vines.bbch));
   scene.wind = make_wind(world.wind, seed);

@@ -177,7 +177,9 @@ VineKind vine_at(const WorldConfig& world, std::uint64_t seed, std::size_t place
 
 /// Grows (or loads) the plants and assembles all that can be drawn. The plants of a seed are grown
 /// once into `cache` as .glb files, or each time where it cannot be used. Throws Error that names
-/// the mesh that cannot be loaded.
-Scene build_scene(const WorldConfig& world, std::uint64_t seed, const CacheFolder& cache);
+/// the mesh that cannot be loaded. Unless it is `painted`, its textures are not those to be seen,
+/// which take most of the time.
+Scene build_scene(const WorldConfig& world, std::uint64_t seed, const CacheFolder& cache,
+                  bool painted = true);
 
 }  // namespace vinebench::sim

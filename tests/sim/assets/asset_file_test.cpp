@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <tuple>
 
 #include "tests/support/test_folder.h"
@@ -107,6 +108,20 @@ TEST(GlbTest, EveryBitComesBack) {
   }
   EXPECT_EQ(back.model.bounds.min(), asset.model.bounds.min());
   EXPECT_EQ(to_glb(back), to_glb(asset));
+}
+
+TEST(DecodedImagesTest, TheSameBytesAreDecodedOnce) {
+  const cv::Mat rgba = chequers("leaf", true).rgba;
+  std::vector<std::uint8_t> png;
+  cv::Mat bgra;
+  cv::cvtColor(rgba, bgra, cv::COLOR_RGBA2BGRA);
+  cv::imencode(".png", bgra, png);
+  const std::string bytes(png.begin(), png.end()), copy = bytes;
+  DecodedImages images;
+  const cv::Mat first = images.decode(bytes, "first");
+  EXPECT_EQ(cv::norm(first, rgba, cv::NORM_INF), 0);
+  EXPECT_EQ(images.decode(copy, "second").data, first.data);
+  EXPECT_THAT(error_of([&] { images.decode("nothing", "third"); }), HasSubstr("third"));
 }
 
 TEST(VertexColourTest, EveryByteComesBackFromItsLight) {

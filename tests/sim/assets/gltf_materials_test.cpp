@@ -32,8 +32,9 @@ tinygltf::Model two_skins() {
 }
 
 TEST(GltfMaterialsTest, EachMaterialWithoutItsImageIsNoted) {
+  DecodedImages images;
   ImportedMesh mesh;
-  read_gltf_materials(two_skins(), "vine.gltf", Strictness::kLenient, mesh);
+  read_gltf_materials(two_skins(), "vine.gltf", Strictness::kLenient, images, mesh);
   const auto note = [](const char* name) {
     return AllOf(HasSubstr("material '" + std::string(name) + "' is drawn in its colour alone"),
                  HasSubstr("gone.png"), testing::Not(HasSubstr("vine.gltf")));
@@ -48,10 +49,11 @@ TEST(GltfMaterialsTest, StrictlyEveryImageMustBeReadElseOnlyThoseThatAreDrawn) {
   for (tinygltf::Material& material : model.materials) {
     material.pbrMetallicRoughness.baseColorTexture.index = -1;
   }
+  DecodedImages images;
   ImportedMesh mesh;
-  EXPECT_THAT(error_of([&] { read_gltf_materials(model, "f", Strictness::kStrict, mesh); }),
+  EXPECT_THAT(error_of([&] { read_gltf_materials(model, "f", Strictness::kStrict, images, mesh); }),
               HasSubstr("gone.png"));
-  read_gltf_materials(model, "f", Strictness::kLenient, mesh);
+  read_gltf_materials(model, "f", Strictness::kLenient, images, mesh);
   EXPECT_THAT(mesh.notes.all(), testing::IsEmpty());
 }
 
@@ -64,8 +66,9 @@ TEST(GltfMaterialsTest, LooksThatAreNotDrawnAreNoted) {
   material.normalTexture.index = material.emissiveTexture.index = 0;
   material.occlusionTexture.index = 0;
   material.alphaMode = "BLEND";
+  DecodedImages images;
   ImportedMesh mesh;
-  read_gltf_materials(model, "f", Strictness::kLenient, mesh);
+  read_gltf_materials(model, "f", Strictness::kLenient, images, mesh);
   EXPECT_THAT(mesh.notes.all(),
               testing::UnorderedElementsAre(
                   HasSubstr("'a': its image of normals"), HasSubstr("'a': its image of emission"),
@@ -78,8 +81,9 @@ TEST(GltfMaterialsTest, LabelsOfTheFileAreKnown) {
   model.materials.erase(model.materials.begin(), model.materials.begin() + 1);
   using tinygltf::Value;
   model.materials[1].extras = Value(Value::Object{{"label", Value(std::string("trunk"))}});
+  DecodedImages images;
   ImportedMesh mesh;
-  read_gltf_materials(model, "f", Strictness::kLenient, mesh);
+  read_gltf_materials(model, "f", Strictness::kLenient, images, mesh);
   EXPECT_THAT(mesh.labelled, ElementsAre(1));
   EXPECT_EQ(mesh.asset.materials[1].label, Label::kTrunk);
 }

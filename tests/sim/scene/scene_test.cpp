@@ -65,7 +65,7 @@ class SceneTest : public testing::Test {
 
 TEST_F(SceneTest, VinesAndPostsStandWhereTheWorldHasThem) {
   const WorldConfig world = small_world();
-  const Scene scene = build_scene(world, 1, test::shared_plants());
+  const Scene scene = build_scene(world, 1, test::shared_plants(), false);
   const std::vector<Eigen::Vector2d> vines = lay_out(world).vine_feet(),
                                      posts = lay_out(world).post_feet();
   const std::vector<Instance> plants = instances_of(scene, Label::kBunch);
@@ -89,7 +89,7 @@ TEST_F(SceneTest, VinesAndPostsStandWhereTheWorldHasThem) {
 
 TEST_F(SceneTest, TheTagsPrintLiesInItsPlaneWithItsBlackSquareToSize) {
   const WorldConfig world = small_world();
-  const Scene scene = build_scene(world, 1, test::shared_plants());
+  const Scene scene = build_scene(world, 1, test::shared_plants(), false);
   const std::vector<Instance> tags = instances_of(scene, Label::kTag);
   ASSERT_EQ(tags.size(), 1u);
   const Primitive& print =
@@ -112,7 +112,7 @@ TEST_F(SceneTest, TheTagsPrintLiesInItsPlaneWithItsBlackSquareToSize) {
 
 TEST_F(SceneTest, TheBoxStandsAtItsPose) {
   const WorldConfig world = small_world();
-  const Scene scene = build_scene(world, 1, test::shared_plants());
+  const Scene scene = build_scene(world, 1, test::shared_plants(), false);
   const std::vector<Instance> boxes = instances_of(scene, Label::kBox);
   ASSERT_EQ(boxes.size(), 1u);
   const Pose foot = occluder_pose(world.occluders[0], lay_out(world).terrain);
@@ -129,7 +129,7 @@ TEST_F(SceneTest, TheBoxStandsAtItsPose) {
 
 TEST_F(SceneTest, WiresRunAlongTheRowsAtTheirHeights) {
   const WorldConfig world = small_world();
-  const Scene scene = build_scene(world, 1, test::shared_plants());
+  const Scene scene = build_scene(world, 1, test::shared_plants(), false);
   // Four wires over the spans between 3 posts of the first row (0, 2, 3) and 2 of the second.
   ASSERT_EQ(scene.wires.size(), 4u * 3u);
   for (const Wire& wire : scene.wires) {
@@ -144,7 +144,7 @@ TEST_F(SceneTest, TheSunStandsWhereTheWorldSays) {
   WorldConfig world = small_world();
   world.sun.azimuth_deg = 90;  // east
   world.sun.elevation_deg = 30;
-  const Scene scene = build_scene(world, 1, test::shared_plants());
+  const Scene scene = build_scene(world, 1, test::shared_plants(), false);
   const Eigen::Vector3f expected(std::sqrt(0.75f), 0, 0.5f);
   EXPECT_LT((scene.light.towards_sun - expected).norm(), 1e-6f);
 }
@@ -155,7 +155,7 @@ TEST_F(SceneTest, SomePlacesAreEmptyOrHaveAYoungVine) {
   world.ground_size = 4;  // no grass is needed
   world.vines.missing = 0.2;
   world.vines.young = 0.3;
-  const Scene scene = build_scene(world, 1, test::shared_plants());
+  const Scene scene = build_scene(world, 1, test::shared_plants(), false);
   // Adult vines have bunches, young ones do not; all have a trunk.
   const std::size_t grown = instances_of(scene, Label::kBunch).size();
   const std::vector<Instance> all = instances_of(scene, Label::kTrunk);
@@ -174,7 +174,7 @@ TEST_F(SceneTest, WoodLedToOneSidePointsTheSameWayAllAlongTheRow) {
   WorldConfig world = small_world();
   world.vines.training = Training::kSingleGuyot;
   for (const Instance& plant :
-       instances_of(build_scene(world, 1, test::shared_plants()), Label::kBunch)) {
+       instances_of(build_scene(world, 1, test::shared_plants(), false), Label::kBunch)) {
     const Eigen::Vector3d along = plant.T_world_model.rotation * Eigen::Vector3d::UnitX();
     EXPECT_NEAR(plant.id < 3 ? along.x() : along.y(), 1, 1e-9);
   }
@@ -253,6 +253,28 @@ TEST_F(SceneTest, IsTheSameWithoutACache) {
   none.notice = [&](const std::string& text) { notice = text; };
   expect_same(first, build_scene(small_world(), 1, none));
   EXPECT_THAT(notice, HasSubstr(none.folder.string()));
+}
+
+TEST_F(SceneTest, UnpaintedItHasTheSameThingsInTheSamePlaces) {
+  const Scene painted = build_scene(small_world(), 1, test::shared_plants());
+  const Scene listed = build_scene(small_world(), 1, test::shared_plants(), false);
+  ASSERT_EQ(listed.instances.size(), painted.instances.size());
+  for (std::size_t i = 0; i < painted.instances.size(); ++i) {
+    const Instance &a = listed.instances[i], &b = painted.instances[i];
+    EXPECT_EQ(a.model, b.model);
+    EXPECT_EQ(a.T_world_model.matrix(), b.T_world_model.matrix());
+  }
+  ASSERT_EQ(listed.textures.size(), painted.textures.size());
+  for (std::size_t i = 0; i < painted.textures.size(); ++i) {
+    EXPECT_EQ(listed.textures[i].name, painted.textures[i].name);
+  }
+  const auto texels = [](const Scene& scene) {
+    double sum = 0;
+    for (const Texture& texture : scene.textures) sum += static_cast<double>(texture.rgba.total());
+    return sum;
+  };
+  // The ground alone has 2048 x 2048 of them.
+  EXPECT_GT(texels(painted) - texels(listed), 2048.0 * 2048);
 }
 
 TEST_F(SceneTest, AWorldsOwnMeshesStandInPlaceOfGrownPlants) {

@@ -94,12 +94,23 @@ cv::Mat fine_part(const cv::Mat& light) {
   return light - mean;
 }
 
+/// Of green alone, of the fine part of one channel or of all.
 double green_deviation(const cv::Mat& fine) {
+  const int step = fine.channels(), first = step == 1 ? 0 : 1;
   double sum = 0;
-  for (auto it = fine.begin<cv::Vec4f>(); it != fine.end<cv::Vec4f>(); ++it) {
-    sum += static_cast<double>((*it)[1]) * static_cast<double>((*it)[1]);
+  for (int y = 0; y < fine.rows; ++y) {
+    const float* green = fine.ptr<float>(y) + first;
+    for (int x = 0; x < fine.cols; ++x, green += step) {
+      sum += static_cast<double>(*green) * static_cast<double>(*green);
+    }
   }
   return std::sqrt(sum / static_cast<double>(fine.total()));
+}
+
+double contrast_of(const cv::Mat& light) {
+  cv::Mat green;
+  cv::extractChannel(light, green, 1);
+  return green_deviation(fine_part(green));
 }
 
 /// Light with its fine part's deviation raised to that, of colours alone.
@@ -155,13 +166,13 @@ std::vector<cv::Mat> mip_levels(const cv::Mat& rgba, bool cutout) {
 }
 
 double near_contrast(const cv::Mat& rgba) {
-  return green_deviation(fine_part(to_light(rgba, false)));
+  return contrast_of(to_light(rgba, false));
 }
 
 std::vector<cv::Mat> rough_mip_levels(const cv::Mat& rgba) {
   std::vector<cv::Mat> levels{rgba.clone()};
   cv::Mat light = to_light(rgba, false);
-  const double wanted = kKeptContrast * green_deviation(fine_part(light));
+  const double wanted = kKeptContrast * contrast_of(light);
   while (light.cols > 1 || light.rows > 1) {
     const cv::Size half(std::max(1, light.cols / 2), std::max(1, light.rows / 2));
     cv::resize(light, light, half, 0, 0, cv::INTER_AREA);
