@@ -81,7 +81,9 @@ Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
                     inertial_noise(config.inertial, rig.imu)},
                    rig_.tag_cameras, tags),
       recovery_(tracker_, loop_closer_, rig_, map_),
-      calibration_(config.calibration, config.stereo.calibration_sigma, rig_) {
+      calibration_({config.calibration, config.stereo.calibration_sigma,
+                    config.stereo.self_calibration, is_accuracy_told(config), is_live()},
+                   rig_) {
   rig_.wheels = config.dead_reckoning.wheels;
   rig_.noise.loss = config.loss;
   if (config.places) places_.emplace(*config.places);
@@ -214,7 +216,7 @@ void Pipeline::record_pose(const TrackedFrame& tracked, Estimate& estimate) {
 SlamSummary Pipeline::finish() {
   join_mapping();
   while (global_adjuster_.busy()) join_global_adjustment();
-  if (look_.busy()) calibration_.finish_look(look_.take(), rig_);
+  calibration_.finish(rig_);
   const auto calibration = calibration_.latest();
   if (calibration) use_calibration(*calibration);
   if (tags_since_adjustment_ || calibration) {
@@ -236,7 +238,7 @@ SlamSummary Pipeline::finish() {
 /// Of the body's pose; a keyframe's own is part of the uncertainty kept.
 Matrix6d Pipeline::covariance(const TrackedFrame& tracked, bool keyframe) const {
   const Pose T_last_now = map_.keyframes().back().T_map_body.inverse() * tracker_.T_map_body();
-  const Matrix6d of_calibration = uncertainty_.of_calibration(T_last_now, calibration_error_);
+  const Matrix6d of_calibration = uncertainty_.of_calibration(T_last_now, calibration_.error());
   if (keyframe) return uncertainty_.at({}, Matrix6d::Zero()) + of_calibration;
   if (tracked.tracked) {
     return uncertainty_.at(T_last_now, tracked.motion.information) + of_calibration;
@@ -400,7 +402,7 @@ void Pipeline::take_calibration(Estimate& estimate) {
 void Pipeline::close_loop_by_place(int keyframe, Estimate& estimate) {
   const ScopedTimer timer(times_, "places");
   const Matrix6d now =
-      uncertainty_.at({}, Matrix6d::Zero()) + uncertainty_.of_calibration({}, calibration_error_);
+      uncertainty_.at({}, Matrix6d::Zero()) + uncertainty_.of_calibration({}, calibration_.error());
   const auto found = places_->look(keyframe, path_length_, now, map_, rig_);
   if (!found || estimate.loop_closure) return;
   take_calibration(estimate);
@@ -422,38 +424,13 @@ void Pipeline::believe_gravity() {
 
 /// Makes good an error of the pairs' calibration, in the map and from here on.
 void Pipeline::calibrate(Estimate& estimate) {
-  if (!config_.stereo.self_calibration) return;
-  if (is_accuracy_told(config_) && calibration_.may_feel(map_)) {
-    const ScopedTimer timer(times_, "calibration");
-    calibration_.feel(map_, rig_, mapper_.adjustment_options());
-    calibration_error_ = calibration_.error(rig_);
-  }
-  if (is_live()) return calibrate_live(estimate);
-  if (!calibration_.due(map_)) return;
+  const auto found = calibration_.after_keyframe(map_, rig_, mapper_.adjustment_options(), times_);
+  if (!found) return;
   const ScopedTimer timer(times_, "calibration");
-  take_look(calibration_.look(map_, rig_, mapper_.adjustment_options()), estimate);
-}
-
-/// Looks beside tracking.
-void Pipeline::calibrate_live(Estimate& estimate) {
-  if (look_.done()) take_look(calibration_.finish_look(look_.take(), rig_), estimate);
-  if (look_.busy() || !calibration_.due(map_)) return;
-  look_.start(
-      [job = std::shared_ptr(calibration_.begin_look(map_, rig_, mapper_.adjustment_options()))] {
-        job->solve();
-        return job->calibration();
-      });
-}
-
-void Pipeline::take_look(const std::optional<std::vector<PairCalibration>>& found,
-                         Estimate& estimate) {
-  if (found) {
-    use_calibration(*found);
-    adjust_globally();
-    believe_gravity();
-    estimate.calibration = *found;
-  }
-  calibration_error_ = calibration_.error(rig_);
+  use_calibration(*found);
+  adjust_globally();
+  believe_gravity();
+  estimate.calibration = *found;
 }
 
 void Pipeline::use_calibration(const std::vector<PairCalibration>& pairs) {

@@ -7,7 +7,6 @@
 
 #include "core/slam_system.h"
 #include "core/util/stage_timer.h"
-#include "slam/calibration/calibration_watch.h"
 #include "slam/camera/estimator_rig.h"
 #include "slam/config.h"
 #include "slam/loop/loop_closer.h"
@@ -17,9 +16,9 @@
 #include "slam/mapping/local_mapper.h"
 #include "slam/optimisation/pose_uncertainty.h"
 #include "slam/recovery.h"
-#include "slam/runtime/background.h"
 #include "slam/runtime/global_adjuster.h"
 #include "slam/runtime/mapping_scheduler.h"
+#include "slam/runtime/self_calibration.h"
 #include "slam/tracking/tracker.h"
 
 namespace vinebench::slam {
@@ -77,8 +76,6 @@ class Pipeline {
   void take_calibration(Estimate& estimate);
   void believe_gravity();
   void calibrate(Estimate& estimate);
-  void calibrate_live(Estimate& estimate);
-  void take_look(const std::optional<std::vector<PairCalibration>>& found, Estimate& estimate);
   void use_calibration(const std::vector<PairCalibration>& pairs);
   Matrix6d covariance(const TrackedFrame& tracked, bool keyframe) const;
   Estimate report(const TrackedFrame& tracked) const;
@@ -92,11 +89,9 @@ class Pipeline {
   LoopCloser loop_closer_;
   std::optional<PlaceLoops> places_;
   Recovery recovery_;
-  CalibrationWatch calibration_;
-  GlobalAdjuster global_adjuster_;        ///< live
-  Background<CalibrationMarginal> look_;  ///< live: of calibration_
-  PoseUncertainty uncertainty_;           ///< of the latest keyframe
-  Eigen::MatrixXd calibration_error_;     ///< second moments, as CalibrationWatch has them
+  SelfCalibration calibration_;
+  GlobalAdjuster global_adjuster_;  ///< live
+  PoseUncertainty uncertainty_;     ///< of the latest keyframe
   StageTimes times_;
   TrajectoryRecord records_;
   std::vector<std::vector<Eigen::Vector2f>> supporting_;  ///< px, of the last frame's views

@@ -29,7 +29,10 @@ class Recovery {
   TrackedFrame relocalise(const std::shared_ptr<FrameFeatures>& frame);
 
   /// Reports a frame that was tracked.
-  void tracked() { seeing_frames_ = 0; }
+  void tracked() {
+    seeing_frames_ = 0;
+    relocaliser_.forget();
+  }
 
   /// Tracks a frame that was not tracked from where the body is by a tag that the map knows or by
   /// the looks of the place. A tag is believed; a place must be borne out by tracking there and, as

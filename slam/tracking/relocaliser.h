@@ -56,6 +56,9 @@ class Relocaliser {
   /// Whether the last frame resembled a place, which the next one may confirm.
   bool has_candidate() const { return before_.has_value(); }
 
+  /// The last frame was found otherwise: it confirms no candidate.
+  void forget() { before_.reset(); }
+
   /// The body's pose in the map, or none (yet).
   std::optional<Pose> find(const Map& map, const EstimatorRig& rig, const FrameFeatures& frame);
 

@@ -69,6 +69,28 @@ TEST(RecoveryTest, ACarriedBodyKnowsThePlaceAgain) {
   EXPECT_LT(worst_error(summary.trajectory, truth), 0.01);  // as DriftsLittleWithNoise
 }
 
+// What is seen in two frames looks like a place 4 m back, farther than a frame's step may lead:
+// in a row they would be believed. In between the body tracked where it is, so that it cannot have
+// been carried.
+TEST(RecoveryTest, FramesThatTrackOutdateAPlaceThatWasSeenBefore) {
+  const SyntheticAisle aisle(0.5, 5, kLandmarks);
+  Pipeline pipeline(SlamConfig{}, aisle.rig, {});
+  std::vector<Pose> truth;
+  for (std::int64_t i = 0; i < 240; ++i) {
+    const bool deceived = i == 230 || i == 234;
+    truth.push_back(driving(i));
+    const auto frame = aisle.frame(i, deceived ? driving(i - 200) : truth.back());
+    if (i > 0) frame->wheels = wheels(i, 0);
+    const Estimate estimate = pipeline.process(frame);
+    EXPECT_EQ(estimate.status,
+              deceived ? TrackingStatus::kDeadReckoning : TrackingStatus::kTracking)
+        << i;
+  }
+  const SlamSummary summary = pipeline.finish();
+  EXPECT_EQ(summary.trajectory.size(), 240u);
+  EXPECT_LT(worst_error(summary.trajectory, truth), 0.01);  // as DriftsLittleWithNoise
+}
+
 /// What both frames see.
 std::shared_ptr<FrameFeatures> both(FrameFeatures a, const FrameFeatures& b, const StereoRig& rig) {
   for (std::size_t v = 0; v < a.views.size(); ++v) {

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/runtime/self_calibration.h"
+
+#include <memory>
+
+namespace vinebench::slam {
+
+SelfCalibration::SelfCalibration(const SelfCalibrationSettings& settings, const EstimatorRig& rig)
+    : settings_(settings), watch_(settings.accuracy, settings.disparity_sigma, rig) {}
+
+std::optional<std::vector<PairCalibration>> SelfCalibration::after_keyframe(
+    const Map& map, const EstimatorRig& rig, const AdjustmentOptions& options, StageTimes& times) {
+  if (!settings_.enabled) return std::nullopt;
+  if (settings_.accuracy_told && watch_.may_feel(map)) {
+    const ScopedTimer timer(times, "calibration");
+    watch_.feel(map, rig, options);
+    error_ = watch_.error(rig);
+  }
+  if (!settings_.beside_tracking) {
+    if (!watch_.due(map)) return std::nullopt;
+    const ScopedTimer timer(times, "calibration");
+    const auto found = watch_.look(map, rig, options);
+    know_error(rig, found);
+    return found;
+  }
+  const auto found = look_.done() ? ended_look(rig) : std::nullopt;
+  if (look_.busy() || !watch_.due(map)) return found;
+  const EstimatorRig& now = found ? rig.with_calibration(*found) : rig;
+  look_.start([job = std::shared_ptr(watch_.begin_look(map, now, options))] {
+    job->solve();
+    return job->calibration();
+  });
+  return found;
+}
+
+void SelfCalibration::finish(const EstimatorRig& rig) {
+  if (look_.busy()) watch_.finish_look(look_.take(), rig);
+}
+
+std::optional<std::vector<PairCalibration>> SelfCalibration::ended_look(const EstimatorRig& rig) {
+  const auto found = watch_.finish_look(look_.take(), rig);
+  know_error(rig, found);
+  return found;
+}
+
+void SelfCalibration::know_error(const EstimatorRig& rig,
+                                 const std::optional<std::vector<PairCalibration>>& found) {
+  error_ = watch_.error(found ? rig.with_calibration(*found) : rig);
+}
+
+}  // namespace vinebench::slam

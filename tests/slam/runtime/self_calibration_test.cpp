@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: Vinebench authors
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/runtime/self_calibration.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "tests/support/aisle_map.h"
+
+namespace vinebench::slam {
+namespace {
+
+using Found = std::optional<std::vector<PairCalibration>>;
+
+/// A drive with a back pair whose disparities are 0.5 px too small.
+class SelfCalibrationTest : public testing::Test {
+ protected:
+  SelfCalibrationTest() {
+    for (double& scale : made_.rig.noise.level_scales) scale *= 0.3;
+    aisle_.calibration[1].disparity_offset = -0.5;
+  }
+
+  void add_keyframe() {
+    const auto id = static_cast<int>(made_.map.keyframes().size());
+    const Pose at{exp_so3({0, 0, 0.3 * std::sin(0.5 * id)}),
+                  {0.1 * id, 0.1 * std::sin(0.3 * id), 0}};
+    aisle_.velocity.setZero();
+    aisle_.velocity[0] = 0.4 + 0.2 * std::sin(0.9 * id);
+    aisle_.velocity[5] = 0.6 * std::cos(0.5 * id);
+    made_.add(aisle_.frame(id, at), at);
+  }
+  Found look(SelfCalibration& calibration) {
+    return calibration.after_keyframe(made_.map, made_.rig, {}, times_);
+  }
+  std::size_t looks_timed() const {
+    const auto samples = times_.samples().find("calibration");
+    return samples == times_.samples().end() ? 0 : samples->second.size();
+  }
+
+  test::SyntheticAisle aisle_{0.3, 4, 800};
+  test::AisleMap made_{aisle_, {}};
+  StageTimes times_;
+};
+
+TEST_F(SelfCalibrationTest, SwitchedOffItNeverLooks) {
+  SelfCalibration calibration({.enabled = false}, made_.rig);
+  for (int i = 0; i < 24; ++i) {
+    add_keyframe();
+    EXPECT_FALSE(look(calibration));
+  }
+  EXPECT_EQ(calibration.error().size(), 0);
+  EXPECT_EQ(looks_timed(), 0u);
+}
+
+TEST_F(SelfCalibrationTest, WhereTheAccuracyIsToldTheErrorIsKnownBeforeTheFirstLook) {
+  SelfCalibration usual({}, made_.rig), told({.accuracy_told = true}, made_.rig);
+  for (int i = 0; i < 8; ++i) {
+    add_keyframe();
+    EXPECT_FALSE(look(usual));
+    EXPECT_FALSE(look(told));
+  }
+  EXPECT_EQ(usual.error().size(), 0);
+  EXPECT_GT(told.error().size(), 0);
+  EXPECT_GT(told.drift().norm(), 0);
+}
+
+// Of the same map and rig a look finds the same, wherever it is made; beside tracking no call waits
+// for it, so that it is there with a later one.
+TEST_F(SelfCalibrationTest, BesideTrackingItFindsTheSameLater) {
+  SelfCalibration at_once({}, made_.rig), beside({.beside_tracking = true}, made_.rig);
+  Found first;
+  for (int i = 0; i < 36 && !first; ++i) {
+    add_keyframe();
+    first = look(at_once);
+    Found later = look(beside);
+    EXPECT_FALSE(later);
+    // Without another keyframe no further look begins.
+    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (first && !later && std::chrono::steady_clock::now() < until) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      later = look(beside);
+    }
+    if (!first) {
+      beside.finish(made_.rig);
+      continue;
+    }
+    ASSERT_TRUE(later);
+    EXPECT_EQ((*later)[1].disparity_offset, (*first)[1].disparity_offset);
+    EXPECT_EQ(beside.error(), at_once.error());
+  }
+  ASSERT_TRUE(first);
+  // As CalibrationWatchTest has it for the same offset.
+  EXPECT_NEAR((*first)[1].disparity_offset, -0.5, 0.1);
+  EXPECT_EQ((*at_once.latest())[1].disparity_offset, (*first)[1].disparity_offset);
+}
+
+}  // namespace
+}  // namespace vinebench::slam
