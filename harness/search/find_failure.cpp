@@ -26,10 +26,20 @@ double rounded(double severity) {
   return std::round(severity / kSeverityStep) * kSeverityStep;
 }
 
+bool have_same_difficulties(const Condition& a, const Condition& b) {
+  return std::ranges::equal(a.severities, b.severities,
+                            [](double x, double y) { return (x > 0) == (y > 0); });
+}
+
 class Guided {
  public:
-  Guided(SearchRuns& runs, std::int64_t seed, const Tell& tell)
-      : runs_(runs), seed_(seed), tell_(tell), size_(runs.problem().space.difficulties.size()) {}
+  Guided(SearchRuns& runs, std::int64_t seed, const Tell& tell,
+         const std::vector<Condition>& dismissed)
+      : runs_(runs),
+        seed_(seed),
+        tell_(tell),
+        dismissed_(dismissed),
+        size_(runs.problem().space.difficulties.size()) {}
 
   std::optional<Condition> find() {
     const Condition plain{Severities(size_)};
@@ -106,8 +116,18 @@ class Guided {
     return condition;
   }
 
+  /// Those of other difficulties than any that is dismissed.
+  std::vector<Condition> left_of(std::vector<Condition> conditions) const {
+    std::erase_if(conditions, [&](const Condition& condition) {
+      return std::ranges::any_of(dismissed_, [&](const Condition& dismissed) {
+        return have_same_difficulties(condition, dismissed);
+      });
+    });
+    return conditions;
+  }
+
   std::optional<Condition> mildest(const std::vector<Condition>& conditions) {
-    std::vector<Condition> found = breaking(conditions);
+    std::vector<Condition> found = breaking(left_of(conditions));
     if (found.empty()) return std::nullopt;
     return *std::ranges::min_element(found, is_milder);
   }
@@ -146,9 +166,9 @@ class Guided {
     const std::vector<Condition> found = breaking(worst, &in_both);
     tell_(fmt::format("two difficulties at the worst that each is stood alone: {} break the system",
                       found.size()));
-    if (std::optional<Condition> condition = mildest_of_pairs(found)) return condition;
+    if (std::optional<Condition> condition = mildest_of_pairs(left_of(found))) return condition;
     // Where both fail at the worst there may be less with which one does alone.
-    return mildest_of_pairs(in_both);
+    return mildest_of_pairs(left_of(in_both));
   }
 
   /// Of the first ones.
@@ -206,6 +226,7 @@ class Guided {
   SearchRuns& runs_;
   std::int64_t seed_;
   const Tell& tell_;
+  const std::vector<Condition>& dismissed_;
   std::size_t size_;
   std::vector<double> stands_{};  ///< the worst severity of each alone with which the system passes
 };
@@ -222,8 +243,9 @@ bool breaks(SearchRuns& runs, const Condition& condition, std::int64_t seed) {
          runs.ask({condition, Role::kReference, seed}).verdict == RunVerdict::kPassed;
 }
 
-std::optional<Condition> find_failure(SearchRuns& runs, std::int64_t seed, const Tell& tell) {
-  return Guided(runs, seed, tell).find();
+std::optional<Condition> find_failure(SearchRuns& runs, std::int64_t seed, const Tell& tell,
+                                      const std::vector<Condition>& dismissed) {
+  return Guided(runs, seed, tell, dismissed).find();
 }
 
 std::vector<Query> first_queries(const SearchProblem& problem, std::int64_t seed) {

@@ -28,8 +28,10 @@ bool breaks(SearchRuns& runs, const Condition& condition, std::int64_t seed);
 ///     pair that breaks it is looked for by minimise() and then by halving each;
 ///  4. all together, by minimise() over the excess.
 ///
-/// Empty if none is found. Throws Error if the reference fails in the scenario as it is.
-std::optional<Condition> find_failure(SearchRuns& runs, std::int64_t seed, const Tell& tell);
+/// One or two difficulties that are `dismissed` together are passed over, in 2 and 3. Empty if none
+/// is found. Throws Error if the reference fails in the scenario as it is.
+std::optional<Condition> find_failure(SearchRuns& runs, std::int64_t seed, const Tell& tell,
+                                      const std::vector<Condition>& dismissed = {});
 
 /// For comparison, at random: one or two difficulties of any severity, until a condition that
 /// breaks the system has `difficulties` at most and a sum of severities of `severity` at most; the

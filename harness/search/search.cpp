@@ -105,17 +105,30 @@ std::size_t CounterExample::agreeing() const {
 
 std::optional<CounterExample> search(SearchRuns& runs, const SearchSettings& settings,
                                      const Tell& tell) {
+  SearchSettings now = settings;
   const std::int64_t seed = settings.seeds.front();
   const std::size_t reserve = 2 * settings.proof_seeds + kShrinkingRuns;
-  const std::optional<Condition> found =
-      settings.random ? find_at_random(runs, seed, *settings.random, 0, 0, reserve)
-                      : find_failure(runs, seed, tell);
-  if (!found || runs.interrupted()) return std::nullopt;
-  CounterExample example{*found, runs.count(), *found, {}};
-  tell(fmt::format("breaks under {}, after {} runs",
-                   text_of(runs.problem().space, found->severities), runs.count()));
-  prove(runs, shrink(runs, *found, settings.seeds, tell), example, settings, tell);
-  return example;
+  std::optional<CounterExample> best;
+  std::vector<Condition> dismissed;
+  while (true) {
+    const std::optional<Condition> found =
+        settings.random ? find_at_random(runs, seed, *settings.random, 0, 0, reserve)
+                        : find_failure(runs, seed, tell, dismissed);
+    if (!found || runs.interrupted()) return best;
+    CounterExample example{*found, runs.count(), *found, {}};
+    tell(fmt::format("breaks under {}, after {} runs",
+                     text_of(runs.problem().space, found->severities), runs.count()));
+    prove(runs, shrink(runs, *found, settings.seeds, tell), example, now, tell);
+    if (!best || best->agreeing() < example.agreeing()) best = example;
+    if (best->is_proven() || settings.random || settings.proof_seeds == 0 ||
+        found->difficulties() == 0 || runs.left() < reserve || runs.interrupted()) {
+      return best;
+    }
+    // By chance with these seeds.
+    dismissed.push_back(*found);
+    now.first_proof_seed += kProofs * static_cast<std::int64_t>(settings.proof_seeds);
+    tell("other seeds do not bear that out: looking for something else");
+  }
 }
 
 }  // namespace vinebench::harness

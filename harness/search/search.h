@@ -48,7 +48,9 @@ struct SearchSettings {
 
 /// Finds a failure, shrinks it and proves it with other seeds. Where the system passes with one of
 /// them, the severities grow by a step; where the reference fails too, the last step of shrinking
-/// is taken back; and new seeds are asked, while the budget lasts. Empty if nothing is found.
+/// is taken back; and new seeds are asked, while the budget lasts. What other seeds do not bear out
+/// is dismissed, and the search goes on among other difficulties. Empty if nothing is found; what
+/// most seeds bear out where nothing is proven.
 std::optional<CounterExample> search(SearchRuns& runs, const SearchSettings& settings,
                                      const Tell& tell);
 
