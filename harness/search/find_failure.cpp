@@ -180,7 +180,26 @@ class Guided {
     return mildest(milder);
   }
 
-  /// Both severities change at once, then each alone.
+  /// The mildest condition on the line from no difficulty to this one with which the system fails.
+  Condition halve_all(const Condition& worst) {
+    Condition condition = worst;
+    double low = 0;
+    for (double high = 1; high - low > kFinest;) {
+      const double middle = (low + high) / 2;
+      Condition milder = worst;
+      for (double& severity : milder.severities) severity = rounded(middle * severity);
+      if (failed(milder)) {
+        condition = milder;
+        high = middle;
+      } else {
+        low = middle;
+      }
+    }
+    return condition;
+  }
+
+  /// Both severities change at once, then each alone. Where the system begins to fail on the way to
+  /// the worst the reference mostly passes; else the optimiser looks for where it does.
   Condition mildest_of_pair(const Condition& pair) {
     std::vector<std::size_t> hard;
     std::vector<double> upper;
@@ -189,7 +208,10 @@ class Guided {
       hard.push_back(i);
       upper.push_back(pair.severities[i]);
     }
-    Condition best = search_box(pair, hard, upper, kPairEvaluations).value_or(pair);
+    Condition best = halve_all(pair);
+    if (!breaks(runs_, best, seed_)) {
+      best = search_box(pair, hard, upper, kPairEvaluations).value_or(pair);
+    }
     for (const std::size_t i : hard) best = halve(best, i);
     return best;
   }

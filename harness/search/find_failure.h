@@ -24,8 +24,9 @@ bool breaks(SearchRuns& runs, const Condition& condition, std::int64_t seed);
 ///  1. the scenario as it is;
 ///  2. each difficulty alone at its worst; where the system fails and the reference does not, its
 ///     severity is halved to 1/16;
-///  3. each pair of them, each at the worst that the system stands alone; the mildest point of a
-///     pair that breaks it is looked for by minimise() and then by halving each;
+///  3. each pair of them, each at the worst that the system stands alone; on the way there the
+///     point is looked for at which the system begins to fail, by halving both, or by minimise()
+///     where the reference fails there too; then each is halved;
 ///  4. all together, by minimise() over the excess.
 ///
 /// One or two difficulties that are `dismissed` together are passed over, in 2 and 3. Empty if none

@@ -86,6 +86,23 @@ TEST(FindFailureTest, APairWhoseReferenceIsNotMonotonous) {
   EXPECT_GE(found->severities[0], 0.75);  // 1.1 m/s
 }
 
+// The reference stands little more of both at once: the band between is an eighth wide.
+TEST(FindFailureTest, APairOfWhichTheReferenceStandsLittleMore) {
+  const auto beyond = [](const ScenarioConfig& scenario, double severity) {
+    return test::speed_of(scenario) > 0.5 + 0.8 * severity &&
+           test::gap_of(scenario) > 2.5 + 2.0 * severity;
+  };
+  FakeSearch fake(
+      [&](const auto& s, auto) { return beyond(s, 0.25) ? test::kBadError : test::kGoodError; },
+      [&](const auto& s, auto) { return beyond(s, 0.375) ? test::kBadError : test::kGoodError; });
+  const auto found = find(fake);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->severities[1], 0);
+  EXPECT_GT(found->severities[0], 0.25);
+  EXPECT_LE(found->severities[0], 0.375);
+  EXPECT_LE(found->severities[2], 0.375);
+}
+
 TEST(FindFailureTest, ThreeAtOnceByTheirGrowingError) {
   FakeSearch fake([](const auto& scenario, auto) {
     const double speed = (test::speed_of(scenario) - 0.5) / 0.8;
