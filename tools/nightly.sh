@@ -6,11 +6,11 @@
 # (they are kept in out/nightly), and writes the table into docs/results.md between its two markers.
 # Then the program runs on damaged inputs (docs/robustness.md), others every day; those that end it
 # are kept in out/nightly/mutations. Then recordings and runs are killed, and their file operations
-# fail, at each operation in turn; tests run with sanitizers (sanitize.sh address); a sweep runs on a
-# cluster of Slurm, where it is installed; and the packages are built and tested (packages.sh, where it
-# can: as root with debootstrap). None of these where VINEBENCH names a program. Further arguments go
-# to `vinebench run`, e.g. --jobs 4 or --force. Exit code 1 if an expectation fails or any of the rest
-# finds something; the table is written in any case.
+# fail, at each operation in turn; tests run with sanitizers (sanitize.sh address thread-long); a
+# sweep runs on a cluster of Slurm, where it is installed; and the packages are built and tested
+# (packages.sh, where it can: as root with debootstrap). None of these where VINEBENCH names a program.
+# Further arguments go to `vinebench run`, e.g. --jobs 4 or --force. Exit code 1 if an expectation fails
+# or any of the rest finds something; the table is written in any case.
 #   SEEDS=1..5  OUT=out/nightly  RESULTS=docs/results.md  SCENARIOS="scenarios/*.yaml"
 #   MUTATIONS=2000  MUTATION_SEED=20260101
 set -euo pipefail
@@ -66,7 +66,7 @@ fi
 if [[ -n ${endings:-} ]]; then
   python3 tests/tools/kill_test.py "${endings[@]}" --every 1 --times 100 || code=1
   python3 tests/tools/fault_test.py "${endings[@]}" --every 1 || code=1
-  tools/sanitize.sh address || code=1
+  tools/sanitize.sh address thread-long || code=1
   tests/tools/cluster/slurm_test.sh build/vinebench . || [[ $? -eq 77 ]] || code=1
   if command -v debootstrap >/dev/null && unshare --mount true 2>/dev/null; then
     tools/packages.sh || code=1

@@ -9,28 +9,17 @@
 
 #include "slam/features/orb_extractor.h"
 #include "tests/support/aisle_map.h"
+#include "tests/support/winding_drive.h"
 
 namespace vinebench::slam {
 namespace {
 
 using test::AisleMap;
 using test::SyntheticAisle;
+using test::winding;
+using test::winding_velocity;
 
 constexpr double kDegree = std::numbers::pi / 180;
-
-/// Of a winding drive along the aisle, 10 cm a keyframe. Only the velocities' variety matters: the
-/// keyframes need not follow from them.
-Pose winding(int keyframe) {
-  return {exp_so3({0, 0, 0.3 * std::sin(0.5 * keyframe)}),
-          {0.1 * keyframe, 0.1 * std::sin(0.3 * keyframe), 0}};
-}
-Vector6d velocity(int keyframe) {
-  Vector6d twist = Vector6d::Zero();
-  twist[0] = 0.4 + 0.2 * std::sin(0.9 * keyframe);
-  twist[1] = 0.1 * std::cos(0.7 * keyframe);
-  twist[5] = 0.6 * std::cos(0.5 * keyframe);
-  return twist;
-}
 
 /// Drives with cameras that differ from their rig file, and watches.
 class CalibrationWatchTest : public testing::Test {
@@ -42,7 +31,7 @@ class CalibrationWatchTest : public testing::Test {
   void drive(int keyframes) {
     for (int i = 0; i < keyframes; ++i) {
       const auto id = static_cast<int>(made_.map.keyframes().size());
-      aisle_.velocity = velocity(id);
+      aisle_.velocity = winding_velocity(id);
       made_.add(aisle_.frame(id, winding(id)), winding(id));
       if (!watch_.due(made_.map)) continue;
       const auto found = watch_.look(made_.map, made_.rig, {});

@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <cmath>
 #include <thread>
 
 #include "tests/support/aisle_map.h"
+#include "tests/support/winding_drive.h"
 
 namespace vinebench::slam {
 namespace {
@@ -25,12 +25,8 @@ class SelfCalibrationTest : public testing::Test {
 
   void add_keyframe() {
     const auto id = static_cast<int>(made_.map.keyframes().size());
-    const Pose at{exp_so3({0, 0, 0.3 * std::sin(0.5 * id)}),
-                  {0.1 * id, 0.1 * std::sin(0.3 * id), 0}};
-    aisle_.velocity.setZero();
-    aisle_.velocity[0] = 0.4 + 0.2 * std::sin(0.9 * id);
-    aisle_.velocity[5] = 0.6 * std::cos(0.5 * id);
-    made_.add(aisle_.frame(id, at), at);
+    aisle_.velocity = test::winding_velocity(id);
+    made_.add(aisle_.frame(id, test::winding(id)), test::winding(id));
   }
   Found look(SelfCalibration& calibration) {
     return calibration.after_keyframe(made_.map, made_.rig, {}, times_);

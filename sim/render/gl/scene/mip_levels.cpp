@@ -94,30 +94,33 @@ cv::Mat fine_part(const cv::Mat& light) {
   return light - mean;
 }
 
-/// Of green alone, of the fine part of one channel or of all.
-double green_deviation(const cv::Mat& fine) {
-  const int step = fine.channels(), first = step == 1 ? 0 : 1;
+cv::Mat green_of(const cv::Mat& light) {
+  cv::Mat green;
+  cv::extractChannel(light, green, 1);
+  return green;
+}
+
+/// Of one channel's fine part.
+double deviation(const cv::Mat& fine) {
   double sum = 0;
   for (int y = 0; y < fine.rows; ++y) {
-    const float* green = fine.ptr<float>(y) + first;
-    for (int x = 0; x < fine.cols; ++x, green += step) {
-      sum += static_cast<double>(*green) * static_cast<double>(*green);
+    const auto* row = fine.ptr<float>(y);
+    for (int x = 0; x < fine.cols; ++x) {
+      sum += static_cast<double>(row[x]) * static_cast<double>(row[x]);
     }
   }
   return std::sqrt(sum / static_cast<double>(fine.total()));
 }
 
 double contrast_of(const cv::Mat& light) {
-  cv::Mat green;
-  cv::extractChannel(light, green, 1);
-  return green_deviation(fine_part(green));
+  return deviation(fine_part(green_of(light)));
 }
 
 /// Light with its fine part's deviation raised to that, of colours alone.
 cv::Mat roughened(const cv::Mat& light, double wanted) {
   const cv::Mat fine = fine_part(light);
   const double factor =
-      std::clamp(wanted / std::max(1e-6, green_deviation(fine)), 1.0, kMostRaised);
+      std::clamp(wanted / std::max(1e-6, deviation(green_of(fine))), 1.0, kMostRaised);
   cv::Mat rough = light.clone();
   for (int y = 0; y < rough.rows; ++y) {
     for (int x = 0; x < rough.cols; ++x) {
