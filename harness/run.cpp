@@ -110,6 +110,12 @@ RunOutcome run_lockstep_and_judge(const Trial& trial, FrameSource& source, SlamS
   return outcome;
 }
 
+void expect_no_maps(const MapFiles& maps) {
+  if (!maps.load.empty() || !maps.save.empty() || !maps.cloud.empty()) {
+    fail("--load-map, --save-map and --save-cloud require the built-in SLAM core");
+  }
+}
+
 void check_map_folders(const MapFiles& maps) {
   expect_folder(maps.save);
   expect_folder(maps.cloud);

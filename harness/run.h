@@ -49,6 +49,9 @@ struct RunOutcome {
 RunOutcome run_lockstep_and_judge(const Trial& trial, FrameSource& source, SlamSystem& slam,
                                   const RunOptions& options);
 
+/// Throws Error if there are any: other systems than the core have none.
+void expect_no_maps(const MapFiles& maps);
+
 /// Throws Error if the folder for a map does not exist, so that the error comes before a long run.
 void check_map_folders(const MapFiles& maps);
 

@@ -95,7 +95,7 @@ std::unique_ptr<Slam> slam_of_request(harness::FramesRequest request, const Over
   }
   const py::gil_scoped_release others_may_run;
   const harness::ScenarioConfig scenario = scenario_of(request);
-  if (scenario.slam.external || scenario.slam.plugin) {
+  if (!scenario.slam.is_core()) {
     fail("{}: slam: names another system, expected settings of the built-in core", scenario.name);
   }
   const harness::RecordingNotes notes = notes_of(scenario);

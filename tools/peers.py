@@ -116,24 +116,32 @@ def vocabulary(settings, python):
     return file
 
 
-def run_peer(settings, folder, scenario, seed, python, words, changes=()):
-    """A run of the bench with ORB-SLAM3 in the core's place; its recording is kept."""
+def options_of(changes):
+    return [part for change in changes for part in ("--set", change)]
+
+
+def run_full(settings, folder, scenario, seed, recording, changes):
+    """The scenario with our core, which also records it for the others."""
+    # 1: the scenario's expectations are not met.
+    call(settings.vinebench, "run", scenario, "--set", f"seed={seed}", *options_of(changes),
+         "--record", recording, "--out", folder, allowed=(0, 1))
+
+
+def replay(settings, folder, recording, truth, changes, allowed=(0,)):
+    call(settings.vinebench, "replay", recording, "--groundtruth", truth, "--out", folder,
+         *options_of(changes), allowed=allowed)
+
+
+def run_peer(settings, folder, recording, truth, python, words):
+    """ORB-SLAM3 in the core's place."""
     arguments = [ROOT / "examples/orb_slam3/run_wheel.py", "{recording}", "{output}",
                  "--vocabulary", words]
     shutil.rmtree(folder, ignore_errors=True)
     values = {"program": python, "arguments": f"[{', '.join(json.dumps(str(a)) for a in arguments)}]",
-              "trajectory": "f_vinebench.txt", "poses_of": "front_left", "keep_recording": "true"}
-    options = [part for key, value in values.items()
-               for part in ("--set", f"slam.external.{key}={value}")]
-    options += [part for change in changes for part in ("--set", change)]
-    # 1: it has failed, or the scenario's expectations are not met.
-    call(settings.vinebench, "run", scenario, "--set", f"seed={seed}", *options, "--out",
-         folder, allowed=(0, 1))
-
-
-def run_ours(settings, folder, recording, truth, changes):
-    call(settings.vinebench, "replay", recording, "--groundtruth", truth, "--out", folder,
-         *[part for change in changes for part in ("--set", change)])
+              "trajectory": "f_vinebench.txt", "poses_of": "front_left"}
+    replay(settings, folder, recording, truth,
+           [f"slam.external.{key}={value}" for key, value in values.items()],
+           allowed=(0, 1))  # 1: it has failed
 
 
 def errors_on_peers_frames(settings, folders):
@@ -156,34 +164,28 @@ def errors_on_peers_frames(settings, folders):
         result.write_text(json.dumps({row[0]: float(row[1]) for row in rows if len(row) == 2}))
 
 
-def run_case(settings, scenario, seed, python, words, name=None, changes=()):
+def run_case(settings, scenario, seed, python, words, name=None, changes=(), again=False):
     """All systems on one drive, which is rendered once; its folder is the scenario's or `name`."""
-    folders = {system: settings.folder(name or scenario, seed, system) for system in (PEER, *OURS)}
+    systems = (*OURS, PEER, AGAIN) if again else (*OURS, PEER)
+    folders = {system: settings.folder(name or scenario, seed, system) for system in systems}
     bench = settings.bench(scenario)
     with_bench = settings.frames > 0 and seed == settings.seeds[0] and not bench.is_file()
-    if not with_bench and all((f / "metrics.json").is_file() for f in folders.values()):
-        errors_on_peers_frames(settings, folders)
-        return
-    recording = folders[PEER] / RECORDING
-    if not (recording / "mav0").is_dir() or not (folders[PEER] / "metrics.json").is_file():
-        run_peer(settings, folders[PEER], scenario, seed, python, words, changes)
-    for system, keys in OURS.items():
-        if not (folders[system] / "metrics.json").is_file():
-            run_ours(settings, folders[system], recording, folders[PEER] / "groundtruth.tum", keys)
-    if with_bench:
-        call(settings.vinebench, "bench", "slam", recording, "--frames", settings.frames,
-             "--json", bench)
-    shutil.rmtree(recording, ignore_errors=True)
+    missing = {s: f for s, f in folders.items() if not (f / "metrics.json").is_file()}
+    if with_bench or missing:
+        recording = settings.folder(name or scenario, seed, RECORDING)
+        shutil.rmtree(recording, ignore_errors=True)
+        run_full(settings, folders["full"], scenario, seed, recording, changes)
+        truth = folders["full"] / "groundtruth.tum"
+        for system, folder in missing.items():
+            if system in (PEER, AGAIN):
+                run_peer(settings, folder, recording, truth, python, words)
+            elif system != "full":
+                replay(settings, folder, recording, truth, OURS[system])
+        if with_bench:
+            call(settings.vinebench, "bench", "slam", recording, "--frames", settings.frames,
+                 "--json", bench)
+        shutil.rmtree(recording, ignore_errors=True)
     errors_on_peers_frames(settings, folders)
-
-
-def run_again(settings, python, words):
-    """The very first case a second time."""
-    case = settings.scenarios[0], settings.seeds[0]
-    folder = settings.folder(*case, AGAIN)
-    if not (folder / "metrics.json").is_file():
-        run_peer(settings, folder, *case, python, words)
-        shutil.rmtree(folder / RECORDING, ignore_errors=True)
 
 
 def largest_step(file):
@@ -210,7 +212,9 @@ def measured(settings, scenario, seed, system):
     if system in OURS:
         loops = metrics["loop_closures"]
         row |= {"tracked": row["coverage"], "right": loops["correct"], "wrong": loops["wrong"],
-                "memory": metrics["peak_rss_mib"], "step": largest_step(folder / "estimate_live.tum")}
+                "step": largest_step(folder / "estimate_live.tum")}
+        if not (folder / "scenario.resolved.yaml").is_file():  # else it is the simulation's too
+            row["memory"] = metrics["peak_rss_mib"]
         if (folder / "common.json").is_file():
             common = json.loads((folder / "common.json").read_text())
             row["common"] = scaled(common["ate_rmse_m"], 1e3)
@@ -272,11 +276,11 @@ def main():
     if sys.argv[1:] != ["--table"]:
         python = environment(settings)
         words = vocabulary(settings, python)
+        first = settings.again
         for scenario in settings.scenarios:
             for seed in settings.seeds:
-                run_case(settings, scenario, seed, python, words)
-        if settings.again:
-            run_again(settings, python, words)
+                run_case(settings, scenario, seed, python, words, again=first)
+                first = False
     text = table(settings)
     (settings.out / "table.md").write_text(text)
     print(text, end="")

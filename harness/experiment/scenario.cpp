@@ -96,7 +96,7 @@ ScenarioConfig load_scenario(const std::filesystem::path& file,
           file.string());
     }
   }
-  if (scenario.earlier_visit && (scenario.slam.external || scenario.slam.plugin)) {
+  if (scenario.earlier_visit && !scenario.slam.is_core()) {
     fail("{}: earlier_visit: requires the built-in SLAM core, whose map is kept", file.string());
   }
   furnish_world(scenario);
@@ -115,7 +115,7 @@ Trial trial_of(const ScenarioConfig& scenario) {
   trial.seed = scenario.seed;
   trial.expectations = scenario.expectations;
   trial.goal = scenario.goal;
-  const bool ours = !scenario.slam.external && !scenario.slam.plugin;
+  const bool ours = scenario.slam.is_core();
   if (scenario.guard && ours) trial.guard = scenario.guard->bounds;
   if (ours) trial.now = scenario.now;
   trial.site = sim::site_of(scenario.simulation.world);

@@ -9,6 +9,7 @@
 
 #include "core/config/yaml_writer.h"
 #include "core/util/error.h"
+#include "harness/systems/other_system.h"
 
 namespace vinebench::harness {
 namespace {
@@ -44,14 +45,7 @@ std::set<fs::path> files_of(const ScenarioConfig& scenario) {
 
 void check_untrusted(const ScenarioConfig& scenario, const fs::path& file,
                      const Untrusted& untrusted) {
-  if (scenario.slam.plugin) {
-    fail("{}: slam.plugin: is code, {}; --untrusted allows none", file.string(),
-         scenario.slam.plugin->library.string());
-  }
-  if (scenario.slam.external) {
-    fail("{}: slam.external: is a program, {}; --untrusted allows none", file.string(),
-         scenario.slam.external->program.string());
-  }
+  expect_no_code(scenario.slam, file);
   std::vector<fs::path> folders = untrusted.data_folders;
   folders.push_back(fs::absolute(file).parent_path());
   for (const fs::path& named : files_of(scenario)) {

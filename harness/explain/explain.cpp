@@ -21,7 +21,7 @@ constexpr int kRounds = 2;  // of repeats
 
 void check_can_be_repeated(const ExplainRequest& request) {
   const ScenarioConfig& scenario = request.scenario;
-  if (scenario.slam.external || scenario.slam.plugin) {
+  if (!scenario.slam.is_core()) {
     fail("{}: explain needs the built-in SLAM core, found another SLAM system", scenario.name);
   }
   if (scenario.simulation.route.steering == sim::Steering::kEstimate) {

@@ -9,20 +9,13 @@
 #include "harness/jobs/simulation_versions.h"
 #include "harness/report/run_folder.h"
 #include "harness/run/prefetch.h"
-#include "harness/systems/external_slam.h"
 #include "harness/systems/failed_system.h"
-#include "harness/systems/plugin_slam.h"
+#include "harness/systems/other_system.h"
 #include "harness/systems/process_group.h"
 #include "sim/world/world_layout.h"
 
 namespace vinebench::harness {
 namespace {
-
-void expect_no_maps(const MapFiles& maps) {
-  if (!maps.load.empty() || !maps.save.empty() || !maps.cloud.empty()) {
-    fail("--load-map, --save-map and --save-cloud require the built-in SLAM core");
-  }
-}
 
 std::unique_ptr<SlamSystem> made_system(const SystemMaker& make, const SystemSetup& setup) {
   try {
@@ -45,17 +38,11 @@ RunOutcome run_made_system(const SystemMaker& make, const ScenarioConfig& scenar
 RunOutcome run_other_system(const ScenarioConfig& scenario, const RecordingNotes& notes,
                             FrameSource& source, const Machine& machine, int threads,
                             const RunOptions& options) {
-  const SlamChoice& choice = scenario.slam;
-  if (choice.plugin) {
-    const auto slam = load_plugin_slam(*choice.plugin, source.rig(), registered_tags(scenario),
-                                       choice.dead_reckoning.wheels, threads,
-                                       {machine.plugin_host, options.stopped});
-    return run_lockstep_and_judge(trial_of(scenario), source, *slam, options);
-  }
   std::optional<TemporaryFolder> temporary;
   if (options.folder.empty()) temporary.emplace();
-  const auto slam = make_external_slam(
-      *choice.external, notes, temporary ? temporary->path() : options.folder, options.stopped);
+  const auto slam = make_other_system(
+      scenario.slam, source.rig(), notes, threads,
+      {machine.plugin_host, temporary ? temporary->path() : options.folder, options.stopped});
   return run_lockstep_and_judge(trial_of(scenario), source, *slam, options);
 }
 
@@ -63,7 +50,7 @@ RunOutcome drive(const ScenarioConfig& scenario, const Machine& machine, int thr
                  const RunOptions& options, const std::optional<RunRecording>& recording,
                  const SystemMaker& make = {}) {
   check_map_folders(options.maps);  // before the vineyard is generated
-  const bool ours = !make && !scenario.slam.external && !scenario.slam.plugin;
+  const bool ours = !make && scenario.slam.is_core();
   if (!ours) expect_no_maps(options.maps);
   if (!make && scenario.slam.external) check_executable(scenario.slam.external->program);
   std::optional<FolderLock> lock;

@@ -90,7 +90,7 @@ std::optional<RepeatsSummary> repeats_of(const std::vector<SetRun>& runs) {
 /// The built-in system gives the same bytes each time; of others nobody promises that.
 std::vector<Check> check_repeats(const SlamChoice& slam,
                                  const std::optional<RepeatsSummary>& repeats) {
-  if (!repeats || slam.external || slam.plugin) return {};
+  if (!repeats || !slam.is_core()) return {};
   const std::size_t differing = repeats->differing.size();
   const std::string& obstacle = repeats->not_comparable;
   return {{"repeats agree by hash",

@@ -67,8 +67,11 @@ struct PluginSlamConfig {
 
 /// A scenario's `slam`: settings of the core, or another system instead.
 struct SlamChoice : slam::SlamConfig {
-  std::optional<ExternalSlamConfig> external;
-  std::optional<PluginSlamConfig> plugin;
+  std::optional<ExternalSlamConfig> external{};
+  std::optional<PluginSlamConfig> plugin{};
+
+  bool is_core() const { return !external && !plugin; }
+
   template <class Archive>
   void serialize(Archive& archive) {
     slam::SlamConfig::serialize(archive);

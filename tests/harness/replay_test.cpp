@@ -46,7 +46,7 @@ class ReplayTest : public testing::Test {
     RunOptions options;
     options.folder = out;
     std::optional<FolderLock> lock;
-    if (!out.empty()) lock.emplace(prepare_replay_folder(out, slam));
+    if (!out.empty()) lock.emplace(prepare_replay_folder(out, {slam}));
     return run_replay(std::move(recording), slam, threads, options);
   }
 
@@ -107,13 +107,60 @@ TEST_F(ReplayTest, NamesThatAreNotUtf8LoseNoRun) {
   const slam::SlamConfig slam = replay_settings(recording, "", {});
   RunOptions options;
   options.folder = folder_ / "out\xff";
-  const FolderLock lock = prepare_replay_folder(options.folder, slam);
+  const FolderLock lock = prepare_replay_folder(options.folder, {slam});
   const RunOutcome outcome = run_replay(std::move(recording), slam, 2, options);
   EXPECT_EQ(outcome.report.hash.size(), 32u);
   const auto stored = read_stored_run(options.folder / "metrics.json");
   ASSERT_TRUE(stored);
   EXPECT_EQ(stored->scenario, "wall\xef\xbf\xbd");
   EXPECT_THAT(read_file(options.folder / "events.jsonl"), HasSubstr("\xef\xbf\xbd.png"));
+}
+
+// A pose at the origin for every frame but the first; the wall moves, so that it is off.
+TEST_F(ReplayTest, AProgramGetsTheFramesWithoutTheTruth) {
+  Recording recording = open_recording(wall_.root());
+  SlamChoice choice;
+  choice.external.emplace().program = folder_.write(
+      "slam.sh",
+      "#!/bin/sh\nls \"$1/mav0\" >\"$2/given\"\nls \"$1/mav0/cam1/data\" | wc -l >\"$2/count\"\n"
+      "tail -n +3 \"$1/frames.csv\" | sed 's/$/ 0 0 0 0 0 0 1/' >\"$2/trajectory.txt\"\n");
+  std::filesystem::permissions(choice.external->program, std::filesystem::perms::owner_all);
+  RunOptions options;
+  options.folder = folder_ / "out";
+  const FolderLock lock = prepare_replay_folder(options.folder, choice);
+  const RunOutcome outcome = run_replay(std::move(recording), choice, 2, options, {});
+  EXPECT_DOUBLE_EQ(outcome.report.results.coverage, 1.0 * (wall::kFrames - 1) / wall::kFrames);
+  EXPECT_GT(outcome.report.results.corrected.value().origin.rmse, wall::kStep);
+  EXPECT_EQ(read_file(folder_ / "out/external/given"), "body.yaml\ncam0\ncam1\nimu0\nwheels0\n");
+  EXPECT_EQ(std::stoi(read_file(folder_ / "out/external/count")), wall::kFrames);
+}
+
+TEST_F(ReplayTest, AProgramThatFailsIsTold) {
+  SlamChoice choice;
+  choice.external.emplace().program = "/bin/false";
+  const RunOutcome outcome = run_replay(open_recording(wall_.root()), choice, 2, {}, {});
+  ASSERT_TRUE(outcome.report.failure);
+  EXPECT_THAT(format_replay(outcome.report), HasSubstr("FAILED: /bin/false: exit code 1"));
+}
+
+TEST_F(ReplayTest, OtherSystemsHaveNoMaps) {
+  SlamChoice choice;
+  choice.external.emplace().program = "/bin/false";
+  RunOptions options;
+  options.maps.save = folder_ / "map";
+  EXPECT_THAT(error_of([&] { run_replay(open_recording(wall_.root()), choice, 2, options, {}); }),
+              HasSubstr("require the built-in SLAM core"));
+}
+
+TEST_F(ReplayTest, ARecordingsOwnSettingsNameNoProgram) {
+  Recording recording = open_recording(wall_.root());
+  recording.settings = folder_.write("slam.yaml", "external: {program: /bin/true}\n");
+  EXPECT_THAT(error_of([&] { replay_choice(recording, "", {}); }), HasSubstr("unknown key"));
+  // Named by the user, the same file may.
+  EXPECT_TRUE(replay_choice(recording, recording.settings, {}).external);
+  recording.settings.clear();
+  const SlamChoice choice = replay_choice(recording, "", {{"slam.external.program", "/bin/true"}});
+  EXPECT_EQ(choice.external.value().program, "/bin/true");
 }
 
 TEST_F(ReplayTest, SettingsComeFromFileAndOverrides) {

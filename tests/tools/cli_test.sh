@@ -331,6 +331,10 @@ sed -i 's/^complete: true/complete: false/' interrupted/dataset.yaml
 expect 0 "check of an interrupted data set" "INTERRUPTED, 0 of 15 frames: no frame to check" -- \
   check interrupted
 expect 0 "replay" "frames" "results: " -- replay recorded --out replayed --untrusted
+expect 2 "untrusted program, replay" "slam.external: is a program" -- replay recorded \
+  --out replayed --untrusted --set slam.external.program=/bin/true
+expect 1 "replay with a program that fails" -- replay recorded \
+  --out replayed --set slam.external.program=/bin/false
 expect 0 "bench slam" "% tracked" -- bench slam recorded --frames 12 --json slam.json
 expect 0 "bench record" "pictures/hour" -- bench record --scenario quick-loop "${court[@]}" --frames 2
 "$vinebench" run quick-loop "${moment[@]}" --seeds 1..2 --jobs 2 --junit verdicts.xml --out set \

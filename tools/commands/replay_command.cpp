@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "harness/replay.h"
+#include "harness/systems/other_system.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/interactive.h"
@@ -24,15 +25,17 @@ struct ReplayArguments {
   harness::MapFiles maps;
   int threads = default_threads();
   PageArguments page;
-  bool untrusted = false;  // nothing of a recording is executed anyway
+  bool untrusted = false;
+  std::filesystem::path plugin_host;
 };
 
 int replay(const ReplayArguments& arguments) {
   harness::Recording recording = harness::open_recording(
       arguments.dataset,
       {.rig = arguments.rig, .groundtruth = arguments.groundtruth, .topics = arguments.topics});
-  const slam::SlamConfig slam =
-      harness::replay_settings(recording, arguments.slam, parse_overrides(arguments.overrides));
+  const harness::SlamChoice slam =
+      harness::replay_choice(recording, arguments.slam, parse_overrides(arguments.overrides));
+  if (arguments.untrusted) harness::expect_no_code(slam, arguments.slam);
   const std::string name = recording.name;
   const std::string format = recording.format;
   const std::filesystem::path folder = arguments.out.empty() ? std::filesystem::path("out") / name
@@ -44,25 +47,26 @@ int replay(const ReplayArguments& arguments) {
   options.folder = folder;
   options.maps = arguments.maps;
   page.join(options);
-  const harness::RunOutcome outcome =
-      harness::run_replay(std::move(recording), slam, arguments.threads, options);
+  const harness::RunOutcome outcome = harness::run_replay(
+      std::move(recording), slam, arguments.threads, options, arguments.plugin_host);
   if (outcome.interrupted) return report_interruption(outcome, folder);
   fmt::print("\n{} ({}): {} frames in {:.0f} s, hash {}\n{}results: {}\n", name, format,
              outcome.report.frames, outcome.report.cost.wall_seconds, outcome.report.hash,
              harness::format_replay(outcome.report), std::filesystem::absolute(folder).string());
   page.finish(folder, "replayed");
-  return 0;
+  return outcome.report.failure ? 1 : 0;
 }
 
 }  // namespace
 
-Command replay_command(const Surroundings&) {
+Command replay_command(const Surroundings& surroundings) {
   const auto arguments = std::make_shared<ReplayArguments>();
+  arguments->plugin_host = surroundings.machine.plugin_host;
   Command command{
       .name = "replay",
       .description =
-          "Run the SLAM core on a recorded data set (EuRoC/ASL or KITTI odometry folder, ROS 2 "
-          "bag)",
+          "Run the SLAM core, or another system, on a recorded data set (EuRoC/ASL or KITTI "
+          "odometry folder, ROS 2 bag)",
       .options = {{.name = "DATASET",
                    .target = &arguments->dataset,
                    .help = "Folder of the data set, or file of a bag",
@@ -91,7 +95,7 @@ Command replay_command(const Surroundings&) {
                   threads_option(arguments->threads),
                   {.name = "--untrusted",
                    .target = &arguments->untrusted,
-                   .help = "Changes nothing: a replay executes nothing and loads no code"}},
+                   .help = "Refuse settings that execute programs or load code"}},
       .run = [arguments] { return replay(*arguments); }};
   append(command.options, report_options(arguments->page));
   append(command.options, view_options(arguments->page));
