@@ -18,9 +18,11 @@ constexpr double kDisc = 0.27 * kDegree;  // rad, the sun's radius
 /// Linear light added at an angle (rad) from the sun, per unit of its light: the disc with its
 /// bloom, a halo of scattering glass, and a veil. Shaped after the glare spread of a clean lens.
 double spread(double angle) {
+  constexpr double kBloom = 6;  // degrees; beyond, it is below the last bit of the halo
   const double degrees = angle / kDegree;
-  const double bloom = 6.0 * std::exp(-degrees * degrees / (0.8 * 0.8));
-  const double halo = 0.22 / (1 + std::pow(degrees / 5.0, 2));
+  const double bloom = degrees > kBloom ? 0 : 6.0 * std::exp(-degrees * degrees / (0.8 * 0.8));
+  const double fifths = degrees / 5.0;
+  const double halo = 0.22 / (1 + fifths * fifths);
   return bloom + halo + 0.02;
 }
 
