@@ -111,7 +111,8 @@ void add_glare(cv::Mat& rgb, const cv::Mat& labels, const PinholeCamera& camera,
       const auto added = static_cast<float>(strength * spread(angle));
       for (int c = 0; c < 3; ++c) {
         const float sum = std::min(1.0f, decoded[row[x][c]] + added * light.sun[c]);
-        row[x][c] = encoded_byte[static_cast<std::size_t>(std::lround(kSteps * std::sqrt(sum)))];
+        const double step = kSteps * std::sqrt(sum);  // rounded without a call
+        row[x][c] = encoded_byte[static_cast<std::size_t>(step + 0.5)];
       }
     }
   }
