@@ -120,11 +120,13 @@ def options_of(changes):
     return [part for change in changes for part in ("--set", change)]
 
 
-def run_full(settings, folder, scenario, seed, recording, changes):
-    """The scenario with our core, which also records it for the others."""
+def run_full(settings, folder, scenario, seed, recording, cameras, changes):
+    """The scenario with our core, which also records it for the others; all cameras if none is
+    named."""
+    some = ["--record-cameras", ",".join(cameras)] if cameras else []
     # 1: the scenario's expectations are not met.
     call(settings.vinebench, "run", scenario, "--set", f"seed={seed}", *options_of(changes),
-         "--record", recording, "--out", folder, allowed=(0, 1))
+         "--record", recording, *some, "--out", folder, allowed=(0, 1))
 
 
 def replay(settings, folder, recording, truth, changes, allowed=(0,)):
@@ -174,7 +176,9 @@ def run_case(settings, scenario, seed, python, words, name=None, changes=(), aga
     if with_bench or missing:
         recording = settings.folder(name or scenario, seed, RECORDING)
         shutil.rmtree(recording, ignore_errors=True)
-        run_full(settings, folders["full"], scenario, seed, recording, changes)
+        # The peer and our front pair alone need no more; a benchmark does.
+        cameras = () if with_bench else ("front_left", "front_right")
+        run_full(settings, folders["full"], scenario, seed, recording, cameras, changes)
         truth = folders["full"] / "groundtruth.tum"
         for system, folder in missing.items():
             if system in (PEER, AGAIN):

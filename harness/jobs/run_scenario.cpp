@@ -61,9 +61,11 @@ RunOutcome drive(const ScenarioConfig& scenario, const Machine& machine, int thr
   // Separate pools, because rendering and estimation run concurrently.
   WorkerPool drawing(threads);
   WorkerPool estimating(threads);
-  const CapturePlan plan =
-      recording ? plan_of(recording->options, load_rig(scenario.simulation.rover.rig))
-                : CapturePlan();
+  CapturePlan plan;
+  if (recording) {
+    plan = plan_of(recording->options, load_rig(scenario.simulation.rover.rig));
+    plan.cameras.clear();  // the SLAM system gets all images
+  }
   const auto simulation =
       sim::make_simulation(scenario.simulation, static_cast<std::uint64_t>(scenario.seed),
                            machine.plant_cache, drawing, plan);

@@ -15,7 +15,7 @@
 
 namespace vinebench::harness {
 
-/// A data set that a run writes beside its results: all cameras and all frames.
+/// A data set that a run writes beside its results: all frames, of the cameras that are named.
 struct RunRecording {
   std::filesystem::path folder;
   RecordOptions options;

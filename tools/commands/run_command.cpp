@@ -32,6 +32,7 @@ struct RunArguments {
   bool force = false;
   std::string record;
   std::vector<std::string> record_formats{"euroc"};
+  std::vector<std::string> record_cameras;
   std::vector<std::string> overrides;
   int threads = default_threads();
   bool verify_determinism = false;
@@ -69,6 +70,7 @@ std::optional<harness::RunRecording> recording_of(const RunArguments& arguments)
   if (arguments.record.empty()) return std::nullopt;
   harness::RunRecording recording{arguments.record, {}};
   recording.options.formats = harness::parse_formats(arguments.record_formats);
+  recording.options.cameras = arguments.record_cameras;
   recording.options.threads = arguments.threads;
   return recording;
 }
@@ -201,6 +203,10 @@ std::vector<Option> single_run_options(RunArguments& arguments) {
           {.name = "--record-format",
            .target = &arguments.record_formats,
            .help = "Formats of it, as --format of record, commas between them (default: euroc)",
+           .commas = true},
+          {.name = "--record-cameras",
+           .target = &arguments.record_cameras,
+           .help = "Names of cameras of the rig in it (default: all)",
            .commas = true},
           {.name = "--verify-determinism",
            .target = &arguments.verify_determinism,

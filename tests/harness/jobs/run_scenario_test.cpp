@@ -32,12 +32,14 @@ TEST_F(RunScenarioTest, RepeatsToTheByteWhateverTheThreadsAndTheRecording) {
   EXPECT_TRUE(fs::exists(options.folder / "metrics.json"));
 
   const ScenarioConfig resolved = load_scenario(options.folder / "scenario.resolved.yaml");
-  const RunOutcome second =
-      run_scenario(resolved, machine(), 3, {}, RunRecording{folder_ / "data", {}});
+  RunRecording recording{folder_ / "data", {}};
+  recording.options.cameras = {"right"};  // the core sees both
+  const RunOutcome second = run_scenario(resolved, machine(), 3, {}, recording);
   EXPECT_EQ(second.report.hash, first.hash);
   const DatasetCard card = read_card(folder_ / "data");
   EXPECT_TRUE(card.complete);
   EXPECT_EQ(card.frames, kFrames);
+  EXPECT_EQ(card.cameras, recording.options.cameras);
 }
 
 TEST_F(RunScenarioTest, ARecordingInUseIsAnError) {
