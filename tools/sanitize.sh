@@ -9,7 +9,7 @@
 #            pointers and the sizes of objects, which address errors and Eigen's own assertions tell
 #            of, and which take most of the time; the tests of core, and the fuzzers of all readers,
 #            6 s each
-#   thread   what has threads in slam, but for the longest test; thread-long with it
+#   thread   what has threads in slam, but for the longest test; thread-long that one
 #   address  all tests of core and slam but the longest, with the default compiler
 #   sanitize everything, with all checks
 set -euo pipefail

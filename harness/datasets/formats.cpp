@@ -76,7 +76,7 @@ CapturePlan plan_of(const RecordOptions& options, const Rig& rig) {
     plan.motion = plan.motion || truth.motion;
     plan.instances = plan.instances || truth.instances;
   }
-  plan.cameras = chosen_cameras(options.cameras, rig, "--cameras");
+  plan.cameras = chosen_cameras(options.cameras, rig, "cameras to record");
   return plan;
 }
 

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/datasets/notes_of_recording.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "harness/datasets/reading/image_association.h"
 
 namespace vinebench::harness {
 namespace {
@@ -40,14 +41,10 @@ RigConfig::Camera config_of(const RigCamera& camera) {
 
 /// Hz, of the median time between two readings.
 double rate_of(const std::vector<ImuSample>& readings) {
-  std::vector<Stamp> steps;
-  for (std::size_t i = 1; i < readings.size(); ++i) {
-    steps.push_back(readings[i].stamp - readings[i - 1].stamp);
-  }
-  if (steps.empty()) return RecordingNotes().imu_rate_hz;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::ranges::nth_element(steps, middle);
-  return 1 / std::max(to_seconds(*middle), 1e-6);
+  std::vector<Stamp> stamps;
+  for (const ImuSample& reading : readings) stamps.push_back(reading.stamp);
+  const Stamp period = median_period(stamps);
+  return period > 0 ? 1 / to_seconds(period) : RecordingNotes().imu_rate_hz;
 }
 
 }  // namespace
