@@ -60,11 +60,12 @@ def table(settings, listed):
 
 
 def main():
+    table_only = peers.only_table(__doc__)
     settings = peers.Settings()
     settings.frames = 0
     settings.out.mkdir(parents=True, exist_ok=True)
     listed = sequences(settings)
-    if sys.argv[1:] != ["--table"]:
+    if not table_only:
         python = peers.environment(settings)
         words = peers.vocabulary(settings, python)
         for name, scenario, seed, changes in listed:

@@ -38,6 +38,18 @@ def stop(message, code=2):
     sys.exit(print(f"peers.py: {message}", file=sys.stderr) or code)
 
 
+def only_table(usage):
+    """Whether the command line asks for a table alone; prints `usage` for --help."""
+    match sys.argv[1:]:
+        case []:
+            return False
+        case ["--table"]:
+            return True
+        case ["--help" | "-h"]:
+            sys.exit(print(usage.strip()))
+    stop(f"unknown argument '{sys.argv[-1]}': expected --table, --help or none")
+
+
 def whole_number(name, default):
     text = os.environ.get(name, default)
     if not re.fullmatch(r"[0-9]{1,10}", text) or int(text) > MOST:
@@ -275,9 +287,10 @@ def table(settings):
 
 
 def main():
+    table_only = only_table(__doc__)
     settings = Settings()
     settings.out.mkdir(parents=True, exist_ok=True)
-    if sys.argv[1:] != ["--table"]:
+    if not table_only:
         python = environment(settings)
         words = vocabulary(settings, python)
         first = settings.again

@@ -19,9 +19,9 @@ def check(name, good):
         print(f"FAILED: {name}")
 
 
-def peers(root, out, **settings):
+def peers(root, out, arguments=("--table",), script="peers.py", **settings):
     environment = os.environ | {"OUT": str(out), "VINEBENCH": sys.executable} | settings
-    return subprocess.run([sys.executable, root / "tools/peers.py", "--table"], env=environment,
+    return subprocess.run([sys.executable, root / "tools" / script, *arguments], env=environment,
                           capture_output=True, text=True)
 
 
@@ -74,6 +74,12 @@ def main(root, out):
         done = peers(root, out, **settings)
         good = done.returncode == 2 and message in done.stderr
         check(f"{settings}: {message}", good and len(done.stderr.splitlines()) == 1)
+    for script in "peers.py", "collection_peers.py":
+        done = peers(root, out / "help", ["--help"], script)
+        check(f"{script} --help", done.returncode == 0 and "--table" in done.stdout)
+        done = peers(root, out / "help", ["--tabel"], script)
+        check(f"{script} --tabel", done.returncode == 2 and "unknown argument '--tabel'" in done.stderr)
+    check("nothing is run or written for these", not (out / "help").exists())
     # A table made later has the same versions.
     text = (root / "tools/peers.py").read_text()
     packages = re.findall(r'"([^"]+)"', re.search(r"^PACKAGES = \[(.*?)\]", text, re.M | re.S)[1])
