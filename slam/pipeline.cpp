@@ -282,7 +282,7 @@ TrackedFrame Pipeline::track(const std::shared_ptr<FrameFeatures>& frame) {
     records_.withdraw_reckoned(map_.keyframes().back().id);
   }
   if (tracked.tracked) {
-    recovery_.tracked();
+    recovery_.tracked(frame->stamp);
   } else {
     recovery_.restart_map(tracked, path_length_);
   }

@@ -20,6 +20,10 @@ constexpr int kFramesBeforeRestart = 3;
 /// As many where they resemble a place that the map has.
 constexpr int kFramesOfDoubt = 10;
 
+/// Nobody carries a robot faster, nor farther at once.
+constexpr double kCarryingSpeed = 2;    // m/s
+constexpr double kCarriedAtOnce = 0.1;  // m
+
 }  // namespace
 
 bool sees_well(const FrameFeatures& frame) {
@@ -53,6 +57,9 @@ bool Recovery::find_again(TrackedFrame& tracked) {
   if (reckons && !sees_well(*frame)) return false;
   const auto by_looks = relocaliser_.find(map_, rig_, *frame);
   if (!by_looks) return false;
+  const double carried = (by_looks->translation - tracker_.T_map_body().translation).norm();
+  const double seconds = to_seconds(frame->stamp - last_tracked_);
+  if (reckons && carried > kCarriedAtOnce + kCarryingSpeed * seconds) return false;
   if (reckons && !bears_out(look_around(map_, rig_, *frame, *by_looks))) return false;
   Tracker there = tracker_;
   there.start(*by_looks, frame->stamp, !reckons);
@@ -77,6 +84,7 @@ bool Recovery::restart_map(TrackedFrame& tracked, double path_length) {
   tracked.motion.information.setZero();
   tracker_.start(tracked.motion.T_map_body, tracked.frame->stamp);
   tracked.tracked = true;
+  last_tracked_ = tracked.frame->stamp;
   seeing_frames_ = 0;
   return true;
 }

@@ -29,15 +29,17 @@ class Recovery {
   TrackedFrame relocalise(const std::shared_ptr<FrameFeatures>& frame);
 
   /// Reports a frame that was tracked.
-  void tracked() {
+  void tracked(Stamp stamp) {
+    last_tracked_ = stamp;
     seeing_frames_ = 0;
     relocaliser_.forget();
   }
 
   /// Tracks a frame that was not tracked from where the body is by a tag that the map knows or by
   /// the looks of the place. A tag is believed; a place must be borne out by tracking there and, as
-  /// long as dead reckoning says that the body is elsewhere, by all cameras. True if so: then the
-  /// body was carried since the last keyframe.
+  /// long as dead reckoning says that the body is elsewhere, by all cameras, and be one that the
+  /// body can have been carried to since it was tracked. True if so: then it was carried since the
+  /// last keyframe.
   bool find_again(TrackedFrame& tracked);
 
   /// Makes a frame that sees well, but nothing of the map, one to be the map's next keyframe where
@@ -59,6 +61,7 @@ class Recovery {
   const EstimatorRig& rig_;
   Map& map_;
   Relocaliser relocaliser_;
+  Stamp last_tracked_ = 0;
   int seeing_frames_ = 0;  ///< in a row, that see enough and find nothing of the map
 };
 

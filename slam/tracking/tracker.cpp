@@ -208,21 +208,33 @@ TrackedFrame Tracker::track(std::shared_ptr<FrameFeatures> frame, const Map& map
       from_map ? local_landmarks(map, last_landmarks_, predicted, config_.local_keyframes)
                : last_landmarks_;
   match_near(map, rig, landmarks, predicted, tracked);
-  const bool by_looks = tracked.motion.inliers < 2 * config_.min_inliers &&
-                        match_anywhere(map, rig, predicted, tracked);
-  if (tracked.motion.inliers >= config_.min_inliers / 2) refine_on_local_map(map, rig, tracked);
-  tracked.tracked = is_credible(map, rig, tracked, predicted, by_looks);
-  if (tracked.tracked) {
+  if (tracked.motion.inliers < 2 * config_.min_inliers) {
+    TrackedFrame elsewhere = tracked;
+    const bool found = match_anywhere(map, rig, predicted, elsewhere);
+    if (found && settle(map, rig, predicted, true, elsewhere)) tracked = std::move(elsewhere);
+  }
+  // What resembles another place says nothing against the one that was predicted.
+  if (tracked.tracked || settle(map, rig, predicted, false, tracked)) {
     accept(tracked);
   } else {
-    for (StereoView& view : tracked.frame->views) {
-      view.drop_followed();
-      view.placed.clear();
-    }
     tracked.associations = no_associations(*tracked.frame);
     reckon(*tracked.frame);
   }
   return tracked;
+}
+
+bool Tracker::settle(const Map& map, const EstimatorRig& rig, const Pose& predicted, bool by_looks,
+                     TrackedFrame& tracked) const {
+  const Vector6d velocity = tracked.frame->velocity;
+  if (tracked.motion.inliers >= config_.min_inliers / 2) refine_on_local_map(map, rig, tracked);
+  tracked.tracked = is_credible(map, rig, tracked, predicted, by_looks);
+  if (tracked.tracked) return true;
+  tracked.frame->velocity = velocity;
+  for (StereoView& view : tracked.frame->views) {
+    view.drop_followed();
+    view.placed.clear();
+  }
+  return false;
 }
 
 bool Tracker::may_be_elsewhere(const TrackedFrame& tracked, const Pose& predicted,

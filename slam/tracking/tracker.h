@@ -80,6 +80,10 @@ class Tracker {
                       TrackedFrame& tracked) const;
   /// Matches, places and follows the landmarks nearby, each round from a better pose.
   void refine_on_local_map(const Map& map, const EstimatorRig& rig, TrackedFrame& tracked) const;
+  /// Refines a pose with its matches and says whether it is to be believed; where it is not, the
+  /// frame is as it was before.
+  bool settle(const Map& map, const EstimatorRig& rig, const Pose& predicted, bool by_looks,
+              TrackedFrame& tracked) const;
   void update_velocity(TrackedFrame& tracked) const;
   std::optional<Vector6d> velocity_to(const TrackedFrame& tracked) const;
   void adjust_motion(const Map& map, const EstimatorRig& rig, TrackedFrame& tracked) const;

@@ -91,6 +91,25 @@ TEST(RecoveryTest, FramesThatTrackOutdateAPlaceThatWasSeenBefore) {
   EXPECT_LT(worst_error(summary.trajectory, truth), 0.01);  // as DriftsLittleWithNoise
 }
 
+// Two frames in a row look like the place 4 m back, and all that the map has there is seen: within
+// the 0.13 s since the body was tracked nobody carries it farther than 0.1 m + 2 m/s * 0.13 s.
+TEST(RecoveryTest, NobodyIsCarriedFarInAMoment) {
+  const SyntheticAisle aisle(0.5, 5, kLandmarks);
+  Pipeline pipeline(SlamConfig{}, aisle.rig, {});
+  std::vector<Pose> truth;
+  for (std::int64_t i = 0; i < 235; ++i) {
+    const bool deceived = i == 230 || i == 231;
+    truth.push_back(driving(i));
+    const auto frame = aisle.frame(i, deceived ? driving(i - 200) : truth.back());
+    if (i > 0) frame->wheels = wheels(i, 0);
+    const Estimate estimate = pipeline.process(frame);
+    EXPECT_EQ(estimate.status,
+              deceived ? TrackingStatus::kDeadReckoning : TrackingStatus::kTracking)
+        << i;
+  }
+  EXPECT_LT(worst_error(pipeline.finish().trajectory, truth), 0.01);  // as DriftsLittleWithNoise
+}
+
 /// What both frames see.
 std::shared_ptr<FrameFeatures> both(FrameFeatures a, const FrameFeatures& b, const StereoRig& rig) {
   for (std::size_t v = 0; v < a.views.size(); ++v) {
