@@ -10,6 +10,7 @@
 namespace vinebench::slam {
 namespace {
 
+using test::both;
 using test::driving;
 using test::kLandmarks;
 using test::SyntheticAisle;
@@ -108,23 +109,6 @@ TEST(RecoveryTest, NobodyIsCarriedFarInAMoment) {
         << i;
   }
   EXPECT_LT(worst_error(pipeline.finish().trajectory, truth), 0.01);  // as DriftsLittleWithNoise
-}
-
-/// What both frames see.
-std::shared_ptr<FrameFeatures> both(FrameFeatures a, const FrameFeatures& b, const StereoRig& rig) {
-  for (std::size_t v = 0; v < a.views.size(); ++v) {
-    Features& features = a.views[v].features;
-    const Features& more = b.views[v].features;
-    features.keypoints.insert(features.keypoints.end(), more.keypoints.begin(),
-                              more.keypoints.end());
-    features.descriptors.insert(features.descriptors.end(), more.descriptors.begin(),
-                                more.descriptors.end());
-    a.views[v].stereo.insert(a.views[v].stereo.end(), b.views[v].stereo.begin(),
-                             b.views[v].stereo.end());
-    a.views[v].grid =
-        FeatureGrid(features.keypoints, rig.pairs[v].lens.width, rig.pairs[v].lens.height);
-  }
-  return std::make_shared<FrameFeatures>(std::move(a));
 }
 
 /// A drive from a tag on for 30 frames; with covered cameras and resting wheels carried 2 m ahead,

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "slam/odometry/wheel_odometry.h"
@@ -37,6 +39,25 @@ inline slam::WheelStep wheels(std::int64_t frame, double slip) {
   Pose step = driving(frame - 1).inverse() * driving(frame);
   step.translation *= 1 + slip;
   return {step, 1.0 / 15};
+}
+
+/// What both frames see.
+inline std::shared_ptr<slam::FrameFeatures> both(slam::FrameFeatures a,
+                                                 const slam::FrameFeatures& b,
+                                                 const slam::StereoRig& rig) {
+  for (std::size_t v = 0; v < a.views.size(); ++v) {
+    slam::Features& features = a.views[v].features;
+    const slam::Features& more = b.views[v].features;
+    features.keypoints.insert(features.keypoints.end(), more.keypoints.begin(),
+                              more.keypoints.end());
+    features.descriptors.insert(features.descriptors.end(), more.descriptors.begin(),
+                                more.descriptors.end());
+    a.views[v].stereo.insert(a.views[v].stereo.end(), b.views[v].stereo.begin(),
+                             b.views[v].stereo.end());
+    a.views[v].grid =
+        slam::FeatureGrid(features.keypoints, rig.pairs[v].lens.width, rig.pairs[v].lens.height);
+  }
+  return std::make_shared<slam::FrameFeatures>(std::move(a));
 }
 
 }  // namespace vinebench::test

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/util/random.h"
+#include "tests/support/aisle_drive.h"
 #include "tests/support/aisle_map.h"
 
 namespace vinebench::slam {
@@ -216,6 +217,28 @@ TEST_F(TrackerTest, AJumpByLooksMustBeBorneOutByWhatIsThere) {
   EXPECT_GE(features / 12, 2u * static_cast<std::size_t>(settings_.tracking.min_inliers));
   Tracker other = moving(3);
   EXPECT_TRUE(track_every(2, other, 4, ahead(0.8, 0.4)).tracked);
+}
+
+// Of what is 0.72 m farther 72 features are seen, a twelfth of it and too little for a jump; those
+// that are seen where they are expected, an eleventh, are enough for that.
+TEST_F(TrackerTest, WhatResemblesAnotherPlaceSaysNothingAgainstThePredictedOne) {
+  Tracker tracker = moving(3);
+  const auto some = [&](const Pose& pose, std::size_t every) {
+    auto frame = aisle_.frame(4, pose);
+    const RandomStream random(6, "foreign features");
+    std::uint64_t drawn = 0;
+    for (StereoView& view : frame->views) {
+      for (std::size_t f = 0; f < view.features.size(); ++f) {
+        if (f % every == 0) continue;
+        for (std::uint64_t& word : view.features.descriptors[f]) word = random.bits(drawn++);
+      }
+    }
+    return frame;
+  };
+  const auto frame = test::both(*some(ahead(0.08), 11), *some(ahead(0.8, 0.4), 12), aisle_.rig);
+  const TrackedFrame tracked = tracker.track(frame, made_.map, made_.rig);
+  EXPECT_TRUE(tracked.tracked);
+  EXPECT_LT(distance(tracked.motion.T_map_body, ahead(0.08)), 1e-3);
 }
 
 // Expected at 0.08 m. Within a fifteenth of a second 10 m/s^2 make 0.04 m, and a pose has 0.05 m of
