@@ -37,8 +37,8 @@ class TrackerTest : public testing::Test {
     if (wheels) frame->wheels = WheelStep{*wheels, 1.0 / 15};
     return tracker.track(frame, made_.map, made_.rig);
   }
-  /// The same where only every n-th feature looks like a landmark of the map.
-  TrackedFrame track_every(std::size_t n, Tracker& tracker, std::int64_t index, const Pose& pose) {
+  /// A frame of which only every n-th feature looks like a landmark of the map.
+  std::shared_ptr<FrameFeatures> every(std::size_t n, std::int64_t index, const Pose& pose) {
     auto frame = aisle_.frame(index, pose);
     const RandomStream random(5, "foreign features");
     std::uint64_t drawn = 0;
@@ -48,7 +48,10 @@ class TrackerTest : public testing::Test {
         for (std::uint64_t& word : view.features.descriptors[f]) word = random.bits(drawn++);
       }
     }
-    return tracker.track(frame, made_.map, made_.rig);
+    return frame;
+  }
+  TrackedFrame track_every(std::size_t n, Tracker& tracker, std::int64_t index, const Pose& pose) {
+    return tracker.track(every(n, index, pose), made_.map, made_.rig);
   }
   /// A tracker that has followed a few frames of 2 cm each.
   Tracker moving(int frames) {
@@ -223,19 +226,8 @@ TEST_F(TrackerTest, AJumpByLooksMustBeBorneOutByWhatIsThere) {
 // that are seen where they are expected, an eleventh, are enough for that.
 TEST_F(TrackerTest, WhatResemblesAnotherPlaceSaysNothingAgainstThePredictedOne) {
   Tracker tracker = moving(3);
-  const auto some = [&](const Pose& pose, std::size_t every) {
-    auto frame = aisle_.frame(4, pose);
-    const RandomStream random(6, "foreign features");
-    std::uint64_t drawn = 0;
-    for (StereoView& view : frame->views) {
-      for (std::size_t f = 0; f < view.features.size(); ++f) {
-        if (f % every == 0) continue;
-        for (std::uint64_t& word : view.features.descriptors[f]) word = random.bits(drawn++);
-      }
-    }
-    return frame;
-  };
-  const auto frame = test::both(*some(ahead(0.08), 11), *some(ahead(0.8, 0.4), 12), aisle_.rig);
+  const auto frame =
+      test::both(*every(11, 4, ahead(0.08)), *every(12, 4, ahead(0.8, 0.4)), aisle_.rig);
   const TrackedFrame tracked = tracker.track(frame, made_.map, made_.rig);
   EXPECT_TRUE(tracked.tracked);
   EXPECT_LT(distance(tracked.motion.T_map_body, ahead(0.08)), 1e-3);
