@@ -15,7 +15,7 @@ namespace {
 constexpr double kLeastMetres = 1e-3;
 constexpr double kLeastFrames = 2;
 constexpr double kLeastShare = 0.2;      // of the drift, or of the lost frames
-constexpr double kLeastJoint = 0.3;      // likewise, of what singles do not explain
+constexpr double kLeastMissing = 0.3;    // likewise, of what singles do not explain
 constexpr double kLeastDeviation = 0.1;  // of the logarithm: a few equal placebos prove little
 
 /// Student's t, 99 % on one side, by degrees of freedom from 1.
@@ -113,12 +113,20 @@ double Chance::limit(std::size_t reruns) const {
   return std::exp(log_mean_) * (1 - std::exp(-log_limit(reruns)));
 }
 
-bool Chance::is_exceeded_by(const std::vector<double>& reruns) const {
+bool Chance::is_undercut_by(const std::vector<double>& reruns) const {
   return log_less(reruns) > log_limit(reruns.size());
+}
+
+bool Chance::is_exceeded_by(const std::vector<double>& reruns) const {
+  return -log_less(reruns) > log_limit(reruns.size());
 }
 
 bool Chance::may_take(double share, const std::vector<double>& reruns) const {
   return log_less(reruns) + log_error(reruns.size()) >= -std::log(1 - share);
+}
+
+bool Chance::may_add(double value, const std::vector<double>& reruns) const {
+  return -log_less(reruns) + log_error(reruns.size()) >= std::log1p(value / (typical_ + floor_));
 }
 
 AsItWas as_it_was(const std::vector<StretchDrift>& drifts) {
@@ -134,10 +142,29 @@ Effect effect_of(const AsItWas& was, const std::vector<StretchDrift>& without) {
   effect.lost = was.lost.typical() - percentile(lost, 0.5);
   const bool drift_matters = matters(effect.metres, was.metres.typical(), kLeastMetres);
   const bool losses_matter = matters(effect.lost, was.lost.typical(), kLeastFrames);
-  effect.drift_is_caused = drift_matters && was.metres.is_exceeded_by(metres);
-  effect.losses_are_caused = losses_matter && was.lost.is_exceeded_by(lost);
+  effect.drift_is_caused = drift_matters && was.metres.is_undercut_by(metres);
+  effect.losses_are_caused = losses_matter && was.lost.is_undercut_by(lost);
   effect.is_open = !effect.is_cause() && (may_matter(metres, was.metres, kLeastMetres) ||
                                           may_matter(lost, was.lost, kLeastFrames));
+  return effect;
+}
+
+Effect effect_alone(const AsItWas& nothing, const std::vector<StretchDrift>& alone,
+                    const AsItWas& was, const Effect& all) {
+  const std::vector<double> metres = values_of(alone, &StretchDrift::metres);
+  const std::vector<double> lost = values_of(alone, &StretchDrift::lost);
+  Effect effect;
+  effect.metres = percentile(metres, 0.5) - nothing.metres.typical();
+  effect.lost = percentile(lost, 0.5) - nothing.lost.typical();
+  const double least_metres = std::max(kLeastMetres, kLeastShare * was.metres.typical());
+  const double least_lost = std::max(kLeastFrames, kLeastShare * was.lost.typical());
+  effect.drift_is_caused =
+      all.drift_is_caused && effect.metres >= least_metres && nothing.metres.is_exceeded_by(metres);
+  effect.losses_are_caused =
+      all.losses_are_caused && effect.lost >= least_lost && nothing.lost.is_exceeded_by(lost);
+  effect.is_open = !effect.is_cause() &&
+                   ((all.drift_is_caused && nothing.metres.may_add(least_metres, metres)) ||
+                    (all.losses_are_caused && nothing.lost.may_add(least_lost, lost)));
   return effect;
 }
 
@@ -154,15 +181,6 @@ Interaction interaction_of(const Effect& one, const Effect& other, const Effect&
   return {both.metres - one.metres - other.metres, both.lost - one.lost - other.lost};
 }
 
-bool is_joint_cause(const AsItWas& was, const Effect& one, const Effect& other,
-                    const Effect& both) {
-  const double metres = both.metres - std::max(one.metres, other.metres);
-  const double lost = both.lost - std::max(one.lost, other.lost);
-  return (both.drift_is_caused &&
-          matters(metres, was.metres.typical(), kLeastMetres, kLeastJoint)) ||
-         (both.losses_are_caused && matters(lost, was.lost.typical(), kLeastFrames, kLeastJoint));
-}
-
 bool do_not_add_up(const AsItWas& was, const std::vector<Effect>& singles, const Effect& all) {
   double metres = all.metres;
   double lost = all.lost;
@@ -171,9 +189,9 @@ bool do_not_add_up(const AsItWas& was, const std::vector<Effect>& singles, const
     lost -= std::max(0.0, single.lost);
   }
   return (all.drift_is_caused &&
-          matters(std::abs(metres), was.metres.typical(), kLeastMetres, kLeastJoint)) ||
+          matters(std::abs(metres), was.metres.typical(), kLeastMetres, kLeastMissing)) ||
          (all.losses_are_caused &&
-          matters(std::abs(lost), was.lost.typical(), kLeastFrames, kLeastJoint));
+          matters(std::abs(lost), was.lost.typical(), kLeastFrames, kLeastMissing));
 }
 
 }  // namespace vinebench::harness

@@ -44,10 +44,14 @@ class Chance {
   /// cases only, by Student's t on one side. The deviation counts as at least a tenth.
   double limit(std::size_t reruns = 1) const;
   /// Whether it is.
+  bool is_undercut_by(const std::vector<double>& reruns) const;
+  /// Whether it is larger by as much, on the logarithm's scale.
   bool is_exceeded_by(const std::vector<double>& reruns) const;
   /// Whether it may be that a share of the value is taken away by what these reruns are without:
   /// the share that they say, and one standard error.
   bool may_take(double share, const std::vector<double>& reruns) const;
+  /// Likewise, that as much is added by what these reruns have.
+  bool may_add(double value, const std::vector<double>& reruns) const;
 
  private:
   double log_error(std::size_t reruns) const;
@@ -62,7 +66,7 @@ class Chance {
   double log_deviation_ = 0;
 };
 
-/// What reruns without something took away.
+/// What reruns without something took away, or those with it alone added.
 struct Effect {
   double metres = 0;             ///< of the drift; negative where it was worse without
   double lost = 0;               ///< frames
@@ -84,6 +88,13 @@ AsItWas as_it_was(const std::vector<StretchDrift>& drifts);
 /// or two frames and a fifth of those lost. `without`: at least one rerun.
 Effect effect_of(const AsItWas& was, const std::vector<StretchDrift>& without);
 
+/// Of two causes that would each do, neither takes anything away. A factor that is enough adds more
+/// to `nothing`, the stretch without any factor, than chance could, and as much of the drift as it
+/// was as a cause takes away; likewise of the lost frames. Only of what `all` factors together
+/// cause. `alone`: at least one rerun with this factor and no other.
+Effect effect_alone(const AsItWas& nothing, const std::vector<StretchDrift>& alone,
+                    const AsItWas& was, const Effect& all);
+
 /// Whether there may be further causes than what `some` reruns are without: they have a millimetre
 /// and a fifth more of drift than those without any factor, or two frames and a fifth more lost.
 bool leaves_more(const std::vector<StretchDrift>& some,
@@ -97,13 +108,9 @@ struct Interaction {
 };
 Interaction interaction_of(const Effect& one, const Effect& other, const Effect& both);
 
-/// Whether a pair is a cause that its two are not: together they take away more than either alone,
-/// by 30 % of the drift and a millimetre, or by 30 % of the lost frames and two, and more than
-/// chance could.
-bool is_joint_cause(const AsItWas& was, const Effect& one, const Effect& other, const Effect& both);
-
-/// Whether the effect of all together is one beyond chance and the singles' sum misses it by as
-/// much as that: pairs are then tried. What is worse without a factor counts as no effect of it.
+/// Whether the effect of all together is one beyond chance and the singles' sum misses it by 30 %
+/// of the drift and a millimetre, or by 30 % of the lost frames and two: pairs are then tried. What
+/// is worse without a factor counts as no effect of it.
 bool do_not_add_up(const AsItWas& was, const std::vector<Effect>& singles, const Effect& all);
 
 }  // namespace vinebench::harness

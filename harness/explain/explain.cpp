@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <opencv2/core/utility.hpp>
@@ -17,7 +18,7 @@ namespace vinebench::harness {
 namespace {
 
 constexpr std::size_t kFactorsInPairs = 5;
-constexpr int kRounds = 2;  // of repeats
+constexpr int kRounds = 4;  // of repeats
 
 void check_can_be_repeated(const ExplainRequest& request) {
   const ScenarioConfig& scenario = request.scenario;
@@ -45,13 +46,11 @@ double caused_share(const AsItWas& was, const Effect& effect) {
 /// by how much less the drive drifts, m.
 using Shares = std::map<std::size_t, std::pair<double, double>>;
 
-Shares shares_of(const Normal& normal, const std::vector<FactorEffect>& singles) {
-  Shares shares;
-  for (const FactorEffect& single : singles) {
-    if (!single.effect.is_cause()) continue;
-    shares[single.factors[0]] = {caused_share(normal.chance, single.effect), single.effect.metres};
+void add_causes(const AsItWas& was, const std::vector<FactorEffect>& effects, Shares& shares) {
+  for (const FactorEffect& one : effects) {
+    if (!one.effect.is_cause()) continue;
+    shares[one.factors[0]] = {caused_share(was, one.effect), one.effect.metres};
   }
-  return shares;
 }
 
 std::vector<std::size_t> by_share(const Shares& shares) {
@@ -60,6 +59,14 @@ std::vector<std::size_t> by_share(const Shares& shares) {
   std::ranges::stable_sort(causes, std::greater(), [&](std::size_t i) { return shares.at(i); });
   return causes;
 }
+
+/// Reruns, and how they are judged against others that differ in the noise alone.
+struct Comparison {
+  Normal& normal;
+  std::function<Effect(const std::vector<StretchDrift>&)> effect;
+  std::vector<Job> jobs;
+  int rounds = kRounds;  ///< of repeats at most
+};
 
 /// Repeats a run and parts of it.
 class Explainer {
@@ -118,42 +125,37 @@ class Explainer {
   StretchExplanation explain_stretch(const Stretch& stretch) {
     StretchExplanation explanation{.stretch = stretch};
     explanation.aligned = std::max<std::int64_t>(0, runs_.next() - 1);
-    measure_chance(explanation);
-    std::vector<Job> jobs;
-    const std::size_t count = result_.factors.size();
-    for (std::size_t i = 0; i < count; ++i) jobs.push_back(without({i}));
-    explanation.singles = effects(jobs, explanation, explanation.normal);
-    if (count > 1) {
-      std::vector<std::size_t> all(count);
-      std::iota(all.begin(), all.end(), 0);
-      std::vector<Job> together{without(all)};
-      explanation.all = effects(together, explanation, explanation.normal)[0];
-      judge(explanation.normal, explanation.singles);  // there may be more placebos by now
-      try_pairs(explanation);
+    Look look;
+    measure_chance(explanation, look.normal);
+    try_singles(explanation, look);
+    try_all(explanation, look);
+    try_pairs(explanation, look);
+    while (true) {
+      look.causes = causes_of(look);
+      if (look.causes.empty()) try_alone(explanation, look);
+      explanation.looks.push_back(std::move(look));
+      if (!leaves_something(explanation, look)) return explanation;
+      try_singles(explanation, look);
     }
-    explanation.causes = causes_of(explanation);
-    while (explain_remainder(explanation)) {
-    }
-    return explanation;
   }
 
   /// The run itself, which must be the same, and placebos.
-  void measure_chance(StretchExplanation& explanation) {
+  void measure_chance(StretchExplanation& explanation, Normal& normal) {
     std::vector<Job> itself{{.name = "as it was", .variant = runs_.original()}};
     const Rerun rerun = runs_.make(itself, explanation.stretch.last)[0];
     std::ranges::for_each(rerun.steps, [&](const Step& step) { runs_.known().check(step); });
     if (rerun.steps.empty()) fail("the drive ends before frame {}", runs_.next());
     explanation.was = drift(rerun, explanation);
-    explanation.normal.drifts = {explanation.was};
+    normal.drifts = {explanation.was};
     result_.null_seconds += rerun.seconds / static_cast<double>(request_.stretches.size());
-    add_placebos(explanation, explanation.normal, request_.placebos);
+    add_placebos(explanation, normal, request_.placebos);
   }
 
+  /// Those that are missing to `count`, beside the first one.
   void add_placebos(const StretchExplanation& explanation, Normal& normal, int count) {
     const Job plain = without(normal.without);
     std::vector<Job> jobs;
-    for (int i = 0; i < count; ++i) {
-      const int number = static_cast<int>(normal.drifts.size()) + i;
+    for (int number = static_cast<int>(normal.drifts.size()); number <= count; ++number) {
       jobs.push_back(plain);
       jobs.back().name = normal.without.empty() ? fmt::format("placebo {}", number)
                                                 : fmt::format("{}, again {}", plain.name, number);
@@ -165,16 +167,19 @@ class Explainer {
     normal.chance = as_it_was(normal.drifts);
   }
 
-  std::vector<FactorEffect> effects(std::vector<Job>& jobs, const StretchExplanation& explanation,
-                                    Normal& normal, int rounds = kRounds) {
-    std::vector<FactorEffect> list(jobs.size());
-    add_reruns(jobs, explanation, normal, list);
-    for (int round = 0; request_.repeats > 0 && round < rounds; ++round) {
+  std::vector<FactorEffect> effects(Comparison& comparison, const StretchExplanation& explanation) {
+    std::vector<FactorEffect> list(comparison.jobs.size());
+    const std::vector<Rerun> reruns = runs_.make(comparison.jobs, explanation.stretch.last);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      list[i].factors = comparison.jobs[i].factors;
+      list[i].from_start = comparison.jobs[i].from_start;
+      list[i].reruns.push_back(drift(reruns[i], explanation));
+    }
+    judge(comparison, list);
+    for (int round = 0; request_.repeats > 0 && round < comparison.rounds; ++round) {
       if (std::ranges::none_of(list, is_open)) break;
-      if (std::ssize(normal.drifts) <= request_.placebos + 1) {
-        add_placebos(explanation, normal, request_.placebos);
-      }
-      repeat(jobs, explanation, normal, list);
+      add_placebos(explanation, comparison.normal, (2 + round / 2) * request_.placebos);
+      repeat(comparison, explanation, list);
     }
     return list;
   }
@@ -182,92 +187,142 @@ class Explainer {
   static bool is_open(const FactorEffect& one) { return one.effect.is_open; }
 
   /// Those that are open, with other noise; all are judged again.
-  void repeat(const std::vector<Job>& jobs, const StretchExplanation& explanation,
-              const Normal& normal, std::vector<FactorEffect>& list) {
+  void repeat(const Comparison& comparison, const StretchExplanation& explanation,
+              std::vector<FactorEffect>& list) {
     std::vector<Job> again;
     std::vector<std::size_t> of;
-    for (std::size_t i = 0; i < jobs.size(); ++i) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const Job& job = comparison.jobs[i];
       for (int k = 0; list[i].effect.is_open && k < request_.repeats; ++k) {
-        const int number = static_cast<int>(list[i].without.size()) + k;
-        again.push_back(jobs[i]);
+        const int number = static_cast<int>(list[i].reruns.size()) + k;
+        again.push_back(job);
         again.back().name += fmt::format(", again {}", number);
-        again.back().variant = with_other_noise(jobs[i].variant, number);
+        again.back().variant = with_other_noise(job.variant, number);
         of.push_back(i);
       }
     }
     const std::vector<Rerun> reruns = runs_.make(again, explanation.stretch.last);
     for (std::size_t i = 0; i < again.size(); ++i) {
-      list[of[i]].without.push_back(drift(reruns[i], explanation));
+      list[of[i]].reruns.push_back(drift(reruns[i], explanation));
     }
-    judge(normal, list);
+    judge(comparison, list);
   }
 
-  static void judge(const Normal& normal, std::vector<FactorEffect>& list) {
-    for (FactorEffect& one : list) one.effect = effect_of(normal.chance, one.without);
+  static void judge(const Comparison& comparison, std::vector<FactorEffect>& list) {
+    for (FactorEffect& one : list) one.effect = comparison.effect(one.reruns);
   }
 
-  void add_reruns(std::vector<Job>& jobs, const StretchExplanation& explanation,
-                  const Normal& normal, std::vector<FactorEffect>& list) {
-    const std::vector<Rerun> reruns = runs_.make(jobs, explanation.stretch.last);
-    for (std::size_t i = 0; i < jobs.size(); ++i) {
-      list[i].factors = jobs[i].factors;
-      list[i].from_start = jobs[i].from_start;
-      list[i].without.push_back(drift(reruns[i], explanation));
-    }
-    judge(normal, list);
+  /// How much less there is than normally.
+  static Comparison less_than(Normal& normal) {
+    return {.normal = normal,
+            .effect =
+                [&normal](const std::vector<StretchDrift>& reruns) {
+                  return effect_of(normal.chance, reruns);
+                },
+            .jobs = {}};
   }
 
-  /// The stretch without the causes found so far becomes the normal one, and what makes that worse
-  /// than without any factor is looked for. False if there is nothing more to find.
-  bool explain_remainder(StretchExplanation& explanation) {
-    const std::vector<std::size_t>& found = explanation.causes;
-    if (found.empty() || found.size() == result_.factors.size()) return false;
-    Remainder rest{.normal = {.without = found, .drifts = reruns_without(found, explanation)}};
-    if (!leaves_more(rest.normal.drifts, explanation.all->without)) return false;
-    const int missing = request_.placebos + 1 - static_cast<int>(rest.normal.drifts.size());
-    add_placebos(explanation, rest.normal, std::max(0, missing));
-    std::vector<Job> jobs;
-    for (std::size_t i = 0; i < result_.factors.size(); ++i) {
-      if (std::ranges::count(found, i) > 0) continue;
-      std::vector<std::size_t> one_more = found;
+  std::vector<std::size_t> all_factors() const {
+    std::vector<std::size_t> all(result_.factors.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+
+  /// Each factor that is not absent already.
+  std::vector<std::size_t> present_factors(const Normal& normal) const {
+    std::vector<std::size_t> present = all_factors();
+    std::erase_if(present,
+                  [&](std::size_t i) { return std::ranges::count(normal.without, i) > 0; });
+    return present;
+  }
+
+  void try_singles(const StretchExplanation& explanation, Look& look) {
+    const std::vector<std::size_t> present = present_factors(look.normal);
+    Comparison comparison = less_than(look.normal);
+    for (const std::size_t i : present) {
+      std::vector<std::size_t> one_more = look.normal.without;
       one_more.push_back(i);
-      jobs.push_back(without(one_more));
+      comparison.jobs.push_back(without(one_more));
     }
-    rest.singles = effects(jobs, explanation, rest.normal);
-    for (FactorEffect& single : rest.singles) single.factors = {single.factors.back()};
-    rest.causes = by_share(shares_of(rest.normal, rest.singles));
-    explanation.causes.insert(explanation.causes.end(), rest.causes.begin(), rest.causes.end());
-    explanation.remainders.push_back(std::move(rest));
-    return !explanation.remainders.back().causes.empty();
+    look.singles = effects(comparison, explanation);
+    for (FactorEffect& single : look.singles) single.factors = {single.factors.back()};
+  }
+
+  void try_all(StretchExplanation& explanation, Look& look) {
+    if (look.singles.size() == 1) explanation.all = look.singles[0];
+    if (look.singles.size() < 2) return;
+    Comparison comparison = less_than(look.normal);
+    comparison.jobs = {without(all_factors())};
+    explanation.all = effects(comparison, explanation)[0];
+    judge(comparison, look.singles);  // there may be more placebos by now
+  }
+
+  /// Where a look has no cause and all that is left of the factors together has an effect: those
+  /// of them that would do alone.
+  void try_alone(const StretchExplanation& explanation, Look& look) {
+    const std::vector<std::size_t> present = present_factors(look.normal);
+    if (present.size() < 2) return;
+    const Effect all = effect_of(look.normal.chance, explanation.all->reruns);
+    if (!all.is_cause()) return;
+    look.nothing = {.without = all_factors(), .drifts = explanation.all->reruns};
+    add_placebos(explanation, look.nothing, request_.placebos);
+    Comparison comparison{.normal = look.nothing,
+                          .effect =
+                              [&](const std::vector<StretchDrift>& reruns) {
+                                return effect_alone(look.nothing.chance, reruns, look.normal.chance,
+                                                    all);
+                              },
+                          .jobs = {}};
+    for (const std::size_t i : present) {
+      std::vector<std::size_t> others = all_factors();
+      std::erase(others, i);
+      comparison.jobs.push_back(without(others));
+    }
+    look.alone = effects(comparison, explanation);
+    for (std::size_t i = 0; i < present.size(); ++i) look.alone[i].factors = {present[i]};
+    look.causes = causes_of(look);
+  }
+
+  /// The stretch without the causes found so far becomes the normal one of the next look, if it is
+  /// worse than without any factor. False if there is nothing more to find.
+  bool leaves_something(const StretchExplanation& explanation, Look& next) {
+    const std::vector<std::size_t> found = explanation.causes();
+    if (explanation.looks.back().causes.empty() || found.size() == result_.factors.size()) {
+      return false;
+    }
+    next = {.normal = {.without = found, .drifts = reruns_without(found, explanation)}};
+    if (!leaves_more(next.normal.drifts, explanation.all->reruns)) return false;
+    add_placebos(explanation, next.normal, request_.placebos);
+    return true;
   }
 
   /// Those that were made already, or one that is made now.
   std::vector<StretchDrift> reruns_without(const std::vector<std::size_t>& factors,
                                            const StretchExplanation& explanation) {
-    if (factors.size() == 1) return explanation.singles[factors[0]].without;
+    if (factors.size() == 1) return explanation.looks[0].singles[factors[0]].reruns;
     std::vector<Job> jobs{without(factors)};
     return {drift(runs_.make(jobs, explanation.stretch.last)[0], explanation)};
   }
 
-  void try_pairs(StretchExplanation& explanation) {
+  void try_pairs(StretchExplanation& explanation, Look& look) {
+    if (look.singles.size() < 2) return;
     std::vector<Effect> singles;
-    for (const FactorEffect& single : explanation.singles) singles.push_back(single.effect);
-    if (!do_not_add_up(explanation.normal.chance, singles, explanation.all->effect)) return;
-    std::vector<std::size_t> order(singles.size());
-    std::iota(order.begin(), order.end(), 0);
+    for (const FactorEffect& single : look.singles) singles.push_back(single.effect);
+    if (!do_not_add_up(look.normal.chance, singles, explanation.all->effect)) return;
+    std::vector<std::size_t> order = all_factors();
     std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) {
       return std::abs(singles[i].metres) + 0.01 * std::abs(singles[i].lost);
     });
     order.resize(std::min(order.size(), kFactorsInPairs));
-    std::vector<Job> jobs;
+    Comparison comparison = less_than(look.normal);
+    comparison.rounds = 0;
     for (std::size_t b = 1; b < order.size(); ++b) {
       for (std::size_t a = 0; a < b; ++a) {
-        if (jobs.size() >= static_cast<std::size_t>(request_.pairs)) continue;
-        jobs.push_back(without({order[a], order[b]}));
+        if (comparison.jobs.size() >= static_cast<std::size_t>(request_.pairs)) continue;
+        comparison.jobs.push_back(without({order[a], order[b]}));
       }
     }
-    explanation.pairs = effects(jobs, explanation, explanation.normal, 1);
-    judge(explanation.normal, explanation.singles);
+    explanation.pairs = effects(comparison, explanation);
     for (FactorEffect& pair : explanation.pairs) {
       pair.interaction =
           interaction_of(singles[pair.factors[0]], singles[pair.factors[1]], pair.effect);
@@ -288,24 +343,18 @@ Explanation explain(const ExplainRequest& request) {
   return Explainer(request).run();
 }
 
-std::vector<std::size_t> causes_of(const StretchExplanation& stretch) {
-  const AsItWas& was = stretch.normal.chance;
-  Shares shares = shares_of(stretch.normal, stretch.singles);
-  const FactorEffect* joint = nullptr;
-  for (const FactorEffect& pair : stretch.pairs) {
-    const Effect& one = stretch.singles[pair.factors[0]].effect;
-    const Effect& other = stretch.singles[pair.factors[1]].effect;
-    if (!is_joint_cause(was, one, other, pair.effect)) continue;
-    if (joint == nullptr || caused_share(was, pair.effect) > caused_share(was, joint->effect)) {
-      joint = &pair;
-    }
-  }
-  if (joint != nullptr) {
-    for (const std::size_t i : joint->factors) {
-      shares[i] = {caused_share(was, joint->effect), joint->effect.metres};
-    }
-  }
+std::vector<std::size_t> causes_of(const Look& look) {
+  Shares shares;
+  add_causes(look.normal.chance, look.singles, shares);
+  add_causes(look.normal.chance, look.alone, shares);
   return by_share(shares);
+}
+
+std::vector<std::size_t> StretchExplanation::causes() const {
+  std::vector<std::size_t> causes;
+  for (const Look& look : looks)
+    causes.insert(causes.end(), look.causes.begin(), look.causes.end());
+  return causes;
 }
 
 }  // namespace vinebench::harness

@@ -10,40 +10,45 @@
 
 namespace vinebench::harness {
 
-/// A factor, or two of them, and what the drive is without.
+/// A factor, or two of them, and what the drive is without; or, of Look::alone, with it alone.
 struct FactorEffect {
   std::vector<std::size_t> factors;  ///< of Explanation::factors
   bool from_start = false;           ///< taken away from the drive's start on
-  std::vector<StretchDrift> without{};
+  std::vector<StretchDrift> reruns{};
   Effect effect{};
   Interaction interaction{};  ///< of two
 };
 
-/// What reruns without a factor are compared with: others that differ in the noise alone.
+/// What reruns are compared with: others that differ in the noise alone.
 struct Normal {
   std::vector<std::size_t> without{};  ///< factors that are absent in all of them
   std::vector<StretchDrift> drifts{};
   AsItWas chance{};
 };
 
-/// What is left of a drift without the causes that were found before. Beside a cause of half a
-/// metre one of a centimetre is not seen: here it is.
-struct Remainder {
-  Normal normal;
+/// A stretch as it was, or without the causes that were found before. Beside a cause of half a
+/// metre one of a centimetre is not seen: without it, it is.
+struct Look {
+  Normal normal{};
   std::vector<FactorEffect> singles{};  ///< without one factor more each
-  std::vector<std::size_t> causes{};    ///< the strongest first
+  Normal nothing{};                     ///< without any factor, if alone are tried
+  /// With one factor each and no other. Tried where all factors together have an effect and no
+  /// single one has: of two causes that would each do, neither takes anything away.
+  std::vector<FactorEffect> alone{};
+  std::vector<std::size_t> causes{};  ///< factors, the strongest first
 };
 
 struct StretchExplanation {
   Stretch stretch;
-  std::int64_t aligned = 0;  ///< index of the frame since which drift is measured
-  StretchDrift was{};        ///< of the run itself
-  Normal normal{};           ///< that, and the placebos
-  std::vector<FactorEffect> singles{};
-  std::optional<FactorEffect> all{};    ///< without any of them; of two or more
-  std::vector<FactorEffect> pairs{};    ///< those that were tried
-  std::vector<Remainder> remainders{};  ///< each without all causes before it
-  std::vector<std::size_t> causes{};    ///< factors, the strongest first, then those of remainders
+  std::int64_t aligned = 0;           ///< index of the frame since which drift is measured
+  StretchDrift was{};                 ///< of the run itself
+  std::vector<Look> looks{};          ///< the first one as it was, each other without the causes
+                                      ///< of those before it
+  std::optional<FactorEffect> all{};  ///< without any factor
+  std::vector<FactorEffect> pairs{};  ///< those that were tried
+
+  /// Factors, the strongest first, then those of further looks.
+  std::vector<std::size_t> causes() const;
 };
 
 struct Explanation {
@@ -60,8 +65,7 @@ struct Explanation {
 /// systems. Requires that this process has one thread and no GL context.
 Explanation explain(const ExplainRequest& request);
 
-/// The factors that cause the drift or the lost frames, the strongest first: singles, and the pair
-/// that takes away most of what its two do not take away alone. Without those of remainders.
-std::vector<std::size_t> causes_of(const StretchExplanation& stretch);
+/// The factors that cause the drift or the lost frames of a look, the strongest first.
+std::vector<std::size_t> causes_of(const Look& look);
 
 }  // namespace vinebench::harness

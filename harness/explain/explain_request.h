@@ -23,7 +23,7 @@ struct ExplainRequest {
   double lead = 2;   ///< s before a stretch at which factors are taken away
   int placebos = 4;  ///< reruns with another noise, at least 2
   int repeats = 2;   ///< further reruns, with other noise, where chance could explain an effect,
-                     ///< twice; before the first ones, as many placebos more
+                     ///< up to four times; before the first and the third, more placebos
   int pairs = 10;    ///< pairs to try at most; 0: none
   int at_once = 1;   ///< reruns side by side
   std::ostream* progress = nullptr;

@@ -3,6 +3,7 @@
 #include "slam/matching/appearance_matcher.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -14,9 +15,6 @@ constexpr double kSamePlace = 0.5;                              // m
 constexpr double kSameHeading = 30.0 * std::numbers::pi / 180;  // rad
 
 constexpr int kNeighbours = 6;
-
-/// A place with fewer votes is not worth a closer look.
-constexpr int kMinVotes = 5;
 
 struct Nearest {
   int landmark = -1;
@@ -54,28 +52,13 @@ std::vector<Descriptor> spread_features(const FrameFeatures& frame, int queries)
   return chosen;
 }
 
+/// One to each keyframe that sees the landmark.
 void vote_for(const Landmark& landmark, std::vector<int>& votes) {
   int last = -1;
   for (const Observation& o : landmark.observations) {
     if (o.keyframe != last) ++votes[static_cast<std::size_t>(o.keyframe)];
     last = o.keyframe;
   }
-}
-
-/// Each feature votes for the two landmarks most like it, so that of two places that look the same
-/// both are found.
-std::vector<int> vote(const Map& map, const FrameFeatures& frame, int queries, int max_hamming) {
-  std::vector<int> known;
-  for (const Landmark& landmark : map.landmarks()) {
-    if (!landmark.removed) known.push_back(landmark.id);
-  }
-  std::vector<int> votes(map.keyframes().size(), 0);
-  for (const Descriptor& descriptor : spread_features(frame, queries)) {
-    const Nearest found = nearest(map, known, descriptor);
-    if (found.distance <= max_hamming) vote_for(map.landmark(found.landmark), votes);
-    if (found.next <= max_hamming) vote_for(map.landmark(found.next_landmark), votes);
-  }
-  return votes;
 }
 
 bool same_place(const Keyframe& a, const Keyframe& b) {
@@ -85,12 +68,42 @@ bool same_place(const Keyframe& a, const Keyframe& b) {
 
 }  // namespace
 
-std::vector<int> keyframes_alike(const Map& map, const FrameFeatures& frame, int queries,
-                                 int max_hamming, int at_most) {
-  const std::vector<int> votes = vote(map, frame, queries, max_hamming);
-  std::vector<std::pair<int, int>> ranked;  // negated votes, keyframe
+std::vector<double> resemblance(const Map& map, const FrameFeatures& frame, int queries,
+                                int max_hamming) {
+  std::vector<int> known;
+  std::vector<int> landmarks(map.keyframes().size(), 0);
+  for (const Landmark& landmark : map.landmarks()) {
+    if (landmark.removed) continue;
+    known.push_back(landmark.id);
+    vote_for(landmark, landmarks);
+  }
+  std::vector<int> votes(map.keyframes().size(), 0);
+  int cast = 0;
+  const auto vote = [&](int id, int distance) {
+    if (distance > max_hamming) return;
+    vote_for(map.landmark(id), votes);
+    ++cast;
+  };
+  // Two votes a feature, so that of two places that look the same both are found.
+  for (const Descriptor& descriptor : spread_features(frame, queries)) {
+    const Nearest found = nearest(map, known, descriptor);
+    vote(found.landmark, found.distance);
+    vote(found.next_landmark, found.next);
+  }
+  std::vector<double> scores(votes.size(), 0);
   for (std::size_t k = 0; k < votes.size(); ++k) {
-    if (votes[k] >= kMinVotes) ranked.emplace_back(-votes[k], static_cast<int>(k));
+    const double chance = static_cast<double>(cast) * landmarks[k] /
+                          std::max<double>(1, static_cast<double>(known.size()));
+    scores[k] = (votes[k] - chance) / std::sqrt(chance + 1);
+  }
+  return scores;
+}
+
+std::vector<int> keyframes_alike(const Map& map, const std::vector<double>& resemblance,
+                                 int at_most) {
+  std::vector<std::pair<double, int>> ranked;  // negated resemblance, keyframe
+  for (std::size_t k = 0; k < resemblance.size(); ++k) {
+    ranked.emplace_back(-resemblance[k], static_cast<int>(k));
   }
   std::sort(ranked.begin(), ranked.end());
   std::vector<int> chosen;

@@ -8,11 +8,16 @@
 
 namespace vinebench::slam {
 
-/// Ids of the keyframes that see most of what the frame sees, best first, one for each place: each
-/// of `queries` features, spread over the frame, votes for the keyframes of the two landmarks of
-/// the map that are most like it. Brute force: its time grows with the landmarks of the map.
-std::vector<int> keyframes_alike(const Map& map, const FrameFeatures& frame, int queries,
-                                 int max_hamming, int at_most);
+/// How much each keyframe of the map resembles the frame: each of `queries` features, spread over
+/// the frame, votes for the keyframes of the two landmarks of the map that are most like it; by how
+/// many standard deviations a keyframe has more votes than its share of all landmarks would give
+/// it. Brute force: its time grows with the landmarks of the map.
+std::vector<double> resemblance(const Map& map, const FrameFeatures& frame, int queries,
+                                int max_hamming);
+
+/// Ids of the keyframes that resemble it most, best first, one for each place.
+std::vector<int> keyframes_alike(const Map& map, const std::vector<double>& resemblance,
+                                 int at_most);
 
 /// Landmarks of a keyframe and of those that share most with it, ascending.
 std::vector<int> landmarks_around(const Map& map, int keyframe);

@@ -3,6 +3,7 @@
 #include "slam/tracking/relocaliser.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "slam/matching/appearance_matcher.h"
@@ -20,6 +21,12 @@ constexpr double kSameView = 20.0 * std::numbers::pi / 180;  // rad
 /// What two frames' poses may differ by for their noise alone.
 constexpr double kFoundPoseNoise = 0.05;                     // m
 constexpr double kTurnNoise = 2.0 * std::numbers::pi / 180;  // rad
+
+/// Wheels may slip: of the way between two frames.
+constexpr double kSlip = 0.1;
+
+/// What the wheels' step may have more or less of time than the frames.
+constexpr double kStepNoise = 0.02;  // s
 
 /// A camera with fewer matches says nothing for or against a pose.
 constexpr int kMinViewMatches = 12;
@@ -78,10 +85,8 @@ std::optional<Relocation> relocate_at(int keyframe, const Map& map, const Estima
 
 std::optional<Relocation> relocate(const Map& map, const EstimatorRig& rig,
                                    const FrameFeatures& frame, const RelocaliserOptions& options) {
-  return relocate_among(
-      map, rig, frame,
-      keyframes_alike(map, frame, options.queries, options.max_hamming, options.candidates),
-      options);
+  const std::vector<double> alike = resemblance(map, frame, options.queries, options.max_hamming);
+  return relocate_among(map, rig, frame, keyframes_alike(map, alike, options.candidates), options);
 }
 
 std::optional<Relocation> relocate_among(const Map& map, const EstimatorRig& rig,
@@ -103,20 +108,52 @@ std::optional<Relocation> relocate_among(const Map& map, const EstimatorRig& rig
   return best;
 }
 
+void Relocaliser::remember(const std::vector<double>& resemblance, Stamp stamp) {
+  const double fading = std::exp(-to_seconds(stamp - stamp_) / options_.memory);
+  resemblance_.resize(resemblance.size(), 0);
+  for (std::size_t k = 0; k < resemblance.size(); ++k) {
+    resemblance_[k] = fading * resemblance_[k] + resemblance[k];
+  }
+}
+
+/// Lengthens the candidate's way by the frame's, if that begins at the frame before.
+void Relocaliser::follow(const FrameFeatures& frame) {
+  if (!candidate_) return;
+  const double dt = to_seconds(frame.stamp - stamp_);
+  if (!frame.wheels || std::abs(frame.wheels->seconds - dt) > kStepNoise) candidate_->way.reset();
+  if (candidate_->way) candidate_->way = *candidate_->way * frame.wheels->T_before_now;
+}
+
 bool Relocaliser::agree(const Relocation& now, Stamp stamp) const {
-  const double dt = to_seconds(stamp - stamp_);
-  if (!before_ || dt <= 0 || dt > options_.max_gap_seconds) return false;
-  const Pose moved = before_->T_map_body.inverse() * now.T_map_body;
-  return moved.translation.norm() <= kFoundPoseNoise + options_.max_speed * dt &&
-         angle_of(moved.rotation) <= kTurnNoise + options_.max_turn * dt;
+  if (!candidate_) return false;
+  const double dt = to_seconds(stamp - candidate_->stamp);
+  if (dt <= 0 || dt > options_.max_gap_seconds) return false;
+  const Pose moved = candidate_->T_map_body.inverse() * now.T_map_body;
+  if (candidate_->frames == 0) {
+    return moved.translation.norm() <= kFoundPoseNoise + options_.max_speed * dt &&
+           angle_of(moved.rotation) <= kTurnNoise + options_.max_turn * dt;
+  }
+  if (!candidate_->way) return false;
+  const Pose& way = *candidate_->way;
+  return (moved.translation - way.translation).norm() <=
+             kFoundPoseNoise + kSlip * way.translation.norm() &&
+         angle_of(way.rotation.conjugate() * moved.rotation) <=
+             kTurnNoise + kSlip * angle_of(way.rotation);
 }
 
 std::optional<Pose> Relocaliser::find(const Map& map, const EstimatorRig& rig,
                                       const FrameFeatures& frame) {
-  const std::optional<Relocation> now = relocate(map, rig, frame, options_);
-  const bool believed = now && agree(*now, frame.stamp);
-  before_ = now;
+  remember(resemblance(map, frame, options_.queries, options_.max_hamming), frame.stamp);
+  follow(frame);
   stamp_ = frame.stamp;
+  const std::vector<int> places = keyframes_alike(map, resemblance_, options_.candidates);
+  const std::optional<Relocation> now = relocate_among(map, rig, frame, places, options_);
+  if (!now) {
+    if (candidate_) ++candidate_->frames;
+    return std::nullopt;
+  }
+  const bool believed = agree(*now, frame.stamp);
+  candidate_ = Candidate{.T_map_body = now->T_map_body, .stamp = frame.stamp};
   return believed ? std::optional(now->T_map_body) : std::nullopt;
 }
 

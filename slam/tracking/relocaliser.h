@@ -21,7 +21,8 @@ struct RelocaliserOptions {
   int min_inliers = 40;        ///< in the end, over all cameras
   double min_share = 0.5;      ///< of the matches in the end, and of each camera's
   double max_rival = 0.6;      ///< another place must have less than this share of the inliers
-  double max_speed = 2;        ///< m/s, between the two frames that must agree
+  double memory = 0.5;         ///< s, in which the resemblance that earlier frames had fades
+  double max_speed = 2;        ///< m/s, between two frames in a row that must agree
   double max_turn = 2;         ///< rad/s, likewise
   double max_gap_seconds = 1;  ///< between the two frames
 };
@@ -48,26 +49,40 @@ std::optional<Relocation> relocate_among(const Map& map, const EstimatorRig& rig
                                          const std::vector<int>& keyframes,
                                          const RelocaliserOptions& options);
 
-/// Believes a relocation once two frames in a row, each by itself, agree on it.
+/// Believes a relocation once two frames, each by itself, agree on it: two in a row, or with others
+/// between them that found nothing, if the wheels say the same of the way from one to the other.
+/// Looks closely where this frame and those just before it together resemble the map most: under
+/// another sun a place is hardly more like itself than others are.
 class Relocaliser {
  public:
   explicit Relocaliser(const RelocaliserOptions& options = {}) : options_(options) {}
 
   /// Whether the last frame resembled a place, which the next one may confirm.
-  bool has_candidate() const { return before_.has_value(); }
+  bool has_candidate() const { return candidate_ && candidate_->frames == 0; }
 
   /// The last frame was found otherwise: it confirms no candidate.
-  void forget() { before_.reset(); }
+  void forget() { candidate_.reset(); }
 
   /// The body's pose in the map, or none (yet).
   std::optional<Pose> find(const Map& map, const EstimatorRig& rig, const FrameFeatures& frame);
 
  private:
+  /// What an earlier frame found.
+  struct Candidate {
+    Pose T_map_body;
+    Stamp stamp = 0;
+    int frames = 0;                    ///< since then, that found nothing
+    std::optional<Pose> way = Pose{};  ///< of the body since then, by its wheels
+  };
+
+  void remember(const std::vector<double>& resemblance, Stamp stamp);
+  void follow(const FrameFeatures& frame);
   bool agree(const Relocation& now, Stamp stamp) const;
 
   RelocaliserOptions options_;
-  std::optional<Relocation> before_;
-  Stamp stamp_ = 0;
+  std::vector<double> resemblance_;  ///< of each keyframe, to this frame and those before it
+  Stamp stamp_ = 0;                  ///< of the last frame
+  std::optional<Candidate> candidate_;
 };
 
 }  // namespace vinebench::slam

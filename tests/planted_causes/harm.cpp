@@ -64,7 +64,8 @@ double PlainRuns::lost() const {
 }
 
 bool PlainRuns::are_worse_than(const PlainRuns& others) const {
-  return metres() >= kHarm * others.metres() || lost() >= others.lost() + kHarmLost;
+  return metres() >= kHarm * others.metres() ||
+         (lost() >= kHarm * others.lost() && lost() >= others.lost() + kHarmLost);
 }
 
 bool Harm::is_done() const {

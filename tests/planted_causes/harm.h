@@ -11,7 +11,7 @@
 
 namespace vinebench::planted {
 
-inline constexpr double kHarm = 1.5;     // times the drift
+inline constexpr double kHarm = 1.5;     // times the drift, or the lost frames
 inline constexpr double kHarmLost = 3;   // frames
 inline constexpr double kFloor = 0.001;  // m, added to each drift
 inline constexpr int kDraws = 3;         // of the noise
@@ -24,8 +24,8 @@ struct PlainRuns {
   double metres() const;  ///< geometric mean of the drifts with the floor
   double lost() const;    ///< mean, frames
 
-  /// Whether these runs are worse than others by a fixed factor: 1.5 times the drift, or three more
-  /// lost frames.
+  /// Whether these runs are worse than others by a fixed factor: 1.5 times the drift, or 1.5 times
+  /// the lost frames and three more.
   bool are_worse_than(const PlainRuns& others) const;
 };
 

@@ -54,7 +54,7 @@ void explain_drive(const harness::Machine& machine, const std::filesystem::path&
   request.lead = kLead;
   request.placebos = placebos;
   const harness::Explanation explanation = harness::explain(request);
-  for (const std::size_t i : explanation.stretches[0].causes) {
+  for (const std::size_t i : explanation.stretches[0].causes()) {
     json["named"].push_back(explanation.factors[i].name);
   }
   json["rerun"] = explanation.rerun_seconds;

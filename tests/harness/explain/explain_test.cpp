@@ -24,53 +24,50 @@ StretchDrift drift_and_losses(double metres, double lost = 0) {
 class CausesTest : public testing::Test {
  protected:
   CausesTest() {
-    explanation_.normal.chance = as_it_was(
+    look_.normal.chance = as_it_was(
         {drift_and_losses(0.02, 10), drift_and_losses(0.0205, 10), drift_and_losses(0.0195, 10)});
-  }
-
-  FactorEffect without(std::vector<std::size_t> factors, const StretchDrift& rest) const {
-    FactorEffect one{.factors = std::move(factors), .without = {rest}};
-    one.effect = effect_of(explanation_.normal.chance, one.without);
-    return one;
   }
 
   void singles(const std::vector<StretchDrift>& rests) {
     for (std::size_t i = 0; i < rests.size(); ++i) {
-      explanation_.singles.push_back(without({i}, rests[i]));
+      FactorEffect one{.factors = {i}, .reruns = {rests[i]}};
+      one.effect = effect_of(look_.normal.chance, one.reruns);
+      look_.singles.push_back(one);
     }
   }
 
-  StretchExplanation explanation_;
+  Look look_;
 };
 
 TEST_F(CausesTest, TheStrongestFirst) {
   singles({drift_and_losses(0.006, 10), drift_and_losses(0.02, 10), drift_and_losses(0.003, 10)});
-  EXPECT_THAT(causes_of(explanation_), ElementsAre(2, 0));
+  EXPECT_THAT(causes_of(look_), ElementsAre(2, 0));
 }
 
 TEST_F(CausesTest, LostFramesCountByTheirShare) {
   singles({drift_and_losses(0.006, 10), drift_and_losses(0.02, 0)});
-  EXPECT_THAT(causes_of(explanation_), ElementsAre(1, 0));  // all of the losses, 70 % of the drift
+  EXPECT_THAT(causes_of(look_), ElementsAre(1, 0));  // all of the losses, 70 % of the drift
 }
 
 TEST_F(CausesTest, OfEqualLossesTheDriftDecides) {
   // Without either no frame is lost; without the second one the rest of the drive drifts less.
   singles({drift_and_losses(0.04, 0), drift_and_losses(0.022, 0)});
-  EXPECT_THAT(causes_of(explanation_), ElementsAre(1, 0));
+  EXPECT_THAT(causes_of(look_), ElementsAre(1, 0));
 }
 
-TEST_F(CausesTest, APairIsACauseWhereItsTwoAreNone) {
+TEST_F(CausesTest, ThoseThatWouldDoAloneAreCauses) {
   singles({drift_and_losses(0.02, 10), drift_and_losses(0.02, 10), drift_and_losses(0.019, 10)});
-  EXPECT_THAT(causes_of(explanation_), ElementsAre());
-  explanation_.pairs.push_back(without({0, 1}, drift_and_losses(0.002, 10)));
-  explanation_.pairs.push_back(without({0, 2}, drift_and_losses(0.005, 10)));
-  EXPECT_THAT(causes_of(explanation_), ElementsAre(0, 1));
+  EXPECT_THAT(causes_of(look_), ElementsAre());
+  look_.alone = {{.factors = {0}, .effect = {.metres = 0.005, .drift_is_caused = true}},
+                 {.factors = {1}, .effect = {.metres = 0.003}},
+                 {.factors = {2}, .effect = {.metres = 0.015, .drift_is_caused = true}}};
+  EXPECT_THAT(causes_of(look_), ElementsAre(2, 0));
 }
 
-TEST_F(CausesTest, APairThatOneOfTheTwoExplainsIsNone) {
-  singles({drift_and_losses(0.002, 10), drift_and_losses(0.02, 10)});
-  explanation_.pairs.push_back(without({0, 1}, drift_and_losses(0.001, 10)));
-  EXPECT_THAT(causes_of(explanation_), ElementsAre(0));
+TEST_F(CausesTest, OfAStretchAreThoseOfTheFirstLookFirst) {
+  StretchExplanation stretch;
+  stretch.looks = {{.causes = {2, 1}}, {.causes = {0}}, {}};
+  EXPECT_THAT(stretch.causes(), ElementsAre(2, 1, 0));
 }
 
 /// Ten frames along the court.
@@ -121,9 +118,9 @@ TEST_F(ExplainTest, DroppedImagesLoseFrames) {
   EXPECT_EQ(stretch.stretch.last, kLast);
   EXPECT_EQ(stretch.aligned, 0);  // 0.13 s before frame 3 is frame 1: the last one as it was is 0
   EXPECT_GE(stretch.was.lost, 3);
-  ASSERT_FALSE(stretch.causes.empty());
-  EXPECT_EQ(explanation.factors[stretch.causes[0]].name, "drops");
-  for (const FactorEffect& one : stretch.singles) {
+  ASSERT_FALSE(stretch.causes().empty());
+  EXPECT_EQ(explanation.factors[stretch.causes()[0]].name, "drops");
+  for (const FactorEffect& one : stretch.looks[0].singles) {
     const bool drops = explanation.factors[one.factors[0]].name == "drops";
     EXPECT_EQ(one.effect.losses_are_caused, drops);
   }
@@ -147,13 +144,14 @@ TEST_F(ExplainTest, FindsWhatAStrongerCauseHides) {
   const Explanation explanation = explain(request);
   const StretchExplanation& stretch = explanation.stretches.at(0);
   EXPECT_EQ(stretch.was.lost, 11);  // frames 5 to 15
-  ASSERT_EQ(stretch.causes.size(), 2u);
-  EXPECT_EQ(explanation.factors[stretch.causes[0]].name, "calibration");
-  EXPECT_EQ(explanation.factors[stretch.causes[1]].name, "drops");
-  ASSERT_FALSE(stretch.remainders.empty());
-  const Remainder& rest = stretch.remainders[0];
-  EXPECT_THAT(rest.normal.without, ElementsAre(stretch.causes[0]));
-  EXPECT_THAT(rest.causes, ElementsAre(stretch.causes[1]));
+  const std::vector<std::size_t> causes = stretch.causes();
+  ASSERT_EQ(causes.size(), 2u);
+  EXPECT_EQ(explanation.factors[causes[0]].name, "calibration");
+  EXPECT_EQ(explanation.factors[causes[1]].name, "drops");
+  ASSERT_GE(stretch.looks.size(), 2u);
+  const Look& rest = stretch.looks[1];
+  EXPECT_THAT(rest.normal.without, ElementsAre(causes[0]));
+  EXPECT_THAT(rest.causes, ElementsAre(causes[1]));
   EXPECT_EQ(rest.normal.drifts.size(), 3u);  // one rerun, two placebos
   // Each other factor was tried once more.
   EXPECT_EQ(rest.singles.size() + 1, explanation.factors.size());

@@ -15,8 +15,8 @@ StretchDrift steady_drift(double metres) {
 }
 
 FactorEffect without(const AsItWas& was, std::vector<std::size_t> factors, double rest) {
-  FactorEffect one{.factors = std::move(factors), .without = {steady_drift(rest)}};
-  one.effect = effect_of(was, one.without);
+  FactorEffect one{.factors = std::move(factors), .reruns = {steady_drift(rest)}};
+  one.effect = effect_of(was, one.reruns);
   return one;
 }
 
@@ -29,12 +29,12 @@ Explanation windy() {
   stretch.stretch = {.number = 2, .first = 40, .last = 60, .coincide = {"little texture"}};
   stretch.aligned = 19;
   stretch.was = steady_drift(0.0205);
-  stretch.normal.chance =
-      as_it_was({steady_drift(0.02), steady_drift(0.0205), steady_drift(0.0195)});
-  stretch.singles = {without(stretch.normal.chance, {0}, 0.021),
-                     without(stretch.normal.chance, {1}, 0.004)};
-  stretch.all = without(stretch.normal.chance, {0, 1}, 0.003);
-  stretch.causes = {1};
+  Look look;
+  look.normal.chance = as_it_was({steady_drift(0.02), steady_drift(0.0205), steady_drift(0.0195)});
+  look.singles = {without(look.normal.chance, {0}, 0.021), without(look.normal.chance, {1}, 0.004)};
+  look.causes = {1};
+  stretch.looks = {look};
+  stretch.all = without(look.normal.chance, {0, 1}, 0.003);
   explanation.stretches = {stretch};
   return explanation;
 }
@@ -52,12 +52,11 @@ TEST(ExplanationTextTest, NamesTheCauseFirstAndTheFactorsByStrength) {
 /// Without the wind 4 mm are left, of which the noise is 3.5.
 Explanation windy_and_noisy() {
   Explanation explanation = windy();
-  Remainder rest{.normal = {.without = {1}}};
+  Look rest{.normal = {.without = {1}}};
   rest.normal.chance = as_it_was({steady_drift(0.004), steady_drift(0.0042), steady_drift(0.0039)});
   rest.singles = {without(rest.normal.chance, {0}, 0.0005)};
   rest.causes = {0};
-  explanation.stretches[0].remainders = {rest};
-  explanation.stretches[0].causes = {1, 0};
+  explanation.stretches[0].looks.push_back(rest);
   return explanation;
 }
 
@@ -69,19 +68,40 @@ TEST(ExplanationTextTest, SaysWhatIsLeftWithoutTheFirstCause) {
   ASSERT_NE(rest, std::string::npos) << text;
   EXPECT_NE(text.find("3.5      88 %", rest), std::string::npos) << text;  // 3.5 of 4.0 mm
   Explanation explanation = windy_and_noisy();
-  explanation.stretches[0].remainders[0].causes.clear();
+  explanation.stretches[0].looks[1].causes.clear();
   EXPECT_THAT(format_explanation(explanation, 10),
               HasSubstr("lost; no factor explains it beyond chance\n"));
 }
 
 TEST(ExplanationTextTest, SaysThatNothingExplainsIt) {
   Explanation explanation = windy();
-  explanation.stretches[0].causes.clear();
+  explanation.stretches[0].looks[0].causes.clear();
   EXPECT_THAT(format_explanation(explanation, 10), HasSubstr("no factor explains it"));
   explanation.factors.clear();
-  explanation.stretches[0].singles.clear();
+  explanation.stretches[0].looks[0].singles.clear();
   explanation.stretches[0].all.reset();
   EXPECT_THAT(format_explanation(explanation, 10), HasSubstr("the scenario has no factor"));
+}
+
+/// Neither wind nor noise takes anything away, and each would do.
+Explanation windy_or_noisy() {
+  Explanation explanation = windy();
+  Look& look = explanation.stretches[0].looks[0];
+  look.singles = {without(look.normal.chance, {0}, 0.02), without(look.normal.chance, {1}, 0.021)};
+  look.alone = {{.factors = {0}, .effect = {.metres = 0.012, .drift_is_caused = true}},
+                {.factors = {1}, .effect = {.metres = 0.016, .drift_is_caused = true}}};
+  look.causes = {1, 0};
+  return explanation;
+}
+
+TEST(ExplanationTextTest, SaysWhatWouldDoAlone) {
+  const std::string text = format_explanation(windy_or_noisy(), 10);
+  const std::size_t alone = text.find("  with no other than");
+  ASSERT_NE(alone, std::string::npos) << text;
+  EXPECT_NE(text.find("16.0      80 %     0.0   would do\n", alone), std::string::npos) << text;
+  const auto json = to_json(windy_or_noisy(), 10).at("stretches").at(0).at("alone");
+  EXPECT_EQ(json.at(0).at("with"), nlohmann::ordered_json({"noise"}));
+  EXPECT_EQ(json.at(0).at("added_m"), 0.012);
 }
 
 TEST(ExplanationTextTest, JsonHasMetresAndSeconds) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "core/util/random.h"
@@ -114,43 +115,71 @@ class KeyframesAlikeTest : public testing::Test {
   }
 };
 
-TEST_F(KeyframesAlikeTest, ComeByTheirVotes) {
+// 40 landmarks, ten of each keyframe; 25 features vote once (nothing else is within 64 bits), so
+// that chance gives each keyframe 25 / 4 = 6.25 votes, and a deviation of sqrt(7.25) = 2.693.
+TEST_F(KeyframesAlikeTest, ResemblanceIsTheVotesBeyondChance) {
   const Map map = map_of({at(0), at(1), at(2), at(3)});
   const auto frame = seeing({{0, 5}, {2, 9}, {3, 4}, {1, 7}});
-  EXPECT_EQ(keyframes_alike(map, *frame, 100, 64, 10), (std::vector<int>{2, 1, 0}));  // 5 votes
-  EXPECT_EQ(keyframes_alike(map, *frame, 100, 64, 2), (std::vector<int>{2, 1}));
-  EXPECT_TRUE(keyframes_alike(map, *frame, 100, 9, 10).empty());  // all are 10 bits off
+  const std::vector<double> found = resemblance(map, *frame, 100, 64);
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_NEAR(found[0], (5 - 6.25) / 2.693, 1e-3);
+  EXPECT_NEAR(found[2], (9 - 6.25) / 2.693, 1e-3);
+  EXPECT_EQ(resemblance(map, *frame, 100, 9), std::vector<double>(4, 0));  // all are 10 bits off
+}
+
+// 15 landmarks, of which the first keyframe has 5, the second 10, and the third 10 of theirs. Four
+// votes for the first one's and three for the second one's are four for the third, of which chance
+// would give it 7 * 10 / 15 = 4.67, and the first one 2.33.
+TEST_F(KeyframesAlikeTest, AKeyframeOfManyLandmarksIsNotMoreAlike) {
+  Map map = map_of({at(0), at(1), at(2)});
+  for (int i = 5; i < 10; ++i) map.remove_landmark(i);
+  for (int i = 20; i < 30; ++i) map.remove_landmark(i);
+  for (int i = 0; i < 5; ++i) map.add_observation(i, {2, 0, i});
+  for (int i = 10; i < 15; ++i) map.add_observation(i, {2, 0, i - 5});
+  std::vector<Descriptor> seen;
+  for (const int i : {0, 1, 2, 3, 15, 16, 17}) seen.push_back(appearance(i, 10));
+  const std::vector<double> found = resemblance(map, *frame_of(seen), 100, 64);
+  EXPECT_NEAR(found[0], (4 - 2.333) / std::sqrt(3.333), 1e-3);
+  EXPECT_NEAR(found[1], (3 - 4.667) / std::sqrt(5.667), 1e-3);
+  EXPECT_NEAR(found[2], (4 - 4.667) / std::sqrt(5.667), 1e-3);
+}
+
+TEST_F(KeyframesAlikeTest, ComeByTheirResemblance) {
+  const Map map = map_of({at(0), at(1), at(2), at(3)});
+  const std::vector<double> alike{0.5, 1.5, 2.5, -0.5};
+  EXPECT_EQ(keyframes_alike(map, alike, 10), (std::vector<int>{2, 1, 0, 3}));
+  EXPECT_EQ(keyframes_alike(map, alike, 2), (std::vector<int>{2, 1}));
 }
 
 TEST_F(KeyframesAlikeTest, OnePlaceIsGivenOnce) {
-  const auto frame = seeing({{0, 9}, {1, 8}, {2, 7}});
-  EXPECT_EQ(keyframes_alike(map_of({at(0), at(0.4), at(5)}), *frame, 100, 64, 10),
-            (std::vector<int>{0, 2}));
+  const std::vector<double> alike{3, 2, 1};
+  EXPECT_EQ(keyframes_alike(map_of({at(0), at(0.4), at(5)}), alike, 10), (std::vector<int>{0, 2}));
   // The other way round is another place.
-  EXPECT_EQ(keyframes_alike(map_of({at(0), at(0.4, 3), at(5)}), *frame, 100, 64, 10),
+  EXPECT_EQ(keyframes_alike(map_of({at(0), at(0.4, 3), at(5)}), alike, 10),
             (std::vector<int>{0, 1, 2}));
 }
 
-TEST_F(KeyframesAlikeTest, OfTwoPlacesThatLookTheSameBothAreFound) {
-  Map map = map_of({at(0), at(5)});
+TEST_F(KeyframesAlikeTest, OfTwoPlacesThatLookTheSameBothAreAlike) {
+  Map map = map_of({at(0), at(5), at(10)});
   for (int i = 0; i < 10; ++i) map.landmark(10 + i).descriptor = appearance(i, 4);
-  EXPECT_EQ(keyframes_alike(map, *seeing({{0, 8}}), 100, 64, 10), (std::vector<int>{0, 1}));
+  const std::vector<double> found = resemblance(map, *seeing({{0, 8}}), 100, 64);
+  EXPECT_EQ(found[0], found[1]);
+  EXPECT_GT(found[0], found[2]);
 }
 
 TEST_F(KeyframesAlikeTest, QueriesAreSpreadOverTheFrame) {
   const Map map = map_of({at(0), at(5)});
-  // Every second of 20 features: five of each keyframe.
+  // Every second of 20 features: five of each keyframe, as chance would have it.
   const auto frame = seeing({{0, 10}, {1, 10}});
-  EXPECT_EQ(keyframes_alike(map, *frame, 10, 64, 10), (std::vector<int>{0, 1}));
-  EXPECT_TRUE(keyframes_alike(map, *frame, 8, 64, 10).empty());  // four of each
+  EXPECT_EQ(resemblance(map, *frame, 10, 64), std::vector<double>(2, 0));
 }
 
 TEST_F(KeyframesAlikeTest, RemovedLandmarksDoNotVote) {
-  Map map = map_of({at(0)});
+  Map map = map_of({at(0), at(5)});
   const auto frame = seeing({{0, 6}});
-  EXPECT_EQ(keyframes_alike(map, *frame, 100, 64, 10), (std::vector<int>{0}));
-  for (int i = 0; i < 2; ++i) map.remove_landmark(i);
-  EXPECT_TRUE(keyframes_alike(map, *frame, 100, 64, 10).empty());
+  EXPECT_GT(resemblance(map, *frame, 100, 64)[0], 0);
+  for (int i = 0; i < 6; ++i) map.remove_landmark(i);
+  EXPECT_EQ(resemblance(map, *frame, 100, 64), std::vector<double>(2, 0));
 }
 
 }  // namespace

@@ -146,10 +146,34 @@ TEST_F(RelocaliserTest, FramesThatDisagreeAreNotBelieved) {
   EXPECT_FALSE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(100, truth_)));
   // 1.1 m within 67 ms.
   EXPECT_FALSE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(101, test::straight_way()[2])));
-  // A gap of a blind frame restarts the confirmation.
+  EXPECT_TRUE(relocaliser.has_candidate());
+  // A blind frame between, without wheels, restarts the confirmation.
   EXPECT_FALSE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(102, truth_, {0, 1})));
+  EXPECT_FALSE(relocaliser.has_candidate());
   EXPECT_FALSE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(103, truth_)));
   EXPECT_TRUE(relocaliser.find(made_.map, made_.rig, *aisle_.frame(104, truth_)));
+}
+
+/// Over a blind frame, where the wheels say that the body moved by `wheels` from frame to frame and
+/// it moved 3 cm: what the third frame finds.
+std::optional<Pose> find_over_a_gap(const AisleMap& made, const SyntheticAisle& aisle,
+                                    const Pose& from, double wheels) {
+  Relocaliser relocaliser;
+  std::optional<Pose> found;
+  for (int i = 0; i < 3; ++i) {
+    const Pose at = from * Pose{{1, 0, 0, 0}, {0.03 * i, 0, 0}};
+    const auto frame = i == 1 ? aisle.frame(100 + i, at, {0, 1}) : aisle.frame(100 + i, at);
+    frame->wheels = WheelStep{{{1, 0, 0, 0}, {wheels, 0, 0}}, 1.0 / 15};
+    found = relocaliser.find(made.map, made.rig, *frame);
+  }
+  return found;
+}
+
+// Two steps of 3 cm; wheels may be off by 5 cm and a tenth of the way, 5.6 cm.
+TEST_F(RelocaliserTest, FramesApartAgreeIfTheWheelsSaySo) {
+  EXPECT_TRUE(find_over_a_gap(made_, aisle_, truth_, 0.03));
+  EXPECT_TRUE(find_over_a_gap(made_, aisle_, truth_, 0.055));
+  EXPECT_FALSE(find_over_a_gap(made_, aisle_, truth_, 0.065));
 }
 
 TEST_F(RelocaliserTest, TheSameFrameGivesTheSameBits) {
