@@ -25,12 +25,16 @@ struct RelocaliserOptions {
   double max_speed = 2;        ///< m/s, between two frames in a row that must agree
   double max_turn = 2;         ///< rad/s, likewise
   double max_gap_seconds = 1;  ///< between the two frames
+  bool unsure = false;         ///< also what most matches contradict, if there is a hint of it
 };
 
 /// A pose found in one frame, with the evidence for it.
 struct Relocation {
   Pose T_map_body;
   int inliers = 0;
+  /// Most of the matches say so, of all cameras and of each. Else, only that each camera has more
+  /// matches there than chance gives it where it looks elsewhere: a hint, as under another sun.
+  bool is_sure = true;
   Matrix6d information = Matrix6d::Zero();  ///< as MotionEstimate has it
 };
 
@@ -38,8 +42,8 @@ struct Relocation {
 /// landmarks that resemble them; at each of the best places they are matched with the landmarks
 /// there, and a pose is sought that many of them agree on (three points in one camera: Gao et al.
 /// 2003; RANSAC: Fischler and Bolles 1981), then adjusted over all cameras. None unless the
-/// evidence is strong and no other place fits nearly as well. Draws depend on the frame's index
-/// alone.
+/// evidence is strong (or a hint, if that is asked for) and no other place fits nearly as well.
+/// Draws depend on the frame's index alone.
 std::optional<Relocation> relocate(const Map& map, const EstimatorRig& rig,
                                    const FrameFeatures& frame, const RelocaliserOptions& options);
 
@@ -49,40 +53,45 @@ std::optional<Relocation> relocate_among(const Map& map, const EstimatorRig& rig
                                          const std::vector<int>& keyframes,
                                          const RelocaliserOptions& options);
 
-/// Believes a relocation once two frames, each by itself, agree on it: two in a row, or with others
-/// between them that found nothing, if the wheels say the same of the way from one to the other.
+/// Believes a relocation that is sure once two frames, each by itself, agree on it: two in a row,
+/// or with others between them, if the wheels say the same of the way from one to the other.
+/// Believes hints once three frames agree by the wheels, and two more for each that contradicts.
 /// Looks closely where this frame and those just before it together resemble the map most: under
 /// another sun a place is hardly more like itself than others are.
 class Relocaliser {
  public:
-  explicit Relocaliser(const RelocaliserOptions& options = {}) : options_(options) {}
+  explicit Relocaliser(const RelocaliserOptions& options = {}) : options_(options) {
+    options_.unsure = true;
+  }
 
   /// Whether the last frame resembled a place, which the next one may confirm.
-  bool has_candidate() const { return candidate_ && candidate_->frames == 0; }
+  bool has_candidate() const { return !found_.empty() && found_.back().stamp == stamp_; }
 
   /// The last frame was found otherwise: it confirms no candidate.
-  void forget() { candidate_.reset(); }
+  void forget() { found_.clear(); }
 
   /// The body's pose in the map, or none (yet).
   std::optional<Pose> find(const Map& map, const EstimatorRig& rig, const FrameFeatures& frame);
 
  private:
-  /// What an earlier frame found.
-  struct Candidate {
+  /// What a frame found, lately.
+  struct Found {
     Pose T_map_body;
+    bool is_sure = true;
     Stamp stamp = 0;
-    int frames = 0;                    ///< since then, that found nothing
     std::optional<Pose> way = Pose{};  ///< of the body since then, by its wheels
+    bool is_last = true;               ///< no frame was between
   };
 
   void remember(const std::vector<double>& resemblance, Stamp stamp);
   void follow(const FrameFeatures& frame);
-  bool agree(const Relocation& now, Stamp stamp) const;
+  bool follows_at_once(const Found& before, const Relocation& now, Stamp stamp) const;
+  bool believes(const Relocation& now, Stamp stamp) const;
 
   RelocaliserOptions options_;
   std::vector<double> resemblance_;  ///< of each keyframe, to this frame and those before it
   Stamp stamp_ = 0;                  ///< of the last frame
-  std::optional<Candidate> candidate_;
+  std::vector<Found> found_;         ///< the oldest first
 };
 
 }  // namespace vinebench::slam

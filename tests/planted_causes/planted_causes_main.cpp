@@ -13,6 +13,7 @@
 #include <chrono>
 #include <exception>
 #include <fstream>
+#include <set>
 #include <thread>
 
 #include "core/util/pin_arithmetic.h"
@@ -47,12 +48,13 @@ std::vector<std::size_t> chosen_causes(const std::vector<std::string>& only) {
   return chosen;
 }
 
-/// Two different ones.
+/// Two different ones, in their order.
 std::vector<std::size_t> draw_pair(const std::vector<std::size_t>& chosen, RandomSequence& draw) {
   const int count = static_cast<int>(chosen.size());
   const int one = draw.below(count);
   const int other = (one + 1 + draw.below(count - 1)) % count;
-  return {chosen[static_cast<std::size_t>(one)], chosen[static_cast<std::size_t>(other)]};
+  return {chosen[static_cast<std::size_t>(std::min(one, other))],
+          chosen[static_cast<std::size_t>(std::max(one, other))]};
 }
 
 /// Seed by seed, with an even share of the pairs and controls, so that any first part is a sample.
@@ -68,8 +70,12 @@ std::vector<Case> make_cases(const Options& options) {
       if (!options.without_singles) cases.push_back({{cause}, seed});
     }
     RandomSequence draw(RandomStream(static_cast<std::uint64_t>(seed), "pairs"));
-    for (int k = 0; k < share(options.pairs) && chosen.size() > 1; ++k) {
-      cases.push_back({draw_pair(chosen, draw), seed});
+    const int possible = static_cast<int>(chosen.size() * (chosen.size() - 1) / 2);
+    const int pairs = std::min(share(options.pairs), possible);
+    std::set<std::vector<std::size_t>> drawn;  // each pair once a seed
+    while (std::ssize(drawn) < pairs) {
+      const std::vector<std::size_t> pair = draw_pair(chosen, draw);
+      if (drawn.insert(pair).second) cases.push_back({pair, seed});
     }
     for (int k = 0; k < share(options.controls); ++k) cases.push_back({{}, seed + 100 * k});
   }

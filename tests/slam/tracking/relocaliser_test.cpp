@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+#include <vector>
+
 #include "tests/support/aisle_map.h"
 
 namespace vinebench::slam {
@@ -42,6 +46,22 @@ void blur(FrameFeatures& frame, int bits) {
       }
     }
   }
+}
+
+/// Moves this share of a view's features 7 px of their level aside, each another way: they still are
+/// where they are looked for, look like their landmarks, and contradict the pose.
+void displace(StereoView& view, int percent) {
+  const RandomStream random(11, "displace");
+  std::uint64_t draw = 0;
+  for (Keypoint& keypoint : view.features.keypoints) {
+    const bool is_moved = random.uniform(draw++) * 100 < percent;
+    const double direction = 2 * std::numbers::pi * random.uniform(draw++);
+    if (!is_moved) continue;
+    const double aside = 7 * std::pow(OrbConfig{}.scale, keypoint.level);
+    keypoint.x += static_cast<float>(aside * std::cos(direction));
+    keypoint.y += static_cast<float>(aside * std::sin(direction));
+  }
+  view.grid = FeatureGrid(view.features.keypoints, 752, 480);
 }
 
 class RelocaliserTest : public testing::Test {
@@ -174,6 +194,58 @@ TEST_F(RelocaliserTest, FramesApartAgreeIfTheWheelsSaySo) {
   EXPECT_TRUE(find_over_a_gap(made_, aisle_, truth_, 0.03));
   EXPECT_TRUE(find_over_a_gap(made_, aisle_, truth_, 0.055));
   EXPECT_FALSE(find_over_a_gap(made_, aisle_, truth_, 0.065));
+}
+
+/// Of the front pair's features four fifths are displaced.
+std::shared_ptr<FrameFeatures> unsure_frame(const SyntheticAisle& aisle, std::int64_t index,
+                                            const Pose& at) {
+  auto frame = aisle.frame(index, at);
+  displace(frame->views[0], 80);
+  return frame;
+}
+
+TEST_F(RelocaliserTest, WhatMostMatchesOfACameraContradictIsAHintAtMost) {
+  const auto frame = unsure_frame(aisle_, 100, truth_);
+  EXPECT_FALSE(find(*frame));
+  const auto hint = relocate(made_.map, made_.rig, *frame, {.unsure = true});
+  ASSERT_TRUE(hint);
+  EXPECT_FALSE(hint->is_sure);
+  EXPECT_LT(distance(hint->T_map_body, truth_), 0.005);
+  EXPECT_TRUE(
+      relocate(made_.map, made_.rig, *aisle_.frame(100, truth_), {.unsure = true})->is_sure);
+}
+
+TEST_F(RelocaliserTest, WhatNoMatchOfACameraBearsOutIsNoHint) {
+  const auto frame = aisle_.frame(100, truth_);
+  displace(frame->views[0], 100);
+  EXPECT_FALSE(relocate(made_.map, made_.rig, *frame, {.unsure = true}));
+}
+
+TEST_F(RelocaliserTest, ThreeHintsAreBelievedWhereTheWheelsAgree) {
+  for (const bool wheels : {true, false}) {
+    Relocaliser relocaliser;
+    std::vector<bool> believed;
+    for (int i = 0; i < 4; ++i) {
+      const Pose at = truth_ * Pose{{1, 0, 0, 0}, {0.03 * i, 0, 0}};
+      const auto frame = unsure_frame(aisle_, 100 + i, at);
+      if (wheels) frame->wheels = WheelStep{{{1, 0, 0, 0}, {0.03, 0, 0}}, 1.0 / 15};
+      believed.push_back(relocaliser.find(made_.map, made_.rig, *frame).has_value());
+    }
+    EXPECT_EQ(believed, (std::vector<bool>{false, false, wheels, wheels}));
+  }
+}
+
+// One frame that found another place must be outvoted by two more. The second frame is 1.1 m away.
+TEST_F(RelocaliserTest, HintsThatContradictNeedMore) {
+  Relocaliser relocaliser;
+  std::vector<bool> believed;
+  for (int i = 0; i < 6; ++i) {
+    const Pose at = i == 1 ? truth_ * Pose{{1, 0, 0, 0}, {-1.1, 0, 0}} : truth_;
+    const auto frame = unsure_frame(aisle_, 100 + i, at);
+    frame->wheels = WheelStep{{}, 1.0 / 15};
+    believed.push_back(relocaliser.find(made_.map, made_.rig, *frame).has_value());
+  }
+  EXPECT_EQ(believed, (std::vector<bool>{false, false, false, false, false, true}));
 }
 
 TEST_F(RelocaliserTest, TheSameFrameGivesTheSameBits) {
