@@ -151,7 +151,13 @@ void Pipeline::correct_stereo(FrameFeatures& frame) const {
 
 TrackedFrame Pipeline::locate(const std::shared_ptr<FrameFeatures>& frame) {
   if (started_) return track(frame);
-  if (map_.keyframes().empty()) return initialise(frame);
+  const bool begins = map_.keyframes().empty();
+  TrackedFrame tracked = begins ? initialise(frame) : relocalise(frame);
+  if (tracked.tracked) recovery_.tracked(frame->stamp);
+  return tracked;
+}
+
+TrackedFrame Pipeline::relocalise(const std::shared_ptr<FrameFeatures>& frame) {
   const ScopedTimer timer(times_, "relocalisation");
   TrackedFrame tracked = recovery_.relocalise(frame);
   started_ = tracked.tracked;

@@ -59,6 +59,7 @@ class Pipeline {
   void record_support(const TrackedFrame& tracked);
 
   TrackedFrame initialise(const std::shared_ptr<FrameFeatures>& frame);
+  TrackedFrame relocalise(const std::shared_ptr<FrameFeatures>& frame);
   TrackedFrame track(const std::shared_ptr<FrameFeatures>& frame);
   void find_carried(TrackedFrame& tracked);
   void carry(const Pose& T_map_body, TrackedFrame& tracked);
