@@ -26,7 +26,7 @@ constexpr double kTurnNoise = 2.0 * std::numbers::pi / 180;  // rad
 constexpr double kSlip = 0.1;
 
 /// What the wheels' step may have more or less of time than the frames.
-constexpr double kStepNoise = 0.02;  // s
+constexpr double kStepNoise = 0.05;  // s
 
 /// A camera with fewer matches says nothing for or against a pose.
 constexpr int kMinViewMatches = 12;

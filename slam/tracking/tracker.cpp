@@ -53,6 +53,16 @@ Matrix6d seen_covariance(const Matrix6d& information) {
   return covariance;
 }
 
+/// A vote for each keyframe nearby that is turned by at most `turn`, rad.
+void vote_nearby(const Map& map, const Pose& T_map_body, double turn, std::vector<int>& votes) {
+  for (const Keyframe& keyframe : map.keyframes()) {
+    const Pose T_body_key = T_map_body.inverse() * keyframe.T_map_body;
+    if (T_body_key.translation.norm() < kNearby && angle_of(T_body_key.rotation) <= turn) {
+      ++votes[static_cast<std::size_t>(keyframe.id)];
+    }
+  }
+}
+
 void add_landmarks_of(const Keyframe& keyframe, std::vector<char>& wanted) {
   for (const std::vector<int>& view : keyframe.landmarks) {
     for (const int id : view) {
@@ -73,12 +83,10 @@ std::vector<int> local_landmarks(const Map& map, const std::vector<int>& seen,
       last = o.keyframe;
     }
   }
-  for (const Keyframe& keyframe : map.keyframes()) {
-    const Pose T_body_key = T_map_body.inverse() * keyframe.T_map_body;
-    const bool near =
-        T_body_key.translation.norm() < kNearby && angle_of(T_body_key.rotation) < kSameHeading;
-    if (near) ++votes[static_cast<std::size_t>(keyframe.id)];
-  }
+  vote_nearby(map, T_map_body, kSameHeading, votes);
+  // Turned about, the back pair sees what the front pair saw.
+  const bool none = std::ranges::all_of(votes, [](int vote) { return vote == 0; });
+  if (none) vote_nearby(map, T_map_body, std::numbers::pi, votes);
   std::vector<std::pair<int, int>> ranked;  // negated votes, negated id: the newest first
   for (std::size_t k = 0; k < votes.size(); ++k) {
     if (votes[k] > 0) ranked.emplace_back(-votes[k], -static_cast<int>(k));

@@ -108,7 +108,8 @@ class Tracker {
 };
 
 /// Ids of landmarks that a frame may see: those of the keyframes that share most of `seen`, and of
-/// their covisible ones, and of those made nearby looking the same way; ascending.
+/// their covisible ones, and of those made nearby looking the same way, or any way if there are no
+/// others; ascending.
 std::vector<int> local_landmarks(const Map& map, const std::vector<int>& seen,
                                  const Pose& T_map_body, int at_most_keyframes);
 

@@ -235,7 +235,8 @@ TEST_F(RelocaliserTest, ThreeHintsAreBelievedWhereTheWheelsAgree) {
   }
 }
 
-// One frame that found another place must be outvoted by two more. The second frame is 1.1 m away.
+// The second frame finds a place 1.1 m away: three frames and two more must agree, which are the
+// first, the third and those up to the sixth.
 TEST_F(RelocaliserTest, HintsThatContradictNeedMore) {
   Relocaliser relocaliser;
   std::vector<bool> believed;

@@ -310,6 +310,9 @@ TEST(LocalLandmarksTest, AreThoseOfKeyframesThatShareMostOrAreNear) {
   EXPECT_EQ(local_landmarks(made.map, seen, ahead(0.5), 20), ids_of({0, 1}));
   // The one with most votes where there is room for one.
   EXPECT_EQ(local_landmarks(made.map, seen, ahead(0.5), 1), ids_of({1}));
+  // Turned about there is one that looks the same way, and beside the far one none.
+  EXPECT_EQ(local_landmarks(made.map, {}, ahead(0.5, 3.0), 20), ids_of({2}));
+  EXPECT_EQ(local_landmarks(made.map, {}, ahead(4, 3.0), 20), ids_of({1}));
 }
 
 }  // namespace
