@@ -15,6 +15,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::UnorderedElementsAre;
 
 StretchDrift drift_and_losses(double metres, double lost = 0) {
   return {.metres = metres, .end = metres, .lost = lost};
@@ -93,6 +94,26 @@ class ExplainTest : public test::CourtScenario {
     return config;
   }
 
+  /// A turn of a second with the right camera 40 mm aside, and no images from 0.25 s to `until`.
+  ScenarioConfig aside_without_images(double until) const {
+    ScenarioConfig config = with_dropped_images();
+    sim::CalibrationErrorConfig::Camera error;
+    error.name = "right";
+    error.position.y() = -0.04;
+    config.simulation.sensors.calibration.cameras = {error};
+    config.simulation.route.waypoints.back().heading_deg = 60;
+    config.simulation.duration = 1.01;
+    config.simulation.sensors.drops.bursts[0].until = until;
+    return config;
+  }
+
+  static std::vector<std::string> names_of(const Explanation& explanation,
+                                           const std::vector<std::size_t>& factors) {
+    std::vector<std::string> names;
+    for (const std::size_t i : factors) names.push_back(explanation.factors[i].name);
+    return names;
+  }
+
   ExplainRequest run(const ScenarioConfig& config, const StretchChoice& choice) const {
     RunOptions options;
     options.folder = folder_ / "out";
@@ -131,30 +152,32 @@ TEST_F(ExplainTest, DroppedImagesLoseFrames) {
 // With the right camera 40 of 120 mm aside no frame of a turn is tracked. Where it is as the rig
 // says, those without images are lost.
 TEST_F(ExplainTest, FindsWhatAStrongerCauseHides) {
-  ScenarioConfig config = with_dropped_images();
-  sim::CalibrationErrorConfig::Camera error;
-  error.name = "right";
-  error.position.y() = -0.04;
-  config.simulation.sensors.calibration.cameras = {error};
-  config.simulation.route.waypoints.back().heading_deg = 60;
-  config.simulation.duration = 1.01;
-  config.simulation.sensors.drops.bursts[0].until = 0.51;  // frames 5 to 7 of the stretch
-  ExplainRequest request = run(config, {.number = {}, .from = 0.3, .to = {}});
+  ExplainRequest request = run(aside_without_images(0.51), {.number = {}, .from = 0.3, .to = {}});
   request.pairs = 0;
   const Explanation explanation = explain(request);
   const StretchExplanation& stretch = explanation.stretches.at(0);
   EXPECT_EQ(stretch.was.lost, 11);  // frames 5 to 15
-  const std::vector<std::size_t> causes = stretch.causes();
-  ASSERT_EQ(causes.size(), 2u);
-  EXPECT_EQ(explanation.factors[causes[0]].name, "calibration");
-  EXPECT_EQ(explanation.factors[causes[1]].name, "drops");
+  EXPECT_THAT(names_of(explanation, stretch.causes()), ElementsAre("calibration", "drops"));
   ASSERT_GE(stretch.looks.size(), 2u);
   const Look& rest = stretch.looks[1];
-  EXPECT_THAT(rest.normal.without, ElementsAre(causes[0]));
-  EXPECT_THAT(rest.causes, ElementsAre(causes[1]));
+  EXPECT_THAT(names_of(explanation, rest.normal.without), ElementsAre("calibration"));
+  EXPECT_THAT(names_of(explanation, rest.causes), ElementsAre("drops"));
   EXPECT_EQ(rest.normal.drifts.size(), 3u);  // one rerun, two placebos
   // Each other factor was tried once more.
   EXPECT_EQ(rest.singles.size() + 1, explanation.factors.size());
+}
+
+// The same without images in all of the stretch: either would lose all of its frames.
+TEST_F(ExplainTest, NamesBothOfTwoThatWouldEachDo) {
+  ExplainRequest request = run(aside_without_images(1.02), {.number = {}, .from = 0.3, .to = {}});
+  request.pairs = 0;
+  const Explanation explanation = explain(request);
+  const StretchExplanation& stretch = explanation.stretches.at(0);
+  EXPECT_EQ(stretch.was.lost, 11);
+  const Look& look = stretch.looks.at(0);
+  for (const FactorEffect& single : look.singles) EXPECT_FALSE(single.effect.is_cause());
+  ASSERT_EQ(look.alone.size(), explanation.factors.size());
+  EXPECT_THAT(names_of(explanation, look.causes), UnorderedElementsAre("calibration", "drops"));
 }
 
 TEST_F(ExplainTest, RefusesARunThatItCannotRepeat) {
