@@ -85,11 +85,12 @@ bool is_hint(const Map& map, const EstimatorRig& rig, const FrameFeatures& frame
   for (const double turn : kTurnedAway) {
     const Pose aside = T_map_body * Pose{exp_so3({0, 0, turn}), Eigen::Vector3d::Zero()};
     const std::vector<int> counts = count_matches(map, rig, frame, landmarks, aside, options);
-    for (std::size_t v = 0; v < chance.size(); ++v) chance[v] += counts[v] / std::size(kTurnedAway);
+    for (std::size_t v = 0; v < chance.size(); ++v) chance[v] += counts[v];
   }
   const std::vector<int> counts = count_matches(map, rig, frame, landmarks, T_map_body, options);
   for (std::size_t v = 0; v < chance.size(); ++v) {
     if (frame.views[v].features.size() == 0) continue;
+    chance[v] /= static_cast<double>(std::size(kTurnedAway));
     if (counts[v] < chance[v] + kHintDeviations * std::sqrt(chance[v] + 1)) return false;
   }
   return true;
