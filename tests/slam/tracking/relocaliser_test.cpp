@@ -48,8 +48,8 @@ void blur(FrameFeatures& frame, int bits) {
   }
 }
 
-/// Moves this share of a view's features 7 px of their level aside, each another way: they still are
-/// where they are looked for, look like their landmarks, and contradict the pose.
+/// Moves this share of a view's features 7 px of their level aside, each another way: they still
+/// are where they are looked for, look like their landmarks, and contradict the pose.
 void displace(StereoView& view, int percent) {
   const RandomStream random(11, "displace");
   std::uint64_t draw = 0;
