@@ -131,12 +131,6 @@ std::optional<Relocation> relocate_at(int keyframe, const Map& map, const Estima
 
 }  // namespace
 
-std::optional<Relocation> relocate(const Map& map, const EstimatorRig& rig,
-                                   const FrameFeatures& frame, const RelocaliserOptions& options) {
-  const std::vector<double> alike = resemblance(map, frame, options.queries, options.max_hamming);
-  return relocate_among(map, rig, frame, keyframes_alike(map, alike, options.candidates), options);
-}
-
 std::optional<Relocation> relocate_among(const Map& map, const EstimatorRig& rig,
                                          const FrameFeatures& frame,
                                          const std::vector<int>& keyframes,

@@ -38,16 +38,11 @@ struct Relocation {
   Matrix6d information = Matrix6d::Zero();  ///< as MotionEstimate has it
 };
 
-/// Where in the map a frame was taken, by appearance alone: its features vote for keyframes by the
-/// landmarks that resemble them; at each of the best places they are matched with the landmarks
-/// there, and a pose is sought that many of them agree on (three points in one camera: Gao et al.
-/// 2003; RANSAC: Fischler and Bolles 1981), then adjusted over all cameras. None unless the
-/// evidence is strong (or a hint, if that is asked for) and no other place fits nearly as well.
-/// Draws depend on the frame's index alone.
-std::optional<Relocation> relocate(const Map& map, const EstimatorRig& rig,
-                                   const FrameFeatures& frame, const RelocaliserOptions& options);
-
-/// The same at the places of these keyframes.
+/// Whether a frame was taken near one of these keyframes, by appearance alone: it is matched with
+/// the landmarks of each, and a pose is sought that many of them agree on (three points in one
+/// camera: Gao et al. 2003; RANSAC: Fischler and Bolles 1981), then adjusted over all cameras. None
+/// unless the evidence is strong (or a hint, if that is asked for) and no other place fits nearly
+/// as well. Draws depend on the frame's index alone.
 std::optional<Relocation> relocate_among(const Map& map, const EstimatorRig& rig,
                                          const FrameFeatures& frame,
                                          const std::vector<int>& keyframes,

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "slam/matching/appearance_matcher.h"
 #include "tests/support/aisle_map.h"
 
 namespace vinebench::slam {
@@ -62,6 +63,13 @@ void displace(StereoView& view, int percent) {
     keypoint.y += static_cast<float>(aside * std::sin(direction));
   }
   view.grid = FeatureGrid(view.features.keypoints, 752, 480);
+}
+
+/// By one frame, at the places that it resembles most.
+std::optional<Relocation> relocate(const Map& map, const EstimatorRig& rig,
+                                   const FrameFeatures& frame, const RelocaliserOptions& options) {
+  const std::vector<double> alike = resemblance(map, frame, options.queries, options.max_hamming);
+  return relocate_among(map, rig, frame, keyframes_alike(map, alike, options.candidates), options);
 }
 
 class RelocaliserTest : public testing::Test {
