@@ -352,8 +352,9 @@ std::vector<std::size_t> causes_of(const Look& look) {
 
 std::vector<std::size_t> StretchExplanation::causes() const {
   std::vector<std::size_t> causes;
-  for (const Look& look : looks)
+  for (const Look& look : looks) {
     causes.insert(causes.end(), look.causes.begin(), look.causes.end());
+  }
   return causes;
 }
 
