@@ -17,7 +17,7 @@ packages=(
   # simulation (qhull: Debian's MuJoCo package names its headers)
   libmujoco-dev libqhull-dev libgl-dev libegl-dev libegl-mesa0 libgl1-mesa-dri libassimp-dev libtinygltf-dev
   # vision and optimisation
-  libopencv-dev libeigen3-dev libceres-dev libapriltag-dev
+  libopencv-dev libeigen3-dev libceres-dev libapriltag-dev libhwy-dev
   # statistics
   libboost-math-dev
   # files, text, command line

@@ -5,14 +5,9 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-namespace vinebench::slam {
+#include "slam/features/fast_corners.h"
 
-/// A corner of one pyramid level.
-struct Corner {
-  int x = 0;  ///< px of that level
-  int y = 0;
-  int score = 0;  ///< grey levels: the highest FAST threshold at which it is still a corner
-};
+namespace vinebench::slam {
 
 struct FastCellsConfig {
   int threshold = 20;     ///< grey levels
@@ -21,9 +16,8 @@ struct FastCellsConfig {
   int edge = 19;          ///< px, border of the image that is left out
 };
 
-/// FAST-9 corners (Rosten and Drummond 2006) of a CV_8UC1 image, one pixel apart at least, with
-/// the threshold adapted to each cell. Row by row within the cells of one threshold; none where
-/// the image is smaller than its borders.
+/// FAST-9 corners of a CV_8UC1 image with the threshold adapted to each cell, by row and column;
+/// none where the image is smaller than its borders.
 std::vector<Corner> detect_fast_cells(const cv::Mat& image, const FastCellsConfig& config);
 
 }  // namespace vinebench::slam

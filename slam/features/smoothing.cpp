@@ -7,8 +7,14 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace vinebench::slam {
-namespace {
+// The rows are compiled once for each kind of vectors; the processor's is chosen at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "slam/features/smoothing.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace vinebench::slam::HWY_NAMESPACE {
 
 constexpr int kRadius = 3;
 constexpr int kWeightBits = 7;
@@ -46,6 +52,20 @@ void sum_columns(const std::uint16_t* sums, int columns, std::uint8_t* smoothed)
   }
 }
 
+}  // namespace vinebench::slam::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace vinebench::slam {
+
+HWY_EXPORT(sum_rows);
+HWY_EXPORT(sum_columns);
+
+namespace {
+
+using HWY_NAMESPACE::kRadius;
+using HWY_NAMESPACE::Rows;
+
 int mirror(int i, int count) {
   return cv::borderInterpolate(i, count, cv::BORDER_REFLECT_101);
 }
@@ -63,14 +83,15 @@ cv::Mat smooth(const cv::Mat& image) {
       rows[static_cast<std::size_t>(i + kRadius)] =
           image.ptr<std::uint8_t>(mirror(y + i, image.rows));
     }
-    sum_rows(rows, columns, sums);
+    HWY_DYNAMIC_DISPATCH(sum_rows)(rows, columns, sums);
     for (int i = 1; i <= kRadius; ++i) {
       sums[-i] = sums[mirror(-i, columns)];
       sums[columns - 1 + i] = sums[mirror(columns - 1 + i, columns)];
     }
-    sum_columns(sums, columns, smoothed.ptr<std::uint8_t>(y));
+    HWY_DYNAMIC_DISPATCH(sum_columns)(sums, columns, smoothed.ptr<std::uint8_t>(y));
   }
   return smoothed;
 }
 
 }  // namespace vinebench::slam
+#endif

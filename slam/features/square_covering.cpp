@@ -3,9 +3,11 @@
 #include "slam/features/square_covering.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
+#include <numeric>
+#include <utility>
 
 namespace vinebench::slam {
 namespace {
@@ -13,6 +15,7 @@ namespace {
 /// A result this near to the wanted count ends the bisection.
 constexpr double kTolerance = 0.03;
 constexpr int kMaxSteps = 16;
+constexpr int kScores = 256;  ///< grey levels
 
 /// Covers the image greedily with squares around the strongest corners.
 class Covering {
@@ -52,14 +55,21 @@ class Covering {
   std::vector<Corner> kept_;
 };
 
-/// Strongest first, equals by row, then column: in the order of one number each.
+/// Strongest first, equals by row, then column, in which order corners are found: counting sort.
 void sort_strongest_first(std::vector<Corner>& corners) {
-  const auto rank = [](const Corner& c) {
-    return (static_cast<std::uint64_t>(255 - c.score) << 48) |
-           (static_cast<std::uint64_t>(c.y) << 24) | static_cast<std::uint64_t>(c.x);
+  const auto by_place = [](const Corner& a, const Corner& b) {
+    return std::pair(a.y, a.x) < std::pair(b.y, b.x);
   };
-  std::sort(corners.begin(), corners.end(),
-            [&](const Corner& a, const Corner& b) { return rank(a) < rank(b); });
+  if (!std::is_sorted(corners.begin(), corners.end(), by_place)) {
+    std::sort(corners.begin(), corners.end(), by_place);
+  }
+  std::array<std::size_t, kScores + 1> begins{};
+  const auto rank = [](const Corner& c) { return static_cast<std::size_t>(kScores - 1 - c.score); };
+  for (const Corner& corner : corners) ++begins[rank(corner) + 1];
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  std::vector<Corner> sorted(corners.size());
+  for (const Corner& corner : corners) sorted[begins[rank(corner)]++] = corner;
+  corners.swap(sorted);
 }
 
 }  // namespace
