@@ -6,15 +6,14 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
+
+#include "slam/patches/warped_window.h"
 
 namespace vinebench::slam {
 namespace {
 
-constexpr int kAlignedRadius = 5;
-constexpr int kAlignedSide = 2 * kAlignedRadius + 1;
 constexpr int kAlignedArea = kAlignedSide * kAlignedSide;
 constexpr int kSearch = 5;          ///< px, whole shifts tried on either side of the guess
 constexpr int kAlignmentSteps = 5;  ///< of Gauss-Newton
@@ -24,11 +23,7 @@ constexpr double kMaxCorrection =
 /// Slopes are expected within about 0.4 px a pixel, and pixels to agree within about 4 grey levels.
 constexpr double kSlopePrior = (4.0 / 0.4) * (4.0 / 0.4);
 
-/// Rows of a window lie one more pixel apart than they have, a round number for the processor; what
-/// stands there does not count.
-constexpr int kPitch = 12;
 constexpr int kLanes = 4;
-using PitchedWindow = std::array<float, kAlignedSide * kPitch>;
 using Vector3f = Eigen::Vector3f;
 
 /// Sum of products, in a fixed order whatever the processor's width.
@@ -44,7 +39,7 @@ float dot(const PitchedWindow& a, const PitchedWindow& b) {
 const PitchedWindow& ones() {
   static const PitchedWindow window = [] {
     PitchedWindow w;
-    for (std::size_t i = 0; i < w.size(); ++i) w[i] = i % kPitch < kAlignedSide ? 1.0F : 0.0F;
+    for (std::size_t i = 0; i < w.size(); ++i) w[i] = i % kWindowPitch < kAlignedSide ? 1.0F : 0.0F;
     return w;
   }();
   return window;
@@ -179,43 +174,13 @@ int search_whole(const cv::Mat& left, const cv::Mat& right, int x, int y, int gu
   return best == first || best == last ? -1 : best;
 }
 
-/// Cubic interpolation (Catmull-Rom) at twelve places of a row. Four neighbours each are read as
-/// one word and taken apart in parallel.
-void sample(const std::uint8_t* row, const std::array<float, kPitch>& x, float* grey) {
-  static_assert(std::endian::native == std::endian::little);
-  std::array<std::int32_t, kPitch> whole;
-  std::array<std::uint32_t, kPitch> word;
-  for (std::size_t k = 0; k < kPitch; ++k) whole[k] = static_cast<std::int32_t>(x[k]);
-  for (std::size_t k = 0; k < kPitch; ++k) std::memcpy(&word[k], row + whole[k] - 1, 4);
-  for (std::size_t k = 0; k < kPitch; ++k) {
-    const auto tap = [&](int i) {
-      return static_cast<float>(static_cast<std::int32_t>((word[k] >> (8 * i)) & 255U));
-    };
-    const float f = x[k] - static_cast<float>(whole[k]);
-    const float a = tap(0);
-    const float b = tap(1);
-    const float c = tap(2);
-    const float d = tap(3);
-    grey[k] = b + 0.5F * f * (c - a + f * (2 * a - 5 * b + 4 * c - d + f * (3 * (b - c) + d - a)));
-  }
-}
-
 /// Right window under (position, slope along x, slope along y), less the left one.
 bool compare(const cv::Mat& right, int y, const Vector3f& p, const PitchedWindow& left,
              PitchedWindow& residual) {
   const float reach = kAlignedRadius * (1 + std::abs(p[1]) + std::abs(p[2]));
   if (!(p[0] - reach >= 1) || !(p[0] + reach < static_cast<float>(right.cols - 2))) return false;
-  std::array<float, kPitch> x;
-  for (int row = 0; row < kAlignedSide; ++row) {
-    const float centre = p[0] + p[2] * static_cast<float>(row - kAlignedRadius);
-    for (int k = 0; k < kPitch; ++k) {
-      x[static_cast<std::size_t>(k)] =
-          centre + (1 + p[1]) * static_cast<float>(std::min(k, kAlignedSide - 1) - kAlignedRadius);
-    }
-    sample(right.ptr<std::uint8_t>(y - kAlignedRadius + row), x,
-           &residual[static_cast<std::size_t>(row * kPitch)]);
-  }
-  for (std::size_t i = 0; i < residual.size(); ++i) residual[i] -= left[i];
+  warped_difference(right.ptr<std::uint8_t>(y), static_cast<std::ptrdiff_t>(right.step[0]),
+                    {p[0], p[1], p[2]}, left, residual);
   return true;
 }
 
