@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "tests/support/test_scene.h"
 
 namespace vinebench::sim {
@@ -33,6 +37,33 @@ TEST_F(GlareTest, SaturatesAtTheSunAndFallsOffWithTheAngle) {
   // The veil: (80 / 255)^2.2 = 0.078 of light, 0.02 and 0.22 / (1 + (37 / 5)^2) = 0.004 more of it,
   // encoded 255 * 0.102^(1 / 2.2) = 90.
   EXPECT_NEAR(far, 90, 1);
+}
+
+TEST_F(GlareTest, AnyAngleIsAsDefined) {
+  for (const Eigen::Vector3d& sun :
+       {ahead_, Eigen::Vector3d(0.9, 0.3, 1), Eigen::Vector3d(-0.2, -0.5, 1)}) {
+    for (const double exposure : {0.3, 1.0, 5.0}) {
+      rgb_.setTo(cv::Scalar::all(kGrey));
+      add_glare(rgb_, labels_, camera_, sun, light_, exposure);
+      ASSERT_NE(green(0, 0), kGrey) << "the sun is in the image";
+      for (int y = 0; y < rgb_.rows; ++y) {
+        for (int x = 0; x < rgb_.cols; ++x) {
+          const Eigen::Vector3d ray((x - camera_.cx) / camera_.fx, (y - camera_.cy) / camera_.fy,
+                                    1);
+          const double angle =
+              std::atan2(ray.cross(sun).norm(), ray.dot(sun)) * 180 / std::numbers::pi;
+          const double spread =
+              6 * std::exp(-std::pow(angle / 0.8, 2)) + 0.22 / (1 + std::pow(angle / 5, 2)) + 0.02;
+          const double light =
+              std::min(1.0, std::pow(kGrey / 255.0, 2.2) +
+                                exposure * spread * static_cast<double>(light_.sun.y()));
+          // Rounded once by the table of its square root, a 16th of a grey level, and once to a
+          // byte.
+          ASSERT_NEAR(green(x, y), 255 * std::pow(light, 1 / 2.2), 0.57) << angle << " degrees";
+        }
+      }
+    }
+  }
 }
 
 TEST_F(GlareTest, ACoveredSunOrOneOutOfTheImageChangesNothing) {
