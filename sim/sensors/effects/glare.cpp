@@ -10,22 +10,28 @@
 #include <optional>
 #include <vector>
 
+#include "sim/render/image_encoding.h"
+
 namespace vinebench::sim {
 namespace {
 
-constexpr double kGamma = 2.2;
 constexpr double kDegree = 3.14159265358979 / 180;
 constexpr double kDisc = 0.27 * kDegree;  // rad, the sun's radius
 
+// Shaped after the glare spread of a clean lens.
+constexpr double kHalo = 0.22;      // in the middle
+constexpr double kHaloDegrees = 5;  // where it is half of that
+constexpr double kVeil = 0.02;
+
 /// Linear light added at an angle (rad) from the sun, per unit of its light: the disc with its
-/// bloom, a halo of scattering glass, and a veil. Shaped after the glare spread of a clean lens.
+/// bloom, a halo of scattering glass, and a veil.
 double spread(double angle) {
   constexpr double kBloom = 6;  // degrees; beyond, it is below the last bit of the halo
   const double degrees = angle / kDegree;
   const double bloom = degrees > kBloom ? 0 : 6.0 * std::exp(-degrees * degrees / (0.8 * 0.8));
-  const double fifths = degrees / 5.0;
-  const double halo = 0.22 / (1 + fifths * fifths);
-  return bloom + halo + 0.02;
+  const double widths = degrees / kHaloDegrees;
+  const double halo = kHalo / (1 + widths * widths);
+  return bloom + halo + kVeil;
 }
 
 /// The light that `strength` of the sun, in the direction of a unit vector, adds along a ray.
@@ -76,12 +82,12 @@ class SquaredAngles {
 void spread_along_row(const Eigen::ArrayXd& rays_x, double ray_y, const Eigen::Vector3d& sun,
                       double strength, std::vector<float>& lights) {
   static const SquaredAngles squared_angle;
-  constexpr double kFifth = 1 / (25 * kDegree * kDegree);
+  constexpr double kPerWidth = 1 / (kHaloDegrees * kHaloDegrees * kDegree * kDegree);
   constexpr double kError = 1e-10;
   const Eigen::ArrayXd u = 1 - (rays_x * sun.x() + (ray_y * sun.y() + sun.z())) /
                                    (rays_x.square() + (ray_y * ray_y + 1)).sqrt();
   const Eigen::ArrayXd squares = u.unaryExpr([](double value) { return squared_angle(value); });
-  const Eigen::ArrayXd light = strength * (0.22 / (1 + kFifth * squares) + 0.02);
+  const Eigen::ArrayXd light = strength * (kHalo / (1 + kPerWidth * squares) + kVeil);
   const Eigen::ArrayXf low = (light * (1 - kError)).cast<float>();
   const Eigen::ArrayXf high = (light * (1 + kError)).cast<float>();
   for (Eigen::Index x = 0; x < rays_x.size(); ++x) {
@@ -110,7 +116,7 @@ double uncovered(const cv::Mat& labels, const PinholeCamera& camera, const Eigen
 std::array<float, 256> decoding_table() {
   std::array<float, 256> table{};
   for (std::size_t i = 0; i < table.size(); ++i) {
-    table[i] = static_cast<float>(std::pow(static_cast<double>(i) / 255, kGamma));
+    table[i] = static_cast<float>(light_of_code(static_cast<double>(i)));
   }
   return table;
 }
@@ -120,11 +126,11 @@ std::array<float, 256> decoding_table() {
 std::uint8_t encoded(float light) {
   constexpr int kSteps = 4096;
   const double root = std::floor(kSteps * std::sqrt(light) + 0.5) / kSteps;
-  return static_cast<std::uint8_t>(std::lround(255 * std::pow(root * root, 1 / kGamma)));
+  return static_cast<std::uint8_t>(std::lround(code_of_light(root * root)));
 }
 
-/// `encoded` from a table over the first bits of the float: two neighbours of a cell differ by less
-/// than a byte's step, so that there is at most one where the next byte begins.
+/// `encoded` from a table over the first bits of the float: a cell's lights differ by less than a
+/// byte's step, so that the next byte begins at most once in it.
 class Encoder {
  public:
   Encoder() {

@@ -3,7 +3,6 @@
 #include "slam/features/fast_corners.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <opencv2/features2d.hpp>
 #include <ostream>
@@ -12,6 +11,7 @@
 #include "core/util/random.h"
 #include "slam/features/smoothing.h"
 #include "tests/support/synthetic_texture.h"
+#include "tests/support/vector_kinds.h"
 
 namespace vinebench::slam {
 
@@ -111,16 +111,10 @@ TEST(FastCorners, AndSmoothingHaveTheSameBitsWithEveryKindOfVectors) {
   const cv::Mat image = noise(333, 90, 3);
   const std::vector<Corner> corners = fast_corners(image, whole(image), 3);
   const cv::Mat smoothed = smooth(image);
-  const std::int64_t supported = hwy::SupportedTargets();
-  for (std::int64_t left = supported; left != 0; left &= left - 1) {
-    const std::int64_t target = left & -left;
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().DeInit();
-    EXPECT_EQ(fast_corners(image, whole(image), 3), corners) << hwy::TargetName(target);
-    EXPECT_EQ(cv::norm(smooth(image), smoothed, cv::NORM_INF), 0) << hwy::TargetName(target);
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().DeInit();
+  test::with_each_kind_of_vectors([&] {
+    EXPECT_EQ(fast_corners(image, whole(image), 3), corners);
+    EXPECT_EQ(cv::norm(smooth(image), smoothed, cv::NORM_INF), 0);
+  });
 }
 
 }  // namespace

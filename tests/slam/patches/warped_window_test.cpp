@@ -3,12 +3,12 @@
 #include "slam/patches/warped_window.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <cmath>
 #include <opencv2/core.hpp>
 
 #include "tests/support/synthetic_texture.h"
+#include "tests/support/vector_kinds.h"
 
 namespace vinebench::slam {
 namespace {
@@ -75,15 +75,7 @@ TEST_F(WarpedWindow, TakesTheWindowAway) {
 TEST_F(WarpedWindow, HasTheSameBitsWithEveryKindOfVectors) {
   const WindowWarp warp{31.37F, -0.03F, 0.11F};
   const PitchedWindow expected = difference(warp);
-  const std::int64_t supported = hwy::SupportedTargets();
-  for (std::int64_t left = supported; left != 0; left &= left - 1) {
-    const std::int64_t target = left & -left;
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().DeInit();
-    EXPECT_EQ(difference(warp), expected) << hwy::TargetName(target);
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().DeInit();
+  test::with_each_kind_of_vectors([&] { EXPECT_EQ(difference(warp), expected); });
 }
 
 }  // namespace
