@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 
 #include "core/util/error.h"
@@ -11,6 +12,13 @@
 
 namespace vinebench::slam {
 namespace {
+
+/// Structure runs along one diagonal on the left of an image and along the other on the right, so
+/// that rows that are off stretch disparities. Where self-calibration finds what is wrong with the
+/// columns, rows are put straight that are off by little. Of one pair alone it does not, and what
+/// is off at the image's edge alone (distortion) is better left there.
+constexpr RowTolerance kRowsOfSeveralPairs{0.1, 0.1};
+constexpr RowTolerance kRowsOfOnePair{0.5, std::numeric_limits<double>::infinity()};
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
@@ -30,7 +38,8 @@ FrontEnd::FrontEnd(const FrontEndSettings& settings, const StereoRig& rig,
   right_.resize(rig_.pairs.size());
   right_images_.resize(rig_.pairs.size());
   balances_.resize(rig_.pairs.size());
-  for (const RectifiedPair& pair : rig_.pairs) alignments_.emplace_back(pair.lens);
+  const RowTolerance tolerance = rig_.pairs.size() == 1 ? kRowsOfOnePair : kRowsOfSeveralPairs;
+  for (const RectifiedPair& pair : rig_.pairs) alignments_.emplace_back(pair.lens, tolerance);
   sightings_.resize(rig_.tag_cameras.size());
 }
 

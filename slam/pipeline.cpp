@@ -34,7 +34,8 @@ bool is_accuracy_told(const SlamConfig& config) {
   return told.position != usual.position || told.rotation_deg != usual.rotation_deg ||
          told.disparity_slope != usual.disparity_slope || told.focal != usual.focal ||
          told.baseline != usual.baseline || told.time != usual.time ||
-         told.readout != usual.readout ||
+         told.readout != usual.readout || told.principal_point != usual.principal_point ||
+         told.right_turn_deg != usual.right_turn_deg || told.right_ahead != usual.right_ahead ||
          config.stereo.calibration_sigma != StereoConfig{}.calibration_sigma;
 }
 

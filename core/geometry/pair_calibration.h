@@ -18,6 +18,12 @@ struct PairCalibration {
   double baseline = 0;  ///< share that the baseline is longer
   double time = 0;      ///< s that images are taken later than they are stamped, at half height
   double readout = 0;   ///< s from the first row to the last
+  /// px that the principal points of both cameras are to the right and below.
+  Eigen::Vector2d principal_point = Eigen::Vector2d::Zero();
+  /// rad that the right camera is turned by about the left one's axes, beside what disparity_offset
+  /// has of it in the middle of the image.
+  Eigen::Vector3d right_turn = Eigen::Vector3d::Zero();
+  double right_ahead = 0;  ///< share of the baseline that the right camera is ahead of the left one
 };
 
 }  // namespace vinebench

@@ -136,6 +136,7 @@ void TickEvents::add_calibration() {
   for (const PairCalibration& pair : pairs) {
     const Eigen::Vector3d& p = pair.T_nominal_camera.translation;
     const Eigen::Vector3d turn = log_so3(pair.T_nominal_camera.rotation) * 180 / std::numbers::pi;
+    const Eigen::Vector3d eye = pair.right_turn * 180 / std::numbers::pi;
     found.push_back({{"position_m", {p.x(), p.y(), p.z()}},
                      {"rotation_deg", {turn.x(), turn.y(), turn.z()}},
                      {"disparity_offset_px", pair.disparity_offset},
@@ -143,7 +144,10 @@ void TickEvents::add_calibration() {
                      {"focal", pair.focal},
                      {"baseline", pair.baseline},
                      {"time_s", pair.time},
-                     {"readout_s", pair.readout}});
+                     {"readout_s", pair.readout},
+                     {"principal_point_px", {pair.principal_point.x(), pair.principal_point.y()}},
+                     {"right_turn_deg", {eye.x(), eye.y(), eye.z()}},
+                     {"right_ahead", pair.right_ahead}});
   }
   add("calibrated", {{"pairs", found}});
 }

@@ -13,6 +13,9 @@ namespace {
 /// Of more pairs the numbers of all are wrong together: there were too many sets of causes.
 constexpr Eigen::Index kMostPairsApart = 2;
 
+/// Sets of causes that are less likely change nothing.
+constexpr double kLeastWeight = 1e-9;
+
 /// Numbers that differ from the rig file together.
 using Cause = std::vector<Eigen::Index>;
 
@@ -30,14 +33,20 @@ std::vector<Cause> possible_causes(Eigen::Index unknowns) {
   std::vector<Cause> causes{
       of_all_pairs(PairNumber::kPlace, 3), of_all_pairs(PairNumber::kDirection, 3),
       of_all_pairs(PairNumber::kBaseline, 1), of_all_pairs(PairNumber::kTime, 1)};
-  for (const Eigen::Index number : {PairNumber::kDisparityOffset, PairNumber::kDisparitySlope,
-                                    PairNumber::kFocal, PairNumber::kReadout}) {
+  struct Range {
+    Eigen::Index first, count;
+  };
+  for (const auto& [first, count] :
+       {Range{PairNumber::kDisparityOffset, 1}, Range{PairNumber::kDisparitySlope, 1},
+        Range{PairNumber::kFocal, 1}, Range{PairNumber::kReadout, 1},
+        Range{PairNumber::kPrincipalPoint, 6}}) {
     if (unknowns > kMostPairsApart * kPairUnknowns) {
-      causes.push_back(of_all_pairs(number, 1));
+      causes.push_back(of_all_pairs(first, count));
       continue;
     }
     for (Eigen::Index pair = 0; pair < unknowns; pair += kPairUnknowns) {
-      causes.push_back({pair + number});
+      Cause& cause = causes.emplace_back();
+      for (Eigen::Index i = 0; i < count; ++i) cause.push_back(pair + first + i);
     }
   }
   return causes;
@@ -52,54 +61,99 @@ std::vector<Eigen::Index> numbers_of(const std::vector<Cause>& causes, std::size
   return numbers;
 }
 
-double log_determinant(const Eigen::LDLT<Eigen::MatrixXd>& of) {
-  return of.vectorD().array().log().sum();
-}
+/// What a belief says of some numbers while the others are as the rig file has them. Numbers are
+/// added and taken off at the end, each for the price of a row of a Cholesky factor.
+class Subset {
+ public:
+  explicit Subset(const CalibrationBelief& belief)
+      : belief_(belief),
+        factor_(Eigen::MatrixXd::Zero(belief.information.rows(), belief.information.cols())),
+        solved_(Eigen::VectorXd::Zero(belief.information.rows())) {}
 
-/// What a belief says where some numbers alone differ from the rig file.
-struct Explanation {
-  std::vector<Eigen::Index> numbers;
-  Eigen::VectorXd mean;
-  Eigen::MatrixXd covariance;
-  double log_weight = 0;  ///< against the rig file as it is
+  void add(Eigen::Index number) {
+    const auto n = static_cast<Eigen::Index>(numbers_.size());
+    const auto factor = factor_.topLeftCorner(n, n).triangularView<Eigen::Lower>();
+    const Eigen::VectorXd row = factor.solve(belief_.information(numbers_, number));
+    const double pivot = std::sqrt(belief_.information(number, number) - row.squaredNorm());
+    factor_.row(n).head(n) = row.transpose();
+    factor_(n, n) = pivot;
+    solved_[n] = (belief_.information_vector[number] - row.dot(solved_.head(n))) / pivot;
+    numbers_.push_back(number);
+  }
+  void remove(std::size_t count) { numbers_.resize(numbers_.size() - count); }
+
+  /// Logarithm of the integral of the belief over these numbers, but for powers of 2 pi.
+  double log_integral() const {
+    const auto n = static_cast<Eigen::Index>(numbers_.size());
+    return 0.5 * solved_.head(n).squaredNorm() - factor_.diagonal().head(n).array().log().sum();
+  }
+
+ private:
+  const CalibrationBelief& belief_;
+  std::vector<Eigen::Index> numbers_;
+  Eigen::MatrixXd factor_;
+  Eigen::VectorXd solved_;
 };
 
-Explanation explain_by(const CalibrationBelief& now, const CalibrationBelief& prior,
-                       std::vector<Eigen::Index> numbers) {
-  const Eigen::LDLT<Eigen::MatrixXd> information(now.information(numbers, numbers));
-  const Eigen::LDLT<Eigen::MatrixXd> before(prior.information(numbers, numbers));
-  const Eigen::VectorXd vector = now.information_vector(numbers);
-  const auto count = static_cast<Eigen::Index>(numbers.size());
-  const Eigen::VectorXd mean = information.solve(vector);
-  const double log_evidence =
-      0.5 * (vector.dot(mean) - log_determinant(information) + log_determinant(before));
-  return {std::move(numbers), mean, information.solve(Eigen::MatrixXd::Identity(count, count)),
-          log_evidence};
-}
+/// Logarithms of the evidence of all sets of causes, against the rig file as it is.
+class Evidence {
+ public:
+  Evidence(const CalibrationBelief& now, const CalibrationBelief& prior,
+           const std::vector<Cause>& causes)
+      : causes_(causes), now_(now), prior_(prior), logarithms_(std::size_t{1} << causes.size()) {
+    visit(0, 0);
+  }
+  const std::vector<double>& logarithms() const { return logarithms_; }
+
+ private:
+  /// All sets of the causes from `next` on beside those of `set`.
+  void visit(std::size_t set, std::size_t next) {
+    logarithms_[set] = now_.log_integral() - prior_.log_integral();
+    for (std::size_t c = next; c < causes_.size(); ++c) {
+      for (const Eigen::Index number : causes_[c]) {
+        now_.add(number);
+        prior_.add(number);
+      }
+      visit(set | std::size_t{1} << c, c + 1);
+      now_.remove(causes_[c].size());
+      prior_.remove(causes_[c].size());
+    }
+  }
+
+  const std::vector<Cause>& causes_;
+  Subset now_;
+  Subset prior_;
+  std::vector<double> logarithms_;
+};
 
 }  // namespace
 
 CalibrationAverage average(const CalibrationBelief& now, const CalibrationBelief& prior) {
   const Eigen::Index size = now.information_vector.size();
   const std::vector<Cause> causes = possible_causes(size);
-  const std::size_t sets = std::size_t{1} << causes.size();
-  std::vector<Explanation> explanations;
-  double most = 0;  // the rig file's own
+  std::vector<double> logarithms = Evidence(now, prior, causes).logarithms();
+  const std::size_t sets = logarithms.size();
   for (std::size_t set = 1; set < sets; ++set) {
-    explanations.push_back(explain_by(now, prior, numbers_of(causes, set)));
-    explanations.back().log_weight -= std::log(static_cast<double>(sets - 1));
-    most = std::max(most, explanations.back().log_weight);
+    logarithms[set] -= std::log(static_cast<double>(sets - 1));
   }
-  double sum = std::exp(-most);
-  for (const Explanation& e : explanations) sum += std::exp(e.log_weight - most);
+  const double most = *std::ranges::max_element(logarithms);
+  double sum = 0;
+  for (const double logarithm : logarithms) sum += std::exp(logarithm - most);
 
   CalibrationAverage found{Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size),
-                           std::exp(-most) / sum};
+                           std::exp(logarithms[0] - most) / sum};
   Eigen::MatrixXd& moments = found.covariance;  // about the rig file, at first
-  for (const Explanation& e : explanations) {
-    const double weight = std::exp(e.log_weight - most) / sum;
-    found.mean(e.numbers) += weight * e.mean;
-    moments(e.numbers, e.numbers) += weight * (e.covariance + e.mean * e.mean.transpose());
+  for (std::size_t set = 1; set < sets; ++set) {
+    const double weight = std::exp(logarithms[set] - most) / sum;
+    if (weight < kLeastWeight) continue;
+    const std::vector<Eigen::Index> numbers = numbers_of(causes, set);
+    const Eigen::LDLT<Eigen::MatrixXd> information(now.information(numbers, numbers));
+    const Eigen::VectorXd mean = information.solve(now.information_vector(numbers));
+    const auto count = static_cast<Eigen::Index>(numbers.size());
+    found.mean(numbers) += weight * mean;
+    moments(numbers, numbers) +=
+        weight *
+        (information.solve(Eigen::MatrixXd::Identity(count, count)) + mean * mean.transpose());
   }
   moments -= found.mean * found.mean.transpose();
   return found;

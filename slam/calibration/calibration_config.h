@@ -16,6 +16,9 @@ struct CalibrationConfig {
   double baseline = 0.003;         ///< share
   double time = 0.005;             ///< s
   double readout = 0.02;           ///< s
+  double principal_point = 1;      ///< px
+  double right_turn_deg = 0.1;     ///< degrees
+  double right_ahead = 0.003;      ///< share of the baseline
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -26,6 +29,9 @@ struct CalibrationConfig {
     archive("baseline", baseline, Range::positive());
     archive("time", time, Range::positive());
     archive("readout", readout, Range::positive());
+    archive("principal_point", principal_point, Range::positive());
+    archive("right_turn_deg", right_turn_deg, Range::positive());
+    archive("right_ahead", right_ahead, Range::positive());
   }
 };
 

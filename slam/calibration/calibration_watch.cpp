@@ -72,7 +72,10 @@ CalibrationBelief belief_of(const CalibrationConfig& accuracy, double disparity_
   Eigen::Matrix<double, kPairUnknowns, 1> sigma;
   sigma << Eigen::Vector3d::Constant(accuracy.position),
       Eigen::Vector3d::Constant(accuracy.rotation_deg * std::numbers::pi / 180), disparity_sigma,
-      accuracy.disparity_slope, accuracy.focal, accuracy.baseline, accuracy.time, accuracy.readout;
+      accuracy.disparity_slope, accuracy.focal, accuracy.baseline, accuracy.time, accuracy.readout,
+      Eigen::Vector2d::Constant(accuracy.principal_point),
+      Eigen::Vector3d::Constant(accuracy.right_turn_deg * std::numbers::pi / 180),
+      accuracy.right_ahead;
   if (rig.rig.pairs.size() == 1) {
     sigma *= kExact;
     sigma[PairNumber::kDisparityOffset] = disparity_sigma;

@@ -16,20 +16,34 @@ struct StereoCameraModel {
   double baseline = 0;
   double disparity_offset = 0;  ///< px
   double disparity_slope = 0;
-  double time_offset = 0;  ///< s
-  double readout = 0;      ///< s
+  Eigen::Vector3d right_turn = Eigen::Vector3d::Zero();  ///< rad
+  double right_ahead = 0;                                ///< share of the baseline
+  double time_offset = 0;                                ///< s
+  double readout = 0;                                    ///< s
 
-  /// px that the disparities of a column are measured too small.
-  double disparity_error(double x) const {
-    return disparity_offset + disparity_slope * (x - lens.cx);
+  /// px that the disparity of what is seen at a pixel of the left camera is measured too small.
+  /// What the right camera's place ahead makes of it, of a disparity, comes to that.
+  double disparity_error(const Eigen::Vector2d& pixel, double disparity) const {
+    const double right = (pixel.x() - lens.cx - disparity) / lens.fx;  // slope of the right ray
+    const double down = (pixel.y() - lens.cy) / lens.fy;
+    return disparity_offset +
+           lens.fx * (disparity_slope * right + right_turn.x() * right * down -
+                      right_turn.y() * right * right + right_turn.z() * down) +
+           right_ahead * disparity * right;
   }
-  /// m along the optical axis, of a disparity (px) measured at a column.
-  double depth_of(double x, double disparity) const {
-    return lens.fx * baseline / (disparity + disparity_error(x));
+  /// m along the optical axis, of a disparity (px) measured at a pixel.
+  double depth_of(const Eigen::Vector2d& pixel, double disparity) const {
+    const double near = disparity + disparity_error(pixel, disparity);
+    return lens.fx * baseline / (disparity + disparity_error(pixel, near));
   }
   /// px that a point in that depth (m) is measured at.
-  double disparity_of(double x, double depth) const {
-    return lens.fx * baseline / depth - disparity_error(x);
+  double disparity_of(const Eigen::Vector2d& pixel, double depth) const {
+    const double disparity = lens.fx * baseline / depth;
+    return disparity - disparity_error(pixel, disparity);
+  }
+  bool has_disparity_errors() const {
+    return disparity_offset != 0 || disparity_slope != 0 || !right_turn.isZero(0) ||
+           right_ahead != 0;
   }
   /// s after the stamp that a row is exposed.
   double time_of(double y) const { return time_offset + readout * (y / lens.height - 0.5); }
@@ -45,6 +59,10 @@ inline StereoCameraModel calibrated(const StereoCameraModel& nominal, const Pair
   camera.baseline *= 1 + pair.baseline;
   camera.disparity_offset = pair.disparity_offset;
   camera.disparity_slope = pair.disparity_slope;
+  camera.lens.cx += pair.principal_point.x();
+  camera.lens.cy += pair.principal_point.y();
+  camera.right_turn = pair.right_turn;
+  camera.right_ahead = pair.right_ahead;
   camera.time_offset = pair.time;
   camera.readout = pair.readout;
   return camera;

@@ -12,7 +12,8 @@ Eigen::VectorXd to_vector(const std::vector<PairCalibration>& pairs) {
   for (const PairCalibration& pair : pairs) {
     unknowns.segment<kPairUnknowns>(at) << pair.T_nominal_camera.translation,
         log_so3(pair.T_nominal_camera.rotation), pair.disparity_offset, pair.disparity_slope,
-        pair.focal, pair.baseline, pair.time, pair.readout;
+        pair.focal, pair.baseline, pair.time, pair.readout, pair.principal_point, pair.right_turn,
+        pair.right_ahead;
     at += kPairUnknowns;
   }
   return unknowns;
@@ -21,8 +22,12 @@ Eigen::VectorXd to_vector(const std::vector<PairCalibration>& pairs) {
 std::vector<PairCalibration> from_vector(const Eigen::VectorXd& unknowns) {
   std::vector<PairCalibration> pairs;
   for (Eigen::Index at = 0; at < unknowns.size(); at += kPairUnknowns) {
-    pairs.push_back({step_of(unknowns.segment<6>(at)), unknowns[at + 6], unknowns[at + 7],
-                     unknowns[at + 8], unknowns[at + 9], unknowns[at + 10], unknowns[at + 11]});
+    const auto numbers = unknowns.segment<kPairUnknowns>(at);
+    pairs.push_back({step_of(numbers.head<6>()), numbers[PairNumber::kDisparityOffset],
+                     numbers[PairNumber::kDisparitySlope], numbers[PairNumber::kFocal],
+                     numbers[PairNumber::kBaseline], numbers[PairNumber::kTime],
+                     numbers[PairNumber::kReadout], numbers.segment<2>(PairNumber::kPrincipalPoint),
+                     numbers.segment<3>(PairNumber::kRightTurn), numbers[PairNumber::kRightAhead]});
   }
   return pairs;
 }

@@ -10,9 +10,9 @@
 namespace vinebench::slam {
 
 /// Numbers of a pair's calibration: where its left camera is off, in the step of step_of (camera
-/// frame: m, then rad), and the other six of PairCalibration in their order.
-inline constexpr int kPairUnknowns = 12;
-inline constexpr int kLensUnknowns = 6;
+/// frame: m, then rad), and the others of PairCalibration in their order.
+inline constexpr int kPairUnknowns = 18;
+inline constexpr int kLensUnknowns = kPairUnknowns - 6;
 
 /// Where each of them begins among the pair's.
 struct PairNumber {
@@ -24,7 +24,10 @@ struct PairNumber {
     kFocal,
     kBaseline,
     kTime,
-    kReadout
+    kReadout,
+    kPrincipalPoint,
+    kRightTurn = kPrincipalPoint + 2,
+    kRightAhead = kRightTurn + 3
   };
 };
 

@@ -12,6 +12,14 @@ namespace vinebench::slam {
 /// Nearer than this the projection says nothing.
 inline constexpr double kMinDepth = 0.02;  // m
 
+/// Derivative of StereoCameraModel::disparity_error by the right column, px per px: `right` and
+/// `down` are slopes of the ray, `disparity` in px.
+inline double error_by_right_ray(const StereoCameraModel& camera, double right, double down,
+                                 double disparity) {
+  return camera.disparity_slope + camera.right_turn.x() * down - 2 * camera.right_turn.y() * right +
+         camera.right_ahead * disparity / camera.lens.fx;
+}
+
 /// Rows: d(u, v, u_right) / d(p_cam), px per m.
 inline Eigen::Matrix3d projection_jacobian(const StereoCameraModel& camera,
                                            const Eigen::Vector3d& p) {
@@ -22,7 +30,15 @@ inline Eigen::Matrix3d projection_jacobian(const StereoCameraModel& camera,
   J << fx_z, 0, -fx_z * p.x() * inv_z,  //
       0, fy_z, -fy_z * p.y() * inv_z,   //
       fx_z, 0, -fx_z * (p.x() - camera.baseline) * inv_z;
-  if (camera.disparity_slope != 0) J.row(2) += camera.disparity_slope * J.row(0);
+  if (!camera.has_disparity_errors()) return J;
+  const double disparity = fx_z * camera.baseline;
+  const double right = (p.x() - camera.baseline) * inv_z;
+  const double down = p.y() * inv_z;
+  const Eigen::RowVector3d by_disparity = J.row(0) - J.row(2);
+  J.row(2) += error_by_right_ray(camera, right, down, disparity) * J.row(2) +
+              camera.right_ahead * right * by_disparity +
+              (camera.right_turn.x() * right + camera.right_turn.z()) * camera.lens.fx /
+                  camera.lens.fy * J.row(1);
   return J;
 }
 

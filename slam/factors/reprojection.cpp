@@ -11,8 +11,7 @@ namespace vinebench::slam {
 
 Eigen::Vector3d Reprojection::residual_at(const Eigen::Vector3d& p_cam) const {
   const Eigen::Vector2d pixel = camera_->lens.project(p_cam);
-  const double right_x = pixel.x() - camera_->lens.fx * camera_->baseline / p_cam.z() +
-                         camera_->disparity_error(pixel.x());
+  const double right_x = pixel.x() - camera_->disparity_of(pixel, p_cam.z());
   return {
       (pixel.x() - measurement_.pixel.x()) / measurement_.sigma,
       (pixel.y() - measurement_.pixel.y()) / measurement_.sigma,
@@ -51,9 +50,8 @@ Reprojection::Linearised Reprojection::linearise(const Pose& T_map_body,
   return result;
 }
 
-Eigen::Matrix<double, 3, 12> Reprojection::by_calibration(const Pose& T_map_body,
-                                                          const Eigen::Vector3d& p_map,
-                                                          const StereoCameraModel& nominal) const {
+Eigen::Matrix<double, 3, kPairUnknowns> Reprojection::by_calibration(
+    const Pose& T_map_body, const Eigen::Vector3d& p_map, const StereoCameraModel& nominal) const {
   const Eigen::Vector3d p_seen = in_body(T_map_body, p_map);
   const Eigen::Vector3d p_cam = in_camera(p_seen);
   const Eigen::Matrix3d by_point = projection_jacobian(*camera_, p_cam);
@@ -62,20 +60,32 @@ Eigen::Matrix<double, 3, 12> Reprojection::by_calibration(const Pose& T_map_body
   const double x = pixel.x() - lens.cx;
   const double y = pixel.y() - lens.cy;
   const double disparity = lens.fx * camera_->baseline / p_cam.z();
+  const double right = (x - disparity) / lens.fx;
+  const double down = y / lens.fy;
+  const double measured = camera_->disparity_of(pixel, p_cam.z());
   const double longer = lens.fx / nominal.lens.fx;
   // The velocity's first part is along axes that turn with the body meanwhile.
   Vector6d velocity = measurement_.velocity;
   velocity.head<3>() = way_until_exposed().rotation.conjugate() * velocity.head<3>();
   const Eigen::Vector3d by_time = by_point * camera_->T_cam_body.rotation.toRotationMatrix() *
                                   body_point_jacobian(p_seen) * velocity;
-  Eigen::Matrix<double, 3, 12> J;
+  Eigen::Matrix<double, 3, kPairUnknowns> J;
   J.leftCols<6>() = by_point * body_point_jacobian(p_cam);
-  J.col(6) << 0, 0, 1;
-  J.col(7) << 0, 0, x;
-  J.col(8) << x / longer, y / longer, (x * (1 + camera_->disparity_slope) - disparity) / longer;
-  J.col(9) << 0, 0, -disparity * nominal.baseline / camera_->baseline;
-  J.col(10) = by_time;
-  J.col(11) = by_time * (measurement_.pixel.y() / lens.height - 0.5);
+  J.col(PairNumber::kDisparityOffset) << 0, 0, 1;
+  J.col(PairNumber::kDisparitySlope) << 0, 0, x - disparity;
+  // Rays stay: all columns but the offset are as long as the focal length.
+  J.col(PairNumber::kFocal) << x / longer, y / longer,
+      (x - measured - camera_->disparity_offset) / longer;
+  const double by_right = 1 + error_by_right_ray(*camera_, right, down, disparity);
+  J.col(PairNumber::kBaseline) << 0, 0,
+      disparity * (camera_->right_ahead * right - by_right) * nominal.baseline / camera_->baseline;
+  J.col(PairNumber::kTime) = by_time;
+  J.col(PairNumber::kReadout) = by_time * (measurement_.pixel.y() / lens.height - 0.5);
+  J.middleCols<2>(PairNumber::kPrincipalPoint) << 1, 0, 0, 1, 1, 0;
+  J.middleCols<3>(PairNumber::kRightTurn).topRows<2>().setZero();
+  J.block<1, 3>(2, PairNumber::kRightTurn) << lens.fx * right * down, -lens.fx * right * right,
+      lens.fx * down;
+  J.col(PairNumber::kRightAhead) << 0, 0, disparity * right;
   return weights().asDiagonal() * J;
 }
 

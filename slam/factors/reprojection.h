@@ -7,6 +7,7 @@
 
 #include "core/geometry/pose.h"
 #include "slam/camera/stereo_camera.h"
+#include "slam/factors/calibration_belief.h"
 
 namespace vinebench::slam {
 
@@ -52,8 +53,9 @@ class Reprojection {
   /// Derivatives by the camera's calibration: the step of T_body_cam (camera frame: m, then rad),
   /// then the other numbers of PairCalibration in their order, about `nominal`, of which the
   /// shares are.
-  Eigen::Matrix<double, 3, 12> by_calibration(const Pose& T_map_body, const Eigen::Vector3d& p_map,
-                                              const StereoCameraModel& nominal) const;
+  Eigen::Matrix<double, 3, kPairUnknowns> by_calibration(const Pose& T_map_body,
+                                                         const Eigen::Vector3d& p_map,
+                                                         const StereoCameraModel& nominal) const;
 
   /// Squared norm of the residuals for that pose and point; infinite behind the camera.
   double chi_squared(const Pose& T_map_body, const Eigen::Vector3d& p_map) const;

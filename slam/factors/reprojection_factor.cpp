@@ -26,9 +26,9 @@ ReprojectionFactor::ReprojectionFactor(const StereoCameraModel& camera,
 }
 
 StereoCameraModel ReprojectionFactor::camera_of(double const* const* parameters) const {
-  const double* lens = parameters[3];
-  StereoCameraModel camera =
-      calibrated(*camera_, {{}, lens[0], lens[1], lens[2], lens[3], lens[4], lens[5]});
+  Eigen::VectorXd numbers = Eigen::VectorXd::Zero(kPairUnknowns);
+  std::copy_n(parameters[3], kLensUnknowns, numbers.data() + PairNumber::kDisparityOffset);
+  StereoCameraModel camera = calibrated(*camera_, from_vector(numbers).front());
   camera.T_cam_body = from_block(parameters[2]).inverse();
   return camera;
 }

@@ -9,8 +9,8 @@
 namespace vinebench::slam {
 
 /// The same as a cost function of Ceres: parameters are the body's pose (7), the point (3) and,
-/// where its calibration is unknown, T_body_cam of the camera (7) and the six numbers of
-/// PairCalibration besides, in their order, against the camera given.
+/// where its calibration is unknown, T_body_cam of the camera (7) and the other numbers of
+/// PairCalibration, in their order, against the camera given.
 class ReprojectionFactor : public ceres::CostFunction {
  public:
   ReprojectionFactor(const StereoCameraModel& camera, const PixelMeasurement& measurement,

@@ -31,13 +31,13 @@ Eigen::Vector3d stereo_point(const StereoView& view, int feature, const PinholeC
 }
 
 void correct_depths(const StereoCameraModel& camera, double max_depth_baselines, StereoView& view) {
-  if (camera.disparity_offset == 0 && camera.disparity_slope == 0) return;
+  if (!camera.has_disparity_errors()) return;
   for (std::size_t f = 0; f < view.stereo.size(); ++f) {
     StereoMatch& match = view.stereo[f];
     if (match.x_right < 0) continue;
-    const float x = view.features.keypoints[f].x;
+    const Keypoint& keypoint = view.features.keypoints[f];
     const double depth =
-        camera.depth_of(static_cast<double>(x), static_cast<double>(x - match.x_right));
+        camera.depth_of({keypoint.x, keypoint.y}, static_cast<double>(keypoint.x - match.x_right));
     const bool near = depth > 0 && depth < max_depth_baselines * camera.baseline;
     match.depth = near ? static_cast<float>(depth) : -1.0F;
   }

@@ -15,7 +15,7 @@ namespace vinebench::slam {
 namespace {
 
 constexpr std::string_view kMagic("vinemap\0", 8);
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 constexpr std::uint32_t kOldestVersion = 3;  // without inertial states
 constexpr std::size_t kHeaderSize = 20;      // magic, version, size of the content
 constexpr std::size_t kChecksumSize = 8;
@@ -70,6 +70,7 @@ template <class Archive>
 void fields(Archive& archive, PairCalibration& pair) {
   archive(pair.T_nominal_camera, pair.disparity_offset, pair.disparity_slope, pair.focal,
           pair.baseline, pair.time, pair.readout);
+  if (archive.version() >= 7) archive(pair.principal_point, pair.right_turn, pair.right_ahead);
 }
 template <class Archive>
 void fields(Archive& archive, Patch& patch) {
@@ -273,7 +274,8 @@ Map read_content(BinaryReader& reader, const EstimatorRig& rig, const std::strin
   for (const PairCalibration& pair : calibration) {
     const bool finite = std::isfinite(pair.disparity_offset) &&
                         std::isfinite(pair.disparity_slope) && std::isfinite(pair.time) &&
-                        std::isfinite(pair.readout);
+                        std::isfinite(pair.readout) && pair.principal_point.allFinite() &&
+                        pair.right_turn.allFinite() && std::isfinite(pair.right_ahead);
     reader.expect(
         finite && pair.focal > -1 && pair.focal < 1 && pair.baseline > -1 && pair.baseline < 1,
         "a pair's calibration");

@@ -148,9 +148,8 @@ class Follower {
     if (frame_.right_pyramids[v].size() <= level) return match;
     const double pixel = rig_.noise.level_scales[level];
     const StereoCameraModel& camera = rig_.left_cameras[v];
-    const auto x = static_cast<double>(keypoint.x);
-    const double level_disparity =
-        lens().fx * camera.baseline / (depth * pixel) - camera.disparity_error(x) / pixel;
+    const Eigen::Vector2d at(keypoint.x, keypoint.y);
+    const double level_disparity = camera.disparity_of(at, depth) / pixel;
     const auto aligned = align_patch(frame_.pyramids[v][level], frame_.right_pyramids[v][level],
                                      static_cast<int>(std::lround(fit.x)),
                                      static_cast<int>(std::lround(fit.y)), level_disparity);
@@ -159,7 +158,7 @@ class Follower {
     match.x_right = keypoint.x - static_cast<float>(disparity);
     match.slant_x = static_cast<float>(aligned->slope_x / disparity);
     match.slant_y = static_cast<float>(aligned->slope_y / disparity);
-    const double seen_depth = camera.depth_of(x, disparity);
+    const double seen_depth = camera.depth_of(at, disparity);
     if (seen_depth > 0 && seen_depth < settings_.stereo.max_depth_baselines * camera.baseline) {
       match.depth = static_cast<float>(seen_depth);
     }

@@ -35,7 +35,7 @@ Prediction predict(const Landmark& landmark, int v, const Pose& T_body_map, cons
   const int top = static_cast<int>(rig.noise.level_scales.size()) - 1;
   if (level < -1.5 || level > top + 1.5) return p;
   p.level = std::clamp(static_cast<int>(std::lround(level)), 0, top);
-  p.right_x = p.pixel.x() - camera.disparity_of(p.pixel.x(), p_cam.z());
+  p.right_x = p.pixel.x() - camera.disparity_of(p.pixel, p_cam.z());
   p.visible = true;
   return p;
 }

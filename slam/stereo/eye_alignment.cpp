@@ -14,10 +14,6 @@
 namespace vinebench::slam {
 namespace {
 
-/// Eyes that agree so far in the middle of the image are left alone: rows are whole, and what is
-/// off by less is found all the same.
-constexpr double kRowsAlike = 0.5;  // px
-
 /// The right image is put straight anew where that changes a row by more.
 constexpr double kRowsChanged = 0.02;  // px
 
@@ -130,7 +126,8 @@ Extraction sample_rows(const Extraction& left, int first, int last) {
 
 }  // namespace
 
-EyeAlignment::EyeAlignment(const PinholeCamera& lens) : lens_(lens) {
+EyeAlignment::EyeAlignment(const PinholeCamera& lens, const RowTolerance& tolerance)
+    : lens_(lens), tolerance_(tolerance) {
   forget();
 }
 
@@ -157,15 +154,21 @@ double EyeAlignment::correction(double x, double y) const {
 /// Puts the image straight for what is mostly seen: things of another depth remain a little off.
 void EyeAlignment::use(const Unknowns& known) {
   const auto now = [&](double x, double y) { return row_of(x, y, disparity_).dot(known); };
-  if (std::abs(now(lens_.cx, lens_.cy)) <= kRowsAlike) {
+  double squares = 0;  // px^2
+  double change = 0;   // px
+  for (const double x : {0.0, 0.5, 1.0}) {
+    for (const double y : {0.0, 0.5, 1.0}) {
+      const double column = x * lens_.width;
+      const double row = y * lens_.height;
+      const double shift = now(column, row);
+      squares += shift * shift / 9;
+      change = std::max(change, std::abs(shift - correction(column, row)));
+    }
+  }
+  if (std::abs(now(lens_.cx, lens_.cy)) <= tolerance_.middle &&
+      std::sqrt(squares) <= tolerance_.everywhere) {
     used_.setZero();
     return;
-  }
-  double change = 0;  // px, at a corner
-  for (const double x : {0, lens_.width}) {
-    for (const double y : {0, lens_.height}) {
-      change = std::max(change, std::abs(now(x, y) - correction(x, y)));
-    }
   }
   if (!used_.isZero() && change <= kRowsChanged) return;
   used_ = known;

@@ -14,6 +14,12 @@
 
 namespace vinebench::slam {
 
+/// How far the rows of a pair's eyes agree that are left as they are: px.
+struct RowTolerance {
+  double middle = 0;      ///< of the image
+  double everywhere = 0;  ///< root mean square over the image
+};
+
 /// By how much one eye of a stereo pair has things on other rows than the other (its vertical
 /// disparity), where the rig file says that it has them on the same ones: mountings move, principal
 /// points are known to a pixel. The window search looks along rows, so that the right image is put
@@ -29,7 +35,8 @@ class EyeAlignment {
   /// Stereo matches of a left extraction in a right one.
   using Search = std::function<std::vector<StereoMatch>(const Extraction&, const Extraction&)>;
 
-  explicit EyeAlignment(const PinholeCamera& lens);
+  /// Eyes whose rows agree as far as `tolerance` are left alone.
+  EyeAlignment(const PinholeCamera& lens, const RowTolerance& tolerance);
 
   /// By how many px the right eye has what is mostly seen there lower than said, at a pixel; 0
   /// where the eyes agree.
@@ -67,6 +74,7 @@ class EyeAlignment {
   void fill_maps();
 
   PinholeCamera lens_;
+  RowTolerance tolerance_;
   Unknowns used_ = Unknowns::Zero();  ///< that the maps are of; all zero where the eyes agree
   cv::Mat whole_, fraction_;          ///< cv::remap's fixed-point maps
   /// Of shift and keystone (px), turn (rad), focal length (share), height and place ahead

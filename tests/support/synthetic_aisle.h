@@ -121,7 +121,7 @@ class SyntheticAisle {
       keypoint.y = static_cast<float>(pixel.y() + sigma * draw.normal(3 * i + 1));
       keypoint.level = level;
       const double disparity =
-          camera.disparity_of(pixel.x(), p.z()) + 0.5 * sigma * draw.normal(3 * i + 2);
+          camera.disparity_of(pixel, p.z()) + 0.5 * sigma * draw.normal(3 * i + 2);
       slam::StereoMatch match;
       match.x_right = static_cast<float>(keypoint.x - disparity);
       match.depth = static_cast<float>(pair.lens.fx * pair.baseline / disparity);

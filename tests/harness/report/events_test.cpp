@@ -150,6 +150,8 @@ TEST(EventsTest, ACalibrationIsLogged) {
                                    pair.T_nominal_camera.translation.x() = 0.5;
                                    pair.disparity_offset = 0.25;
                                    pair.time = 0.125;
+                                   pair.principal_point.x() = 0.5;
+                                   pair.right_turn.z() = std::numbers::pi;
                                    estimate.calibration = {pair};
                                  }
                                }),
@@ -159,6 +161,8 @@ TEST(EventsTest, ACalibrationIsLogged) {
   const Json& pair = found[0]["pairs"][0];
   EXPECT_EQ(pair["disparity_offset_px"], 0.25);
   EXPECT_EQ(pair["time_s"], 0.125);
+  EXPECT_EQ(pair["principal_point_px"], Json({0.5, 0}));
+  EXPECT_EQ(pair["right_turn_deg"], Json({0, 0, 180}));
   EXPECT_EQ(pair["position_m"], Json({0.5, 0, 0}));
   EXPECT_EQ(pair["rotation_deg"], Json({0, 0, 0}));
 }

@@ -69,16 +69,16 @@ TEST_F(CalibrationWatchTest, FindsTheOffsetOfAPairsDisparities) {
 }
 
 // Before anything was seen the file is as likely right as wrong, and a wrong one's offset likewise,
-// of 4095 sets of causes in 2048: of the prior's variance, 1 px squared.
+// of 16383 sets of causes in 8192: of the prior's variance, 1 px squared.
 TEST_F(CalibrationWatchTest, AtFirstTheFileIsRightOrWrong) {
-  EXPECT_NEAR(watch_.error(made_.rig)(18, 18), 0.5 * 2048 / 4095, 1e-9);
+  EXPECT_NEAR(watch_.error(made_.rig)(24, 24), 0.5 * 8192 / 16383, 1e-9);
 }
 
 // A right one is borne out: what five dozens leave of the offset's error is less than a hundredth
 // of the square of a deviation of 0.05 px.
 TEST_F(CalibrationWatchTest, ARightFileIsBorneOut) {
   drive(60);
-  EXPECT_LT(watch_.error(made_.rig)(18, 18), 0.01 * 0.05 * 0.05);
+  EXPECT_LT(watch_.error(made_.rig)(24, 24), 0.01 * 0.05 * 0.05);
 }
 
 // How errors move the body is seen from a few keyframes, as a dozen shows it later: an offset makes
@@ -91,10 +91,10 @@ TEST_F(CalibrationWatchTest, FeelsBeforeItLooks) {
   ASSERT_TRUE(watch_.may_feel(made_.map));
   watch_.feel(made_.map, made_.rig, {});
   EXPECT_FALSE(watch_.may_feel(made_.map));
-  const double felt = watch_.drift()(0, 18);
+  const double felt = watch_.drift()(0, 24);
   drive(10);
-  EXPECT_NE(watch_.drift()(0, 18), felt);
-  EXPECT_NEAR(watch_.drift()(0, 18), felt, 0.2 * std::abs(felt));
+  EXPECT_NE(watch_.drift()(0, 24), felt);
+  EXPECT_NEAR(watch_.drift()(0, 24), felt, 0.2 * std::abs(felt));
 }
 
 // What the watch says of its own error: that of the offset is within four standard deviations, and
@@ -106,11 +106,11 @@ TEST_F(CalibrationWatchTest, KnowsItsError) {
   drive(25);
   ASSERT_GE(changes_, 1);
   const Eigen::MatrixXd error = watch_.error(made_.rig);
-  const double sigma = std::sqrt(error(18, 18));
+  const double sigma = std::sqrt(error(24, 24));
   EXPECT_LT(sigma, 0.1);
   EXPECT_LT(std::abs(back().disparity_offset + 0.5), 4 * sigma);
   // An offset makes what is seen, and the way along it, longer or shorter.
-  EXPECT_GT(std::abs(watch_.drift()(0, 18)), 1e-5);
+  EXPECT_GT(std::abs(watch_.drift()(0, 24)), 1e-5);
 }
 
 TEST_F(CalibrationWatchTest, FindsEyesOfDifferentFocalLengths) {
@@ -118,6 +118,16 @@ TEST_F(CalibrationWatchTest, FindsEyesOfDifferentFocalLengths) {
   drive(36);
   EXPECT_NEAR(front().disparity_slope, 0.004, 0.001);
   EXPECT_NEAR(back().disparity_slope, 0, 1e-4);
+}
+
+// What is left of a turned right eye once the middle's disparities are right: 0.3 px where rays are
+// as far aside as ahead.
+TEST_F(CalibrationWatchTest, FindsATurnedRightEye) {
+  aisle_.calibration[0].right_turn = {0, 0.0012, 0};
+  drive(48);
+  EXPECT_NEAR(front().right_turn.y(), 0.0012, 0.0003);
+  EXPECT_NEAR(front().disparity_offset, 0, 0.1);
+  EXPECT_LT(back().right_turn.norm(), 0.0003);
 }
 
 TEST_F(CalibrationWatchTest, FindsAFocalLength) {

@@ -8,11 +8,14 @@ namespace vinebench::slam {
 namespace {
 
 TEST(CalibrationBeliefTest, VectorsAndPairsAreTheSame) {
-  const Eigen::VectorXd unknowns = Eigen::VectorXd::LinSpaced(24, -0.01, 0.02);
+  const Eigen::VectorXd unknowns = Eigen::VectorXd::LinSpaced(36, -0.01, 0.02);
   const std::vector<PairCalibration> pairs = from_vector(unknowns);
   ASSERT_EQ(pairs.size(), 2u);
-  EXPECT_EQ(pairs[1].disparity_offset, unknowns[18]);
-  EXPECT_EQ(pairs[1].readout, unknowns[23]);
+  EXPECT_EQ(pairs[1].disparity_offset, unknowns[24]);
+  EXPECT_EQ(pairs[1].readout, unknowns[29]);
+  EXPECT_EQ(pairs[1].principal_point, unknowns.segment<2>(30));
+  EXPECT_EQ(pairs[1].right_turn, unknowns.segment<3>(32));
+  EXPECT_EQ(pairs[1].right_ahead, unknowns[35]);
   EXPECT_EQ(pairs[0].T_nominal_camera.translation, unknowns.head<3>());
   EXPECT_LT((to_vector(pairs) - unknowns).norm(), 1e-15);
 }
@@ -24,9 +27,9 @@ TEST(CalibrationBeliefTest, WhatPartsSayAddsUp) {
   one.information.setIdentity();
   one.information_vector.setOnes();
   three.information = one.information * 3;
-  three.information_vector = three.information * Eigen::VectorXd::Constant(12, 3);
+  three.information_vector = three.information * Eigen::VectorXd::Constant(18, 3);
   const CalibrationBelief sum = one + three;
-  EXPECT_LT((sum.mean() - Eigen::VectorXd::Constant(12, 2.5)).norm(), 1e-12);
+  EXPECT_LT((sum.mean() - Eigen::VectorXd::Constant(18, 2.5)).norm(), 1e-12);
   EXPECT_NEAR(sum.covariance()(0, 0), 0.25, 1e-12);
   EXPECT_NEAR((sum * 2).covariance()(0, 0), 0.125, 1e-12);
 }

@@ -12,10 +12,10 @@ namespace {
 /// Two pairs whose numbers all depend on each other.
 CalibrationBelief mixed_belief() {
   CalibrationBelief belief = CalibrationBelief::nothing(2);
-  for (Eigen::Index i = 0; i < 24; ++i) {
-    for (Eigen::Index j = 0; j < 24; ++j) belief.information(i, j) = i == j ? 4 : 1.0 / (1 + i + j);
+  for (Eigen::Index i = 0; i < 36; ++i) {
+    for (Eigen::Index j = 0; j < 36; ++j) belief.information(i, j) = i == j ? 4 : 1.0 / (1 + i + j);
   }
-  belief.information_vector = belief.information * Eigen::VectorXd::LinSpaced(24, -0.002, 0.004);
+  belief.information_vector = belief.information * Eigen::VectorXd::LinSpaced(36, -0.002, 0.004);
   return belief;
 }
 
@@ -28,9 +28,9 @@ TEST(CalibrationFactorTest, JacobiansAreTheNumericOnes) {
   const Pose off = step_of((Vector6d() << 0.003, -0.001, 0.002, 0.004, 0.006, -0.008).finished());
   test::expect_jacobian(CalibrationFactor(kNominal, mixed_belief()),
                         {test::as_vector(to_block(kNominal[0] * off)),
-                         {0.3, 0, 0.01, 0, 0.005, 0.02},
+                         {0.3, 0, 0.01, 0, 0.005, 0.02, 0.4, 0, 0, 0.003, 0, 0},
                          test::as_vector(to_block(kNominal[1])),
-                         {-0.1, 0.001, 0, 0.002, 0, 0}});
+                         {-0.1, 0.001, 0, 0.002, 0, 0, 0, -0.2, 0, 0, 0, 0.001}});
 }
 
 // With standard deviations of 1 mm, 2 mrad, 0.5 px and 1 of the rest: 3 mm, 4 mrad, 1 px and 0.1 of
@@ -43,12 +43,12 @@ TEST(CalibrationFactorTest, ResidualsAreStandardDeviations) {
   const CalibrationFactor factor({kNominal[0]}, belief);
   const Pose off = step_of((Vector6d() << 0, 0.003, 0, 0.004, 0, 0).finished());
   const PoseBlock camera = to_block(kNominal[0] * off);
-  const std::array<double, kLensUnknowns> lens{1, 0, 0, 0, 0, 0.1};
+  const std::array<double, kLensUnknowns> lens{1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.1};
   const double* parameters[] = {camera.data(), lens.data()};
   Eigen::Matrix<double, kPairUnknowns, 1> residuals;
   ASSERT_TRUE(factor.Evaluate(parameters, residuals.data(), nullptr));
   Eigen::Matrix<double, kPairUnknowns, 1> expected;
-  expected << 0, 3, 0, 2, 0, 0, 2, 0, 0, 0, 0, 0.1;
+  expected << 0, 3, 0, 2, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.1;
   EXPECT_LT((residuals - expected).norm(), 1e-9);
 }
 

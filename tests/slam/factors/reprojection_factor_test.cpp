@@ -37,7 +37,7 @@ TEST(ReprojectionFactorTest, JacobiansAreTheNumericOnes) {
 
 /// A calibration that is off in every number.
 std::vector<double> lens_off() {
-  return {0.3, 0.002, 0.003, -0.004, 0.01, 0.03};
+  return {0.3, 0.002, 0.003, -0.004, 0.01, 0.03, 0.6, -0.4, 0.004, -0.006, 0.005, 0.007};
 }
 
 PixelMeasurement moving_measurement() {

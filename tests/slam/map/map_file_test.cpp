@@ -62,6 +62,7 @@ AisleMap small_map(const SyntheticAisle& aisle) {
   patches[0].add(1, grey);
   made.map.tags().push_back({"tag36h11", 0, 0.161, T_world_tag, true});
   made.map.calibration() = {{}, {{exp_so3({0, 0.01, 0}), {0.005, 0, 0}}, 0.25}};
+  made.map.calibration()[1].right_turn.y() = 0.002;
   made.map.remove_landmark(made.map.keyframe(0).landmarks[0][2]);
   return made;
 }
@@ -122,6 +123,7 @@ TEST_F(MapFileTest, EverythingComesBack) {
   ASSERT_EQ(map.calibration().size(), 2u);
   EXPECT_EQ(map.calibration()[0].disparity_offset, 0);
   EXPECT_EQ(map.calibration()[1].disparity_offset, 0.25);
+  EXPECT_EQ(map.calibration()[1].right_turn.y(), 0.002);
   EXPECT_EQ(map.calibration()[1].T_nominal_camera.translation, Eigen::Vector3d(0.005, 0, 0));
   EXPECT_NEAR(angle_of(map.calibration()[1].T_nominal_camera.rotation), 0.01, 1e-12);
 }
@@ -194,7 +196,7 @@ TEST_F(MapFileTest, AnotherVersionIsSaidSo) {
   std::string other = bytes_;
   other[8] = 1;  // version, low byte
   EXPECT_THAT(error_of(sealed(other)),
-              AllOf(HasSubstr("version 1"), HasSubstr("expected version 3 to 6")));
+              AllOf(HasSubstr("version 1"), HasSubstr("expected version 3 to 7")));
 }
 
 std::string rig_bytes(const EstimatorRig& rig, std::uint32_t version) {
@@ -213,6 +215,25 @@ std::string with_contents(std::string bytes, std::uint32_t version) {
 
 /// Bytes at the end of a keyframe from version 6 on.
 constexpr std::size_t kVelocity = 6 * sizeof(double);
+
+// Until version 6 six numbers of each pair were missing at the end of it.
+TEST_F(MapFileTest, CalibrationsOfVersion6AreRead) {
+  AisleMap one(aisle_, {Pose{}});
+  const std::size_t without = format_map(one.map, one.rig).size();
+  one.map.calibration() = {{}, {{exp_so3({0, 0.01, 0}), {0.005, 0, 0}}, 0.25}};
+  one.map.calibration()[1].readout = 0.02;
+  std::string older = format_map(one.map, one.rig);
+  const std::size_t pair = (older.size() - without) / 2, missing = 6 * sizeof(double);
+  const std::size_t at =
+      20 + rig_bytes(one.rig, 6).size() + sizeof(double) + sizeof(std::uint64_t);  // the scale, 2
+  older.erase(at + 2 * pair - missing, missing);
+  older.erase(at + pair - missing, missing);
+  const Map map = parse_map(with_contents(older, 6), one.rig, "older.map");
+  ASSERT_EQ(map.calibration().size(), 2u);
+  EXPECT_EQ(map.calibration()[1].disparity_offset, 0.25);
+  EXPECT_EQ(map.calibration()[1].readout, 0.02);
+  EXPECT_EQ(map.calibration()[1].right_ahead, 0);
+}
 
 // Until version 5 there was one number a pair, its disparity offset.
 TEST_F(MapFileTest, DisparityOffsetsOfVersion5AreRead) {
