@@ -19,9 +19,9 @@ constexpr double kLeastWeight = 1e-9;
 /// Numbers that differ from the rig file together.
 using Cause = std::vector<Eigen::Index>;
 
-/// What may be wrong with a rig of so many unknowns. Of places, directions, times and baselines a
-/// drive shows by how much the pairs differ from each other, seldom which of them it is: they are
-/// wrong for all pairs or for none.
+/// What may be wrong with a rig of so many unknowns: a pair's mounting, its lenses and so on. Of
+/// times and baselines a drive shows by how much the pairs differ from each other, seldom which of
+/// them it is: they are wrong for all pairs or for none.
 std::vector<Cause> possible_causes(Eigen::Index unknowns) {
   const auto of_all_pairs = [unknowns](Eigen::Index first, Eigen::Index count) {
     Cause cause;
@@ -30,16 +30,15 @@ std::vector<Cause> possible_causes(Eigen::Index unknowns) {
     }
     return cause;
   };
-  std::vector<Cause> causes{
-      of_all_pairs(PairNumber::kPlace, 3), of_all_pairs(PairNumber::kDirection, 3),
-      of_all_pairs(PairNumber::kBaseline, 1), of_all_pairs(PairNumber::kTime, 1)};
+  std::vector<Cause> causes{of_all_pairs(PairNumber::kBaseline, 1),
+                            of_all_pairs(PairNumber::kTime, 1)};
   struct Range {
     Eigen::Index first, count;
   };
   for (const auto& [first, count] :
-       {Range{PairNumber::kDisparityOffset, 1}, Range{PairNumber::kDisparitySlope, 1},
-        Range{PairNumber::kFocal, 1}, Range{PairNumber::kReadout, 1},
-        Range{PairNumber::kPrincipalPoint, 6}}) {
+       {Range{PairNumber::kPlace, 6}, Range{PairNumber::kDisparityOffset, 1},
+        Range{PairNumber::kDisparitySlope, 1}, Range{PairNumber::kFocal, 1},
+        Range{PairNumber::kReadout, 1}, Range{PairNumber::kPrincipalPoint, 6}}) {
     if (unknowns > kMostPairsApart * kPairUnknowns) {
       causes.push_back(of_all_pairs(first, count));
       continue;

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "slam/optimisation/pose_uncertainty.h"
-
 namespace vinebench::slam {
 namespace {
 
@@ -27,9 +25,6 @@ constexpr std::size_t kLaterLooks = 48;  // keyframes
 /// Landmarks that fewer keyframes of a part see say too little of the calibrations for the time
 /// that they cost.
 constexpr int kMinKeyframes = 3;
-
-/// Times as surely as by the rig's accuracy the pairs are held not to move all together.
-constexpr double kHeldTogether = 1e4;
 
 /// Numbers that covariances are trusted for beforehand, to estimate how far they are right.
 constexpr double kTrustedFreedom = 12;
@@ -53,20 +48,7 @@ AdjustmentWindow keyframes_between(std::size_t begin, std::size_t end) {
   return window;
 }
 
-/// The steps of all cameras that a step of the body (columns) makes of them: moved together, they
-/// see the same.
-Eigen::MatrixXd moves_together(const EstimatorRig& rig) {
-  const auto pairs = static_cast<Eigen::Index>(rig.rig.pairs.size());
-  Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(kPairUnknowns * pairs, 6);
-  for (Eigen::Index v = 0; v < pairs; ++v) {
-    moves.middleRows<6>(kPairUnknowns * v) =
-        carried_step(rig.rig.pairs[static_cast<std::size_t>(v)].T_body_cam);
-  }
-  return moves;
-}
-
-/// The rig file's accuracy. That the pairs are not moved all together is a matter of definition,
-/// since that is no more than another body frame.
+/// The rig file's accuracy.
 CalibrationBelief belief_of(const CalibrationConfig& accuracy, double disparity_sigma,
                             const EstimatorRig& rig) {
   Eigen::Matrix<double, kPairUnknowns, 1> sigma;
@@ -83,9 +65,6 @@ CalibrationBelief belief_of(const CalibrationConfig& accuracy, double disparity_
   CalibrationBelief belief = CalibrationBelief::nothing(rig.rig.pairs.size());
   belief.information.diagonal() = sigma.cwiseAbs2().cwiseInverse().replicate(
       static_cast<Eigen::Index>(rig.rig.pairs.size()), 1);
-  const Eigen::MatrixXd held = belief.information * moves_together(rig);
-  const Eigen::MatrixXd weight = (moves_together(rig).transpose() * held).inverse();
-  belief.information += kHeldTogether * held * weight * held.transpose();
   return belief;
 }
 
@@ -123,7 +102,8 @@ double unlikeliness(const CalibrationBelief& belief, const Eigen::VectorXd& cali
 
 CalibrationWatch::CalibrationWatch(const CalibrationConfig& accuracy, double disparity_sigma,
                                    const EstimatorRig& rig)
-    : prior_(belief_of(accuracy, disparity_sigma, rig)),
+    : accuracy_(accuracy),
+      prior_(belief_of(accuracy, disparity_sigma, rig)),
       parts_(CalibrationBelief::nothing(rig.rig.pairs.size())),
       average_(average(prior_, prior_)),
       drift_(Eigen::MatrixXd::Zero(6, prior_.information.cols())) {}
@@ -201,7 +181,11 @@ std::unique_ptr<AdjustmentJob> CalibrationWatch::job(std::size_t keyframes, cons
                                                      const AdjustmentOptions& options) const {
   AdjustmentOptions unknown = options;
   unknown.iterations = kIterations;
-  unknown.tags = false;  // their corners err alike from frame to frame, by more than they tell
+  // As a part of the map their corners, which err alike from frame to frame, say too much.
+  unknown.tags = false;
+  unknown.tag_measures =
+      TagAccuracy{accuracy_.tag_size, options.tag_corner_sigma, accuracy_.tag_camera_position,
+                  accuracy_.tag_camera_rotation_deg};
   unknown.min_keyframes = kMinKeyframes;
   unknown.calibration = prior_;
   const std::size_t end = map.keyframes().size();

@@ -17,11 +17,12 @@ namespace vinebench::slam {
 /// A camera that looks a little to the side of where the rig file has it measures all disparities
 /// wrong by the same number of pixels; then what is near and what is far tell of different scales.
 /// A pair that is mounted otherwise, or triggered at another time, sees the body move otherwise
-/// than the other pairs do. So each dozen of keyframes
-/// is adjusted by itself with PairCalibration as further unknowns. What it says of them, while all
-/// its poses and landmarks are unknown too, is added up over the drive, beside the rig file's own
-/// accuracy, so that what the motion does not show stays where the file has it. A calibration is
-/// replaced where the likelihood ratio of what is known then is beyond chance.
+/// than the other pairs do, and than a tag camera sees it move past a tag, which also is a measure
+/// of length (TagMeasures). So each dozen of keyframes is adjusted by itself with PairCalibration
+/// as further unknowns. What it says of them, while all its poses and landmarks are unknown too, is
+/// added up over the drive, beside the rig file's own accuracy, so that what the motion does not
+/// show stays where the file has it. A calibration is replaced where the likelihood ratio of what
+/// is known then is beyond chance.
 ///
 /// How much the dozens differ from each other tells how far their information is to be trusted:
 /// errors that are no property of the cameras (leaves in the wind, noise of other kinds) make them
@@ -82,6 +83,7 @@ class CalibrationWatch {
   void add(const CalibrationBelief& part);
   double spread() const;
 
+  CalibrationConfig accuracy_;
   CalibrationBelief prior_;
   CalibrationBelief parts_;                    ///< sum of what the dozens say
   std::optional<CalibrationBelief> stranger_;  ///< the last one, if it contradicts the others

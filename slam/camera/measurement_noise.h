@@ -32,4 +32,12 @@ struct MeasurementNoise {
   ResidualLoss loss = ResidualLoss::kCauchy;
 };
 
+/// How far tags are to be trusted as measures of length: standard deviations.
+struct TagAccuracy {
+  double size = 0.001;      ///< share, of a tag's sides
+  double corners = 0.3;     ///< px, by which a corner is off, alike each time and beside that
+  double position = 0.005;  ///< m, of the tag cameras' mountings
+  double rotation_deg = 0.3;
+};
+
 }  // namespace vinebench::slam

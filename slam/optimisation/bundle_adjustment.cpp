@@ -60,6 +60,7 @@ class AdjustmentJob::Impl {
         landmarks_(rig_, options.min_keyframes, calibration_.get()),
         gravity_(options.inertial, options.global),
         tags_(rig_.tag_cameras, options.tag_corner_sigma, options.global),
+        tag_measures_(rig_.tag_cameras, options.tag_measures.value_or(TagAccuracy{})),
         problem_(map, window) {
     if (calibration_) calibration_->add_to(problem_, map);
     for (FactorSource* source : sources()) source->add_to(problem_, map);
@@ -84,8 +85,13 @@ class AdjustmentJob::Impl {
     return std::make_unique<CalibrationUnknowns>(rig, *options.calibration);
   }
   std::vector<FactorSource*> sources() {
-    if (!options_.tags) return {&landmarks_, &odometry_, &gravity_};
-    return {&landmarks_, &odometry_, &gravity_, &tags_};
+    std::vector<FactorSource*> sources{&landmarks_, &odometry_, &gravity_};
+    if (options_.tag_measures) {
+      sources.push_back(&tag_measures_);
+    } else if (options_.tags) {
+      sources.push_back(&tags_);
+    }
+    return sources;
   }
 
   const EstimatorRig rig_;  // a copy: calibration may change the estimator's own meanwhile
@@ -95,6 +101,7 @@ class AdjustmentJob::Impl {
   OdometryFactors odometry_;
   GravityFactors gravity_;
   TagFactors tags_;
+  TagMeasures tag_measures_;
   ProblemBuilder problem_;  // last: it must go before what it points to
 };
 

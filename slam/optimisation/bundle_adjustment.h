@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "slam/camera/estimator_rig.h"
+#include "slam/camera/measurement_noise.h"
 #include "slam/factors/calibration_belief.h"
 #include "slam/map/map.h"
 #include "slam/odometry/inertial_config.h"
@@ -22,6 +23,8 @@ struct AdjustmentOptions {
   std::optional<InertialNoise> inertial{};  ///< where an inertial unit feels gravity
   /// Where the pairs' calibrations are unknown: what is believed of them beforehand.
   std::optional<CalibrationBelief> calibration;
+  /// Where tags measure lengths beside that, and take part in no other way.
+  std::optional<TagAccuracy> tag_measures{};
 };
 
 /// A bundle adjustment in three steps, so that the second can run beside tracking: what it needs of

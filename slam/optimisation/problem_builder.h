@@ -24,10 +24,11 @@ class ProblemBuilder {
   enum class Group {
     kLandmarks = 0,
     kInertial = 1,
-    kPoses = 2,
-    kTags = 3,
-    kCameras = 4,
-    kLenses = 5
+    kTagMeasures = 2,
+    kPoses = 3,
+    kTags = 4,
+    kCameras = 5,
+    kLenses = 6
   };
 
   ProblemBuilder(const Map& map, const AdjustmentWindow& window);

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
 
 #include "slam/factors/reprojection.h"
 #include "slam/tags/tag_sightings.h"
@@ -13,6 +16,9 @@ namespace {
 
 /// 95 % of the chi-square distribution with six degrees of freedom.
 constexpr double kSurveyLimit = 12.59;
+
+/// A tag that fewer keyframes saw measures no way.
+constexpr std::size_t kFewestSightings = 3;
 
 }  // namespace
 
@@ -73,6 +79,88 @@ void TagFactors::add_sightings(int keyframe, const Map& map, ProblemBuilder& pro
       problem.add_factor(factors_.back(), &huber_, {problem.pose_of(keyframe), block});
     }
   }
+}
+
+struct TagMeasures::Visit {
+  std::size_t tag;                                            ///< of Map::tags
+  std::size_t camera;                                         ///< of TagCameras
+  std::vector<std::pair<int, const TagSighting*>> sightings;  ///< with their keyframes
+};
+
+TagMeasures::TagMeasures(const TagCameras& cameras, const TagAccuracy& accuracy)
+    : cameras_(cameras),
+      accuracy_(accuracy),
+      huber_(std::sqrt(kChiSquared2)),
+      camera_blocks_(cameras.cameras.size(), nullptr) {}
+
+void TagMeasures::add_to(ProblemBuilder& problem, const Map& map) {
+  std::map<std::pair<std::size_t, std::size_t>, Visit> visits;
+  for (const std::vector<int>& ids : {problem.window().moved, problem.window().fixed}) {
+    for (const int id : ids) {
+      for (const TagSighting& sighting : map.keyframe(id).frame->tags) {
+        const MapTag* tag = map.find_tag(sighting.family, sighting.id);
+        if (tag == nullptr) continue;
+        const auto index = static_cast<std::size_t>(tag - map.tags().data());
+        const auto camera = static_cast<std::size_t>(sighting.camera);
+        Visit& visit = visits.try_emplace({index, camera}, Visit{index, camera, {}}).first->second;
+        visit.sightings.emplace_back(id, &sighting);
+      }
+    }
+  }
+  std::erase_if(visits, [](const auto& v) { return v.second.sightings.size() < kFewestSightings; });
+  if (visits.empty()) return;
+  // Nothing moves any more once it is handed out.
+  blocks_.reserve(7 + 7 * cameras_.cameras.size() + (7 + TagErrors::kNumbers) * visits.size());
+  origin_ = take_pose(Pose{});
+  problem.add_pose(origin_, ProblemBuilder::Group::kTagMeasures);
+  problem.hold(origin_);
+  for (const auto& [key, visit] : visits) add_visit(visit, map, problem);
+}
+
+void TagMeasures::add_visit(const Visit& visit, const Map& map, ProblemBuilder& problem) {
+  const MapTag& tag = map.tags()[visit.tag];
+  double* camera = camera_block(visit.camera, problem);
+  double* place = take_pose(tag.T_map_tag);
+  problem.add_pose(place, ProblemBuilder::Group::kTagMeasures);
+  double* errors = blocks_.data() + blocks_.size();
+  blocks_.resize(blocks_.size() + TagErrors::kNumbers, 0.0);
+  problem.add_block(errors, TagErrors::kNumbers, ProblemBuilder::Group::kTagMeasures);
+  Eigen::VectorXd weight = Eigen::VectorXd::Constant(TagErrors::kNumbers, 1 / accuracy_.corners);
+  weight[TagErrors::kSize] = 1 / accuracy_.size;
+  priors_.emplace_back(weight.asDiagonal().toDenseMatrix(),
+                       Eigen::VectorXd::Zero(TagErrors::kNumbers));
+  problem.add_factor(priors_.back(), nullptr, {errors});
+  const std::array<Eigen::Vector3d, 4> corners = tag_corners(tag.size);
+  for (const auto& [keyframe, sighting] : visit.sightings) {
+    const double sigma = corner_sigma(*sighting, accuracy_.corners);
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      factors_.emplace_back(cameras_.undistorted[visit.camera],
+                            ideal_corner(*sighting, c, cameras_), sigma, corners[c],
+                            static_cast<int>(c));
+      problem.add_factor(factors_.back(), &huber_,
+                         {problem.pose_of(keyframe), place, camera, errors});
+    }
+  }
+}
+
+double* TagMeasures::camera_block(std::size_t camera, ProblemBuilder& problem) {
+  double*& block = camera_blocks_[camera];
+  if (block != nullptr) return block;
+  const Pose& T_body_cam = cameras_.cameras[camera].T_body_cam;
+  block = take_pose(T_body_cam);
+  problem.add_pose(block, ProblemBuilder::Group::kTagMeasures);
+  Vector6d sigma;
+  sigma << Eigen::Vector3d::Constant(accuracy_.position),
+      Eigen::Vector3d::Constant(accuracy_.rotation_deg * std::numbers::pi / 180);
+  mountings_.emplace_back(T_body_cam, sigma.cwiseAbs2().asDiagonal().toDenseMatrix());
+  problem.add_factor(mountings_.back(), nullptr, {origin_, block});
+  return block;
+}
+
+double* TagMeasures::take_pose(const Pose& pose) {
+  const PoseBlock numbers = to_block(pose);
+  blocks_.insert(blocks_.end(), numbers.begin(), numbers.end());
+  return blocks_.data() + blocks_.size() - numbers.size();
 }
 
 void TagFactors::write_back(Map& map) const {

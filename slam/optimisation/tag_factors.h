@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <ceres/normal_prior.h>
+
 #include <deque>
 #include <vector>
 
+#include "slam/camera/measurement_noise.h"
 #include "slam/camera/tag_cameras.h"
 #include "slam/factors/relative_pose_factor.h"
 #include "slam/factors/tag_corner_factor.h"
+#include "slam/factors/tag_measure_factor.h"
 #include "slam/optimisation/problem_builder.h"
 
 namespace vinebench::slam {
@@ -40,6 +44,34 @@ class TagFactors : public FactorSource {
   std::vector<char> held_;
   std::deque<TagCornerFactor> factors_;
   std::deque<RelativePoseFactor> surveys_;
+};
+
+/// Tags as measures of length where calibrations are unknown: the way past a tag, in lengths of its
+/// sides, is that of the map only if the pairs' baselines are right. Of each tag that keyframes of
+/// the window saw often enough the place is an unknown, and what its image may be off by each time
+/// (TagErrors); so are the mountings of the cameras that saw it. Surveys take no part.
+class TagMeasures : public FactorSource {
+ public:
+  /// The cameras must outlive it.
+  TagMeasures(const TagCameras& cameras, const TagAccuracy& accuracy);
+
+  void add_to(ProblemBuilder& problem, const Map& map) override;
+
+ private:
+  struct Visit;  ///< of a tag by a camera
+  void add_visit(const Visit& visit, const Map& map, ProblemBuilder& problem);
+  double* camera_block(std::size_t camera, ProblemBuilder& problem);
+  double* take_pose(const Pose& pose);
+
+  const TagCameras& cameras_;
+  TagAccuracy accuracy_;
+  ceres::HuberLoss huber_;
+  std::vector<double> blocks_;          ///< of all unknowns, one behind the other
+  std::vector<double*> camera_blocks_;  ///< by camera; null where it has none
+  double* origin_ = nullptr;            ///< held: what mountings are measured from
+  std::deque<TagMeasureFactor> factors_;
+  std::deque<RelativePoseFactor> mountings_;
+  std::deque<ceres::NormalPrior> priors_;
 };
 
 }  // namespace vinebench::slam

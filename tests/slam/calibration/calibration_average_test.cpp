@@ -27,20 +27,20 @@ TEST(CalibrationAverageTest, BeforeAnythingIsSeenEverySecondFileIsRight) {
   const CalibrationAverage found = average(within_one(1), within_one(1));
   EXPECT_NEAR(found.file_is_right, 0.5, 1e-12);
   EXPECT_EQ(found.mean.norm(), 0);
-  // Of the 511 sets of nine causes, 256 have any one of them.
-  EXPECT_NEAR(found.covariance(6, 6), 0.5 * 256 / 511, 1e-12);
+  // Of the 255 sets of eight causes, 128 have any one of them.
+  EXPECT_NEAR(found.covariance(6, 6), 0.5 * 128 / 255, 1e-12);
 }
 
 // The disparity offset is measured as 0.5 with a deviation of 1/sqrt(99): together with the file's
 // 1 the information is 100, the mean 0.495. Against none at all, an offset has the evidence E =
-// exp(49.5^2 / 100 / 2) / sqrt(100); whether other causes are at work changes nothing. Of the 511
-// sets 256 have an offset and 255 do not.
+// exp(49.5^2 / 100 / 2) / sqrt(100); whether other causes are at work changes nothing. Of the 255
+// sets 128 have an offset and 127 do not.
 TEST(CalibrationAverageTest, WhatExplainsMoreWeighsMore) {
   const CalibrationBelief prior = within_one(1);
   const CalibrationAverage found = average(with(prior, 6, 0.5, 1 / std::sqrt(99.0)), prior);
   const double evidence = std::exp(0.5 * 49.5 * 49.5 / 100) / 10;
-  const double without = 0.5 + 0.5 * 255 / 511;
-  const double offset = 0.5 * 256 / 511 * evidence;
+  const double without = 0.5 + 0.5 * 127 / 255;
+  const double offset = 0.5 * 128 / 255 * evidence;
   const double share = offset / (offset + without);
   EXPECT_NEAR(found.mean[6], share * 0.495, 1e-12);
   EXPECT_NEAR(found.file_is_right, 0.5 / (offset + without), 1e-12);
