@@ -26,9 +26,10 @@ ReprojectionFactor::ReprojectionFactor(const StereoCameraModel& camera,
 }
 
 StereoCameraModel ReprojectionFactor::camera_of(double const* const* parameters) const {
-  Eigen::VectorXd numbers = Eigen::VectorXd::Zero(kPairUnknowns);
-  std::copy_n(parameters[3], kLensUnknowns, numbers.data() + PairNumber::kDisparityOffset);
-  StereoCameraModel camera = calibrated(*camera_, from_vector(numbers).front());
+  const double* n = parameters[3];
+  const PairCalibration lens{
+      {}, n[0], n[1], n[2], n[3], n[4], n[5], {n[6], n[7]}, {n[8], n[9], n[10]}, n[11]};
+  StereoCameraModel camera = calibrated(*camera_, lens);
   camera.T_cam_body = from_block(parameters[2]).inverse();
   return camera;
 }
