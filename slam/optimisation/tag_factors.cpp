@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <utility>
 
 #include "slam/factors/reprojection.h"
+#include "slam/optimisation/pose_uncertainty.h"
 #include "slam/tags/tag_sightings.h"
 
 namespace vinebench::slam {
@@ -81,11 +81,12 @@ void TagFactors::add_sightings(int keyframe, const Map& map, ProblemBuilder& pro
   }
 }
 
-struct TagMeasures::Visit {
-  std::size_t tag;                                            ///< of Map::tags
-  std::size_t camera;                                         ///< of TagCameras
-  std::vector<std::pair<int, const TagSighting*>> sightings;  ///< with their keyframes
-};
+void TagFactors::write_back(Map& map) const {
+  for (std::size_t t = 0; t + 1 < blocks_.size(); ++t) {
+    if (used_[t] && !held_[t]) map.tags()[t].T_map_tag = from_block(blocks_[t].data());
+  }
+  if (used_.back()) map.world() = from_block(blocks_.back().data());
+}
 
 TagMeasures::TagMeasures(const TagCameras& cameras, const TagAccuracy& accuracy)
     : cameras_(cameras),
@@ -94,32 +95,33 @@ TagMeasures::TagMeasures(const TagCameras& cameras, const TagAccuracy& accuracy)
       camera_blocks_(cameras.cameras.size(), nullptr) {}
 
 void TagMeasures::add_to(ProblemBuilder& problem, const Map& map) {
-  std::map<std::pair<std::size_t, std::size_t>, Visit> visits;
-  for (const std::vector<int>& ids : {problem.window().moved, problem.window().fixed}) {
-    for (const int id : ids) {
-      for (const TagSighting& sighting : map.keyframe(id).frame->tags) {
-        const MapTag* tag = map.find_tag(sighting.family, sighting.id);
-        if (tag == nullptr) continue;
-        const auto index = static_cast<std::size_t>(tag - map.tags().data());
-        const auto camera = static_cast<std::size_t>(sighting.camera);
-        Visit& visit = visits.try_emplace({index, camera}, Visit{index, camera, {}}).first->second;
-        visit.sightings.emplace_back(id, &sighting);
-      }
+  std::map<std::pair<std::size_t, std::size_t>, Visit> visits;  // by tag of the map and camera
+  const auto collect = [&](int id) {
+    for (const TagSighting& sighting : map.keyframe(id).frame->tags) {
+      const MapTag* tag = map.find_tag(sighting.family, sighting.id);
+      if (tag == nullptr) continue;
+      visits[{static_cast<std::size_t>(tag - map.tags().data()),
+              static_cast<std::size_t>(sighting.camera)}]
+          .emplace_back(id, &sighting);
     }
-  }
-  std::erase_if(visits, [](const auto& v) { return v.second.sightings.size() < kFewestSightings; });
+  };
+  std::ranges::for_each(problem.window().moved, collect);
+  std::ranges::for_each(problem.window().fixed, collect);
+  std::erase_if(visits, [](const auto& v) { return v.second.size() < kFewestSightings; });
   if (visits.empty()) return;
   // Nothing moves any more once it is handed out.
   blocks_.reserve(7 + 7 * cameras_.cameras.size() + (7 + TagErrors::kNumbers) * visits.size());
   origin_ = take_pose(Pose{});
   problem.add_pose(origin_, ProblemBuilder::Group::kTagMeasures);
   problem.hold(origin_);
-  for (const auto& [key, visit] : visits) add_visit(visit, map, problem);
+  for (const auto& [seen, visit] : visits) {
+    add_visit(map.tags()[seen.first], seen.second, visit, problem);
+  }
 }
 
-void TagMeasures::add_visit(const Visit& visit, const Map& map, ProblemBuilder& problem) {
-  const MapTag& tag = map.tags()[visit.tag];
-  double* camera = camera_block(visit.camera, problem);
+void TagMeasures::add_visit(const MapTag& tag, std::size_t camera_index, const Visit& visit,
+                            ProblemBuilder& problem) {
+  double* camera = camera_block(camera_index, problem);
   double* place = take_pose(tag.T_map_tag);
   problem.add_pose(place, ProblemBuilder::Group::kTagMeasures);
   double* errors = blocks_.data() + blocks_.size();
@@ -131,10 +133,10 @@ void TagMeasures::add_visit(const Visit& visit, const Map& map, ProblemBuilder& 
                        Eigen::VectorXd::Zero(TagErrors::kNumbers));
   problem.add_factor(priors_.back(), nullptr, {errors});
   const std::array<Eigen::Vector3d, 4> corners = tag_corners(tag.size);
-  for (const auto& [keyframe, sighting] : visit.sightings) {
+  for (const auto& [keyframe, sighting] : visit) {
     const double sigma = corner_sigma(*sighting, accuracy_.corners);
     for (std::size_t c = 0; c < corners.size(); ++c) {
-      factors_.emplace_back(cameras_.undistorted[visit.camera],
+      factors_.emplace_back(cameras_.undistorted[camera_index],
                             ideal_corner(*sighting, c, cameras_), sigma, corners[c],
                             static_cast<int>(c));
       problem.add_factor(factors_.back(), &huber_,
@@ -149,10 +151,9 @@ double* TagMeasures::camera_block(std::size_t camera, ProblemBuilder& problem) {
   const Pose& T_body_cam = cameras_.cameras[camera].T_body_cam;
   block = take_pose(T_body_cam);
   problem.add_pose(block, ProblemBuilder::Group::kTagMeasures);
-  Vector6d sigma;
-  sigma << Eigen::Vector3d::Constant(accuracy_.position),
-      Eigen::Vector3d::Constant(accuracy_.rotation_deg * std::numbers::pi / 180);
-  mountings_.emplace_back(T_body_cam, sigma.cwiseAbs2().asDiagonal().toDenseMatrix());
+  mountings_.emplace_back(
+      T_body_cam,
+      isotropic_covariance(accuracy_.position, accuracy_.rotation_deg * std::numbers::pi / 180));
   problem.add_factor(mountings_.back(), nullptr, {origin_, block});
   return block;
 }
@@ -161,13 +162,6 @@ double* TagMeasures::take_pose(const Pose& pose) {
   const PoseBlock numbers = to_block(pose);
   blocks_.insert(blocks_.end(), numbers.begin(), numbers.end());
   return blocks_.data() + blocks_.size() - numbers.size();
-}
-
-void TagFactors::write_back(Map& map) const {
-  for (std::size_t t = 0; t + 1 < blocks_.size(); ++t) {
-    if (used_[t] && !held_[t]) map.tags()[t].T_map_tag = from_block(blocks_[t].data());
-  }
-  if (used_.back()) map.world() = from_block(blocks_.back().data());
 }
 
 }  // namespace vinebench::slam

@@ -5,6 +5,7 @@
 #include <ceres/normal_prior.h>
 
 #include <deque>
+#include <utility>
 #include <vector>
 
 #include "slam/camera/measurement_noise.h"
@@ -58,8 +59,10 @@ class TagMeasures : public FactorSource {
   void add_to(ProblemBuilder& problem, const Map& map) override;
 
  private:
-  struct Visit;  ///< of a tag by a camera
-  void add_visit(const Visit& visit, const Map& map, ProblemBuilder& problem);
+  /// Sightings of one tag by one camera, with their keyframes.
+  using Visit = std::vector<std::pair<int, const TagSighting*>>;
+  void add_visit(const MapTag& tag, std::size_t camera_index, const Visit& visit,
+                 ProblemBuilder& problem);
   double* camera_block(std::size_t camera, ProblemBuilder& problem);
   double* take_pose(const Pose& pose);
 
