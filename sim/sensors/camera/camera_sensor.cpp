@@ -97,7 +97,14 @@ RenderedImage CameraSensor::draw(const LensBand& band, const Pose& T_world_rover
   RenderRequest asked = request;
   asked.T_world_rover = T_world_rover;
   asked.labels |= effects_.wants_labels(view);
+  const bool blurred = config_.depth_of_field.aperture > 0;
+  asked.depth |= blurred;
   RenderedImage drawn = render(band.view, T_world_cam, asked);
+  if (blurred) {
+    const double focal = 0.5 * (band.view.fx + band.view.fy);
+    blur_by_depth(drawn.rgb, drawn.depth, focal, config_.depth_of_field);
+    if (!request.depth) drawn.depth.release();
+  }
   effects_.apply_to_view(drawn, view);
   if (!request.labels) drawn.labels.release();
   return drawn;

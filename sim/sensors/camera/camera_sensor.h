@@ -10,6 +10,7 @@
 #include "core/geometry/rig.h"
 #include "core/time.h"
 #include "sim/render/render_engine.h"
+#include "sim/sensors/camera/depth_of_field.h"
 #include "sim/sensors/camera/exposure.h"
 #include "sim/sensors/camera/lens.h"
 #include "sim/sensors/camera/point_spread.h"
@@ -21,9 +22,10 @@ namespace vinebench::sim {
 /// are on by default.
 struct CameraSensorConfig : EffectsConfig {
   ExposureConfig exposure;
-  int blur_subframes = 1;     ///< instants that an exposure is the mean of; 1 draws no blur
-  double readout_time = 0;    ///< s from the first row's exposure to the last's; 0: all at once
-  int readout_bands = 16;     ///< bands of rows, each drawn as of one instant
+  int blur_subframes = 1;   ///< instants that an exposure is the mean of; 1 draws no blur
+  double readout_time = 0;  ///< s from the first row's exposure to the last's; 0: all at once
+  int readout_bands = 16;   ///< bands of rows, each drawn as of one instant
+  DepthOfFieldConfig depth_of_field;
   double point_spread = 0.5;  ///< px, standard deviation of a point's image by the lens
   template <class Archive>
   void serialize(Archive& archive) {
@@ -31,6 +33,7 @@ struct CameraSensorConfig : EffectsConfig {
     archive("blur_subframes", blur_subframes, Range::between(1, 256));
     archive("readout_time", readout_time, Range::between(0, 0.2));
     archive("readout_bands", readout_bands, Range::between(2, 4096));
+    archive("depth_of_field", depth_of_field);
     archive("point_spread", point_spread, Range::between(0, kWidestPointSpread));
     EffectsConfig::serialize(archive);
   }

@@ -168,6 +168,34 @@ TEST_F(EdgeTest, LabelsAndDepthAreThoseOfTheMiddle) {
   EXPECT_EQ(different_values(blurred.depth, clean.depth), 0);
 }
 
+TEST_F(EdgeTest, AnEdgeOutOfFocusIsAsWideAsItsDisc) {
+  CameraSensorConfig config = off();
+  const double sharp = edge(capture(config, 0).rgb, 40, 80).second;
+  // 0.5 * 0.05 * 260 * (1 - 1 / 2) = 3.25 px; a disc has a quarter of its radius' square as
+  // variance along each axis. Its rim is drawn a pixel wide, which adds less than 0.2 px^2.
+  config.depth_of_field = {0.05, 1};
+  const auto [middle, blurred] = edge(capture(config, 0).rgb, 40, 80);
+  EXPECT_NEAR(blurred - sharp, 3.25 * 3.25 / 4 + 0.1, 0.1);
+  EXPECT_NEAR(middle, 99.5, 0.05);
+  config.depth_of_field.focus = kDistance;
+  EXPECT_NEAR(edge(capture(config, 0).rgb, 40, 80).second, sharp, 1e-9);
+}
+
+TEST_F(EdgeTest, DepthThatFocusNeedsIsGivenToNobodyElse) {
+  CameraSensorConfig config = off();
+  config.depth_of_field = {0.05, 1};
+  CameraSensor sensor(config, camera(), 0, 1, kDark);
+  Shot shot;
+  shot.exposure = {time_of(config), 0};
+  const RenderedImage image = sensor.capture(
+      shot, [&](Stamp) { return pose_at(0, 0); },
+      [&](const PinholeCamera& view, const Pose& pose, const RenderRequest& request) {
+        EXPECT_TRUE(request.depth);
+        return renderer_.render(view, pose, request);
+      });
+  EXPECT_TRUE(image.depth.empty());
+}
+
 TEST_F(EdgeTest, BlurChangesNoNoiseDraw) {
   CameraSensorConfig noisy;
   noisy.point_spread = 0;  // of codes in one, of light in the other
