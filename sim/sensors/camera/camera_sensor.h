@@ -46,9 +46,10 @@ struct CameraSensorConfig : EffectsConfig {
 /// One camera: from the scene to the image that it delivers.
 ///
 /// The scene is drawn at the instants of the sub-frames and bands of rows, with the exposure's
-/// factor; averaged as linear light; bent and spread by the lens. The effects of effect_list.cpp
-/// work on the views before that and on the light and the codes after it. An effect that is off
-/// costs nothing, and with all of them off the image is the engine's to the byte.
+/// factor, and blurred where the lens is not focused; averaged as linear light; bent and spread by
+/// the lens. The effects of effect_list.cpp work on the views before that and on the light and the
+/// codes after it. An effect that is off costs nothing, and with all of them off the image is the
+/// engine's to the byte.
 class CameraSensor {
  public:
   /// `camera` is the true one, the `index`-th of the rig; `light` is the scene's.
