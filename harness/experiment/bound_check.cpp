@@ -40,7 +40,7 @@ RunRecord planned_record(const ScenarioConfig& scenario) {
   return record;
 }
 
-void check_part(const char* part, const Expectations& asked, const PlannedDrive& drive,
+void check_part(const char* part, const Expectations& asked, const RouteOutlook& drive,
                 std::vector<IneffectiveBound>& found) {
   for (const Bound& bound : bounds()) {
     const std::optional<double> value = bound.asked(asked);
@@ -64,7 +64,7 @@ void check_part(const char* part, const Expectations& asked, const PlannedDrive&
 
 }  // namespace
 
-std::string why_ineffective(const Bound& bound, double value, const PlannedDrive& drive) {
+std::string why_ineffective(const Bound& bound, double value, const RouteOutlook& drive) {
   const std::string_view key = bound.key;
   const std::string_view unit = bound.unit;
   if (bound.at_least) return value <= 0 ? "nothing is below it" : "";
@@ -88,9 +88,9 @@ std::string IneffectiveBound::text() const {
   return fmt::format("{}.{}: this bound cannot fail: {}", part, key, reason);
 }
 
-PlannedDrive planned_drive(const ScenarioConfig& scenario) {
+RouteOutlook route_outlook(const ScenarioConfig& scenario) {
   const RunRecord record = planned_record(scenario);
-  PlannedDrive drive{.frames = static_cast<int>(record.ticks.size())};
+  RouteOutlook drive{.frames = static_cast<int>(record.ticks.size())};
   for (const Tick& tick : record.ticks) {
     const Eigen::Vector3d from_start =
         tick.truth.T_world_body.translation - record.ticks.front().truth.T_world_body.translation;
@@ -101,7 +101,7 @@ PlannedDrive planned_drive(const ScenarioConfig& scenario) {
 }
 
 std::vector<IneffectiveBound> ineffective_bounds(const ScenarioConfig& scenario) {
-  const PlannedDrive drive = planned_drive(scenario);
+  const RouteOutlook drive = route_outlook(scenario);
   std::vector<IneffectiveBound> found;
   check_part("expectations", scenario.expectations, drive, found);
   check_part("goal", scenario.goal, drive, found);

@@ -10,19 +10,19 @@
 
 namespace vinebench::harness {
 
-/// The drive by the route alone: what is true of it without physics, images and occluders.
-struct PlannedDrive {
+/// What is true of a drive by its route alone, without physics, images and occluders.
+struct RouteOutlook {
   int frames = 0;
   double reach = 0;  ///< m, farthest from the start
   int returns = 0;   ///< to tags, that must lead to a loop closure
 };
 /// Throws Error if the rig cannot be read.
-PlannedDrive planned_drive(const ScenarioConfig& scenario);
+RouteOutlook route_outlook(const ScenarioConfig& scenario);
 
 /// Why no run of that drive can fail this bound: a share or count that nothing is below or above,
 /// more losses than frames allow, missed loop closures where the route returns to no more tags, an
 /// error above that of an estimate that stands still, an angle of half a turn. Empty if one can.
-std::string why_ineffective(const Bound& bound, double value, const PlannedDrive& drive);
+std::string why_ineffective(const Bound& bound, double value, const RouteOutlook& drive);
 
 /// A bound that no run of its scenario can fail.
 struct IneffectiveBound {

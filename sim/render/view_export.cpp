@@ -10,13 +10,14 @@ namespace vinebench::sim {
 namespace {
 
 /// m from the camera to the nearest point of its box.
-double distance_of(const Instance& instance, const Model& model, const Eigen::Vector3d& camera) {
+double distance_to_box(const Instance& instance, const Model& model,
+                       const Eigen::Vector3d& camera) {
   const Eigen::Vector3d there = instance.T_world_model.inverse() * camera / instance.scale;
   return model.bounds.cast<double>().exteriorDistance(there) * instance.scale;
 }
 
 /// The first whose distance is larger; -1 beyond the last.
-int level_at(const Model& model, double distance) {
+int level_index(const Model& model, double distance) {
   const auto level = std::ranges::find_if(
       model.levels, [&](const LevelOfDetail& one) { return distance < one.until; });
   return level == model.levels.end() ? -1 : static_cast<int>(level - model.levels.begin());
@@ -57,8 +58,8 @@ std::vector<PlacedMesh> meshes_in_reach(const Scene& scene, const ExportedView& 
   for (const Instance& instance : scene.instances) {
     const Model& model = scene.models[static_cast<std::size_t>(instance.model)];
     if (model.levels.empty() || model.bounds.isEmpty()) continue;
-    const double distance = distance_of(instance, model, view.T_world_cam.translation);
-    const int level = level_at(model, nearer * distance);
+    const double distance = distance_to_box(instance, model, view.T_world_cam.translation);
+    const int level = level_index(model, nearer * distance);
     if (level < 0 || (distance > view.reach && !is_ground(scene, model))) continue;
     placed.push_back({instance.model, level, instance.T_world_model, instance.scale});
   }

@@ -6,8 +6,8 @@
 Usage: structure_test.py ROOT
 
 Prints every include against the arrows, every cycle of components (a header and its source are
-one), every folder of too many files, every source without a test that mirrors it, and what one of
-the two compilers does not know. The order of sub-folders is read from docs/architecture.md, so
+one), every folder of too many files, every source without a test that mirrors it, every type that
+two headers define in one namespace, and what one of the two compilers does not know. The order of sub-folders is read from docs/architecture.md, so
 that the document cannot be wrong about it.
 """
 
@@ -174,6 +174,25 @@ def check_subranges(tree):
                 tree.fail(f"{file}:{number}: {match.group(0)} does not compile with clang 14")
 
 
+def check_types(tree):
+    """Two types of one name in one namespace: the linker takes the destructor of either for both."""
+    headers = collections.defaultdict(set)
+    for file in tree.includes:
+        if not file.endswith(".h"):
+            continue
+        namespaces = []
+        for line in (tree.root / file).read_text().splitlines():
+            if match := re.match(r"namespace ([\w:]+) {", line):
+                namespaces.append(match.group(1))
+            elif line.startswith("}  // namespace"):
+                namespaces.pop()
+            elif match := re.match(r"(?:struct|class|union|enum class) (\w+)[^;]*{", line):
+                headers["::".join([*namespaces, match.group(1)])].add(file)
+    for name, files in sorted(headers.items()):
+        if len(files) > 1:
+            tree.fail(f"{name} is defined in {' and in '.join(sorted(files))}")
+
+
 def check_tests(tree, untested):
     """A source with logic of its own has a test that mirrors it, or a line in the list of those
     that another test stands for."""
@@ -221,6 +240,7 @@ def main():
     check_cycles(tree)
     check_sizes(tree)
     check_subranges(tree)
+    check_types(tree)
     check_tests(tree, read_list(root / LIST))
     for problem in sorted(set(tree.problems)):
         print(problem)

@@ -10,7 +10,7 @@
 namespace vinebench::tools {
 namespace {
 
-constexpr std::size_t kShown = 20;
+constexpr std::size_t kShownFaults = 20;
 
 std::string verdict(const harness::DatasetReport& report) {
   const std::string faults =
@@ -24,11 +24,11 @@ std::string verdict(const harness::DatasetReport& report) {
 int check(const std::string& folder) {
   const harness::DatasetReport report = harness::check_dataset(folder);
   for (const std::string& note : report.notes) fmt::print("note: {}\n", note);
-  for (std::size_t i = 0; i < std::min(kShown, report.faults.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kShownFaults, report.faults.size()); ++i) {
     fmt::print("{}: {}\n", report.faults[i].file, report.faults[i].problem);
   }
-  if (report.faults.size() > kShown) {
-    fmt::print("and {} more\n", report.faults.size() - kShown);
+  if (report.faults.size() > kShownFaults) {
+    fmt::print("and {} more\n", report.faults.size() - kShownFaults);
   }
   fmt::print("{}: {} ({} sequences, {} frames, {} files, {} label images compared)\n", folder,
              verdict(report), report.sequences, report.frames, report.files, report.label_images);

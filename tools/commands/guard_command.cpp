@@ -48,7 +48,7 @@ std::vector<harness::StoredRun> results_of(const harness::SetOutcome& outcome) {
 /// Without bounds that no run of the scenario can fail.
 std::vector<harness::GuardBound> effective(std::vector<harness::GuardBound> bounds,
                                            const harness::ScenarioConfig& scenario) {
-  const harness::PlannedDrive drive = harness::planned_drive(scenario);
+  const harness::RouteOutlook drive = harness::route_outlook(scenario);
   std::erase_if(bounds, [&](const harness::GuardBound& of) {
     return !harness::why_ineffective(*of.bound, of.value, drive).empty();
   });

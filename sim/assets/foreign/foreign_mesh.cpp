@@ -33,7 +33,7 @@ Eigen::Matrix3f turn_of(const ImportedMesh& mesh, const MeshImport& import) {
 }
 
 void place(ImportedMesh& mesh, const MeshImport& import, const std::string& file) {
-  constexpr float kFarthest = 1e5f;  // m, as for the file itself
+  constexpr float kFarthestPlaced = 1e5f;  // m, as for the file itself
   const Eigen::Matrix3f turn = turn_of(mesh, import);
   const auto scale = static_cast<float>(import.scale);
   if (scale == 1 && turn == Eigen::Matrix3f::Identity()) return;
@@ -48,10 +48,11 @@ void place(ImportedMesh& mesh, const MeshImport& import, const std::string& file
   mesh.asset.update_bounds();
   const Eigen::AlignedBox3f& bounds = mesh.asset.model.bounds;
   if (bounds.isEmpty() ||
-      bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).maxCoeff() <= kFarthest) {
+      bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).maxCoeff() <= kFarthestPlaced) {
     return;
   }
-  fail("{}: scaled by {} it reaches more than {} m from the origin", file, import.scale, kFarthest);
+  fail("{}: scaled by {} it reaches more than {} m from the origin", file, import.scale,
+       kFarthestPlaced);
 }
 
 /// Gives each primitive a material of its label.

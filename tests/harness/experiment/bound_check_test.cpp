@@ -46,7 +46,7 @@ TEST(BoundCheckScenariosTest, NoBoundOfOurScenariosIsIneffective) {
 
 // From (3.42, 0) to (4.5, 0.5) and back.
 TEST_F(BoundCheckTest, TheDriveIsTheRoutes) {
-  const PlannedDrive drive = planned_drive(scenario_);
+  const RouteOutlook drive = route_outlook(scenario_);
   EXPECT_NEAR(drive.reach, std::hypot(1.08, 0.5), 1e-3);
   EXPECT_EQ(drive.returns, 1);
 }
@@ -75,7 +75,7 @@ TEST_F(BoundCheckTest, CountsAndSharesOfNothing) {
 
 // A loss needs a frame with a pose and one without.
 TEST_F(BoundCheckTest, MoreLossesThanFramesAllow) {
-  const int most = planned_drive(scenario_).frames / 2;
+  const int most = route_outlook(scenario_).frames / 2;
   scenario_.guard.emplace().bounds.losses_max = most - 1;
   EXPECT_TRUE(keys_of(scenario_).empty());
   scenario_.guard->bounds.losses_max = most;

@@ -17,7 +17,7 @@
 namespace vinebench::tools {
 namespace {
 
-constexpr std::size_t kShown = 5;
+constexpr std::size_t kShownMounts = 5;
 
 struct PlaceCameraArguments {
   std::string world;
@@ -50,7 +50,7 @@ int place_camera(const PlaceCameraArguments& arguments) {
   fmt::print("{} poses over the route, {} tags, {} mountings of '{}'\n", drive.poses.size(),
              drive.world().tags.size(), mounts.size(), camera);
   tell("as it is", current);
-  for (std::size_t i = 0; i < std::min(kShown, mounts.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kShownMounts, mounts.size()); ++i) {
     tell(fmt::format("{}", i + 1).c_str(), mounts[i]);
   }
   tell("most", *std::ranges::max_element(mounts, {}, [](const harness::CameraMount& mount) {

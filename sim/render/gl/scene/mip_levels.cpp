@@ -7,16 +7,15 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "sim/render/image_encoding.h"
+
 namespace vinebench::sim {
 namespace {
 
-constexpr double kGamma = 2.2;  // the same power as the shaders'
-
-/// The light of each byte.
-std::array<float, 256> light_table() {
+std::array<float, 256> lights_of_bytes() {
   std::array<float, 256> table{};
   for (std::size_t i = 0; i < table.size(); ++i) {
-    table[i] = static_cast<float>(std::pow(static_cast<double>(i) / 255.0, kGamma));
+    table[i] = static_cast<float>(light_of_code(static_cast<double>(i)));
   }
   return table;
 }
@@ -25,7 +24,7 @@ std::array<float, 256> light_table() {
 std::array<float, 255> byte_limits() {
   std::array<float, 255> limits{};
   for (std::size_t i = 0; i < limits.size(); ++i) {
-    limits[i] = static_cast<float>(std::pow((static_cast<double>(i) + 0.5) / 255.0, kGamma));
+    limits[i] = static_cast<float>(light_of_code(static_cast<double>(i) + 0.5));
   }
   return limits;
 }
@@ -57,7 +56,7 @@ class ByteTable {
 
 /// Linear light, weighted by alpha so that a cut-out's background does not bleed into its edge.
 cv::Mat to_light(const cv::Mat& rgba, bool cutout) {
-  static const std::array<float, 256> lights = light_table();
+  static const std::array<float, 256> lights = lights_of_bytes();
   cv::Mat light(rgba.size(), CV_32FC4);
   for (int y = 0; y < rgba.rows; ++y) {
     for (int x = 0; x < rgba.cols; ++x) {

@@ -10,7 +10,7 @@
 namespace vinebench::sim {
 namespace {
 
-const cv::Size kSize(37, 70);  // no multiple of the pixels and rows that are read at a time
+const cv::Size kPicture(37, 70);  // no multiple of the pixels and rows that are read at a time
 
 /// A target whose pixels are functions of their place.
 class ReadBackTest : public test::GlTest {
@@ -47,19 +47,19 @@ void main() {
   }
   template <class Check>
   static void for_each_pixel(const Check& check) {
-    for (int y = 0; y < kSize.height; ++y) {
-      for (int x = 0; x < kSize.width; ++x) check(x, y);
+    for (int y = 0; y < kPicture.height; ++y) {
+      for (int x = 0; x < kPicture.width; ++x) check(x, y);
     }
   }
 
-  const GlTarget target_{gl_, kSize.width, kSize.height, true};
+  const GlTarget target_{gl_, kPicture.width, kPicture.height, true};
   const GlVertexArray no_vertices_ = make_vertex_array(gl_);
   ReadBack read_back_;
 };
 
 TEST_F(ReadBackTest, ColoursAndLabelsAreThoseOfEachPixel) {
   cv::Mat rgb, labels;
-  read_back_.colours(gl_, kSize, rgb, labels);
+  read_back_.colours(gl_, kPicture, rgb, labels);
   for_each_pixel([&](int x, int y) {
     EXPECT_EQ(rgb.at<cv::Vec3b>(y, x), cv::Vec3b(cv::Vec3i(x, y, x + y))) << x << " " << y;
     EXPECT_EQ(labels.at<std::uint8_t>(y, x), 2 * x);
@@ -69,7 +69,7 @@ TEST_F(ReadBackTest, ColoursAndLabelsAreThoseOfEachPixel) {
 // Depth 0.5 is where (f + n) / (f - n) - 2 f n / (f - n) / z = 0: z = 2 f n / (f + n).
 TEST_F(ReadBackTest, DepthIsTheDistanceAlongTheAxis) {
   cv::Mat depth;
-  read_back_.depth(gl_, kSize, depth);
+  read_back_.depth(gl_, kPicture, depth);
   const double z = 2 * kFarPlane * kNearPlane / (kFarPlane + kNearPlane);
   for_each_pixel([&](int x, int y) {
     EXPECT_FLOAT_EQ(depth.at<float>(y, x), x == 0 ? 0.0f : static_cast<float>(z));
@@ -78,7 +78,7 @@ TEST_F(ReadBackTest, DepthIsTheDistanceAlongTheAxis) {
 
 TEST_F(ReadBackTest, InstancesAreTheirNumberTimes256AndThePart) {
   cv::Mat numbers;
-  read_back_.instances(gl_, kSize, numbers);
+  read_back_.instances(gl_, kPicture, numbers);
   for_each_pixel([&](int x, int y) {
     EXPECT_EQ(numbers.at<std::int32_t>(y, x), 256 * (x + 256 * y + 65536) + 2);
   });
@@ -86,7 +86,7 @@ TEST_F(ReadBackTest, InstancesAreTheirNumberTimes256AndThePart) {
 
 TEST_F(ReadBackTest, VectorsHaveThreeOfFourFloats) {
   cv::Mat vectors;
-  read_back_.vectors(gl_, 2, kSize, vectors);
+  read_back_.vectors(gl_, 2, kPicture, vectors);
   for_each_pixel([&](int x, int y) {
     EXPECT_EQ(vectors.at<cv::Vec3f>(y, x),
               cv::Vec3f(static_cast<float>(x), static_cast<float>(-y), 0.25f));

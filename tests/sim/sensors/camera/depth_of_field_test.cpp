@@ -14,7 +14,7 @@ namespace {
 constexpr double kFocal = 1000;                // px
 constexpr DepthOfFieldConfig kLens{0.016, 1};  // m
 constexpr float kFar = 2;                      // m; a radius of 0.5 * 16 * (1 - 1/2) = 4 px
-const cv::Scalar kWhite = cv::Scalar::all(255);
+const cv::Scalar kWhiteCode = cv::Scalar::all(255);
 
 cv::Mat depths(float depth) {
   return {41, 41, CV_32FC1, cv::Scalar(static_cast<double>(depth))};
@@ -73,7 +73,7 @@ TEST(DepthOfFieldTest, AnEvenImageStaysAtAnyDepth) {
 
 TEST(DepthOfFieldTest, WhatIsBehindDoesNotSpreadOverWhatIsInFocus) {
   cv::Mat image = black(), depth = depths(1);
-  image.colRange(20, 41).setTo(kWhite);
+  image.colRange(20, 41).setTo(kWhiteCode);
   depth.colRange(20, 41).setTo(kFar);
   blur_by_depth(image, depth, kFocal, kLens);
   for (int x = 0; x < 20; ++x) EXPECT_EQ(image.at<cv::Vec3b>(20, x)[1], 0) << x;
@@ -81,7 +81,7 @@ TEST(DepthOfFieldTest, WhatIsBehindDoesNotSpreadOverWhatIsInFocus) {
 
 TEST(DepthOfFieldTest, WhatIsNearSpreadsOverWhatIsInFocusBehindIt) {
   cv::Mat image = black(), depth = depths(1);
-  image.colRange(0, 20).setTo(kWhite);
+  image.colRange(0, 20).setTo(kWhiteCode);
   depth.colRange(0, 20).setTo(2.0 / 3);  // a radius of 0.5 * 16 * (3 / 2 - 1) = 4 px
   blur_by_depth(image, depth, kFocal, kLens);
   EXPECT_GT(light_at(image, 21, 20), 0.02);

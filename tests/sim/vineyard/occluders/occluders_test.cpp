@@ -18,7 +18,7 @@ namespace {
 
 using Shape = Occluder::Shape;
 
-WorldConfig one_row() {
+WorldConfig six_metre_row() {
   WorldConfig world;
   world.rows = {{{0, 0}, {6, 0}}};
   return world;
@@ -52,7 +52,7 @@ TEST(CartonTest, APrintedOneHasAPrintOfItsSeed) {
 }
 
 TEST(CartonTest, OnlyThePrintedOneCarriesThePrint) {
-  WorldConfig world = one_row();
+  WorldConfig world = six_metre_row();
   world.occluders.resize(2);
   world.occluders[1].printed = true;
   const Scene scene = scene_with(world);
@@ -67,7 +67,7 @@ TEST(CartonTest, OnlyThePrintedOneCarriesThePrint) {
 }
 
 TEST(OccludersTest, APersonIsAsTallAsAskedAndStandsOnTheGround) {
-  WorldConfig world = one_row();
+  WorldConfig world = six_metre_row();
   world.terrain.slope_percent = 10;
   world.occluders = {{.shape = Shape::kPerson, .position = {5, 1}, .height = 1.6}};
   const Scene scene = scene_with(world);
@@ -83,7 +83,7 @@ TEST(OccludersTest, APersonIsAsTallAsAskedAndStandsOnTheGround) {
 TEST(OccludersTest, EveryShapeFillsItsSizeAndHasTheLabelOfItsClass) {
   for (const Shape shape :
        {Shape::kBox, Shape::kPerson, Shape::kCrate, Shape::kCylinder, Shape::kSheet}) {
-    WorldConfig world = one_row();
+    WorldConfig world = six_metre_row();
     world.occluders = {{.shape = shape, .kind = OccluderClass::kLeaf, .lift = 0.5}};
     const Scene scene = scene_with(world);
     const Eigen::Vector3d size = size_of(world.occluders[0]);
@@ -102,7 +102,7 @@ TEST(OccludersTest, EveryShapeFillsItsSizeAndHasTheLabelOfItsClass) {
 }
 
 TEST(OccludersTest, NumbersCountWithinEachListOfTheFile) {
-  WorldConfig world = one_row();
+  WorldConfig world = six_metre_row();
   world.occluders.resize(4);
   for (const std::size_t i : {0, 1}) world.occluders[i].list = Occluder::List::kBoxes;
   world.occluders[2].list = Occluder::List::kObstacles;
@@ -113,7 +113,7 @@ TEST(OccludersTest, NumbersCountWithinEachListOfTheFile) {
 }
 
 TEST(OccludersTest, OneWithAPathMovesItsModelWithItsOrigin) {
-  WorldConfig world = one_row();
+  WorldConfig world = six_metre_row();
   world.occluders.resize(2);
   world.occluders[1].size = {0.4, 0.4, 0.6};
   world.occluders[1].path.emplace();
@@ -145,7 +145,7 @@ TEST(OccluderShapeTest, ThePersonsBlocksEncloseTheFigure) {
 
 TEST(OccludersTest, APersonAndACrateBlockTheRover) {
   for (const Shape shape : {Shape::kPerson, Shape::kCrate}) {
-    WorldConfig world = one_row();
+    WorldConfig world = six_metre_row();
     world.occluders = {{.shape = shape, .position = {1, 3}}};
     Rover rover(csl_rover(), world, {0, 3, 0}, 1);
     std::vector<ImuSample> imu;
@@ -160,7 +160,7 @@ TEST(OccludersTest, APersonAndACrateBlockTheRover) {
 }
 
 TEST(OccludersTest, AMovingBoxPushesTheRoverAlong) {
-  WorldConfig world = one_row();
+  WorldConfig world = six_metre_row();
   world.occluders.resize(1);
   world.occluders[0].size = {0.4, 0.8, 0.6};
   world.occluders[0].path.emplace();
