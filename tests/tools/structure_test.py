@@ -7,8 +7,8 @@ Usage: structure_test.py ROOT
 
 Prints every include against the arrows, every cycle of components (a header and its source are
 one), every folder of too many files, every source without a test that mirrors it, every type that
-two headers define in one namespace, and what one of the two compilers does not know. The order of sub-folders is read from docs/architecture.md, so
-that the document cannot be wrong about it.
+two headers define in one namespace, and what one of the two compilers does not know. The order of
+sub-folders is read from docs/architecture.md, so that the document cannot be wrong about it.
 """
 
 import collections
