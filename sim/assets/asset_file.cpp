@@ -16,15 +16,13 @@
 namespace vinebench::sim {
 namespace {
 
-constexpr float kFarthest = 1e5f;  // m; plausible distance of a vertex from the origin
-
 std::string problem_of(const Vertex& v) {
   if (!v.position.allFinite() || !v.uv.allFinite() || !v.normal.allFinite() ||
       !std::isfinite(v.occlusion)) {
     return "is not a finite number";
   }
-  if (v.position.cwiseAbs().maxCoeff() <= kFarthest) return "";
-  return fmt::format("lies more than {} m from the origin", kFarthest);
+  if (v.position.cwiseAbs().maxCoeff() <= kFarthestVertex) return "";
+  return fmt::format("lies more than {} m from the origin", kFarthestVertex);
 }
 
 void check(const Primitive& primitive, std::size_t materials, const std::string& file) {

@@ -14,6 +14,8 @@
 
 namespace vinebench::sim {
 
+inline constexpr float kFarthestVertex = 1e5f;  ///< m, along an axis from a mesh's origin
+
 /// Reads a mesh file: .glb and .gltf (y up, by their standard), .dae (up axis of the file), .obj
 /// and .stl (z up); m. Materials without a label are labelled as leaves. Throws Error with file and
 /// reason.

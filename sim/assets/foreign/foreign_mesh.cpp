@@ -33,7 +33,6 @@ Eigen::Matrix3f turn_of(const ImportedMesh& mesh, const MeshImport& import) {
 }
 
 void place(ImportedMesh& mesh, const MeshImport& import, const std::string& file) {
-  constexpr float kFarthestPlaced = 1e5f;  // m, as for the file itself
   const Eigen::Matrix3f turn = turn_of(mesh, import);
   const auto scale = static_cast<float>(import.scale);
   if (scale == 1 && turn == Eigen::Matrix3f::Identity()) return;
@@ -48,11 +47,11 @@ void place(ImportedMesh& mesh, const MeshImport& import, const std::string& file
   mesh.asset.update_bounds();
   const Eigen::AlignedBox3f& bounds = mesh.asset.model.bounds;
   if (bounds.isEmpty() ||
-      bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).maxCoeff() <= kFarthestPlaced) {
+      bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).maxCoeff() <= kFarthestVertex) {
     return;
   }
   fail("{}: scaled by {} it reaches more than {} m from the origin", file, import.scale,
-       kFarthestPlaced);
+       kFarthestVertex);
 }
 
 /// Gives each primitive a material of its label.
