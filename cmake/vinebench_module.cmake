@@ -43,9 +43,15 @@ endfunction()
 set(VINEBENCH_COMMON_HEADERS <algorithm> <filesystem> <functional> <map> <memory> <optional> <string> <vector>
     <fmt/format.h> <Eigen/Core> <Eigen/Geometry> <opencv2/core.hpp>)
 
-# vinebench_precompile(TARGET headers...): precompiles them for a target of many files.
+# vinebench_precompile(TARGET headers...): precompiles them for a target of many files; REUSE_FROM TARGET uses
+# those of another one, which is compiled with the same options.
 function(vinebench_precompile target)
-  if(VINEBENCH_PRECOMPILE)
+  if(NOT VINEBENCH_PRECOMPILE)
+    return()
+  endif()
+  if("${ARGV1}" STREQUAL REUSE_FROM)
+    target_precompile_headers(${target} ${ARGN})
+  else()
     target_precompile_headers(${target} PRIVATE ${ARGN})
   endif()
 endfunction()
@@ -53,9 +59,12 @@ endfunction()
 # How many folders deep vinebench_unity() tells folders apart, such as sim/render. Fourteen small folders of tests
 # took half the time at once: headers, and what templates become, are common to them.
 set(vinebench_unity_depth 2)
+# Folders that are compiled together: lists of names, each separated by spaces. A module's own folder has its name.
+set(vinebench_unity_together "")
 
 # vinebench_unity(TARGET sources...): compiles each folder's sources at once, with those of folders deeper than
-# ${vinebench_unity_depth}. Names that are local to a file are unique there therefore.
+# ${vinebench_unity_depth}, and of folders named in the same entry of ${vinebench_unity_together}. Names that are
+# local to a file are unique there therefore.
 function(vinebench_unity target)
   if(NOT VINEBENCH_UNITY)
     return()
@@ -66,6 +75,14 @@ function(vinebench_unity target)
       file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
       string(REPLACE "/" ";" folder "${folder}")
       list(SUBLIST folder 0 ${vinebench_unity_depth} folder)
+      list(POP_BACK folder name)
+      foreach(together IN LISTS vinebench_unity_together)
+        separate_arguments(together)
+        if(name IN_LIST together)
+          list(GET together 0 name)
+        endif()
+      endforeach()
+      list(APPEND folder ${name})
       list(JOIN folder "_" folder)
       set_property(SOURCE ${source} PROPERTY UNITY_GROUP ${folder})
     endif()
@@ -85,7 +102,6 @@ function(vinebench_module name)
   add_library(vinebench_${name} STATIC ${sources})
   target_link_libraries(vinebench_${name} ${ARGN})
   vinebench_flags(vinebench_${name})
-  vinebench_precompile(vinebench_${name} ${VINEBENCH_COMMON_HEADERS})
   vinebench_unity(vinebench_${name} ${sources})
 endfunction()
 
@@ -147,8 +163,8 @@ function(vinebench_tests folder)
   endif()
   # All programs of tests are compiled alike: the first one's headers serve the others.
   get_property(precompiled GLOBAL PROPERTY VINEBENCH_PRECOMPILED_TESTS)
-  if(VINEBENCH_PRECOMPILE AND precompiled)
-    target_precompile_headers(${name}_test REUSE_FROM ${precompiled})
+  if(precompiled)
+    vinebench_precompile(${name}_test REUSE_FROM ${precompiled})
   else()
     vinebench_precompile(${name}_test ${VINEBENCH_COMMON_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
     set_property(GLOBAL PROPERTY VINEBENCH_PRECOMPILED_TESTS ${name}_test)

@@ -51,6 +51,10 @@ Pose interpolate(const Pose& a, const Pose& b, double fraction) {
           (1.0 - fraction) * a.translation + fraction * b.translation};
 }
 
+bool is_rotation(const Eigen::Matrix3d& R, double tolerance) {
+  return (R * R.transpose()).isIdentity(tolerance) && R.determinant() > 0;
+}
+
 double angle_of(const Eigen::Quaterniond& rotation) {
   return log_so3(rotation).norm();
 }

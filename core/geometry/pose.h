@@ -45,6 +45,9 @@ double yaw_of(const Eigen::Quaterniond& rotation);
 /// Interpolates between two poses: linear in translation, slerp in rotation.
 Pose interpolate(const Pose& a, const Pose& b, double fraction);
 
+/// Whether R R^T is the identity to `tolerance` and R does not mirror; not if it has a NaN.
+bool is_rotation(const Eigen::Matrix3d& R, double tolerance);
+
 /// Angle of the rotation, rad in [0, pi].
 double angle_of(const Eigen::Quaterniond& rotation);
 

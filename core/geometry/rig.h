@@ -82,6 +82,8 @@ struct Rig {
 };
 
 /// The YAML form of a rig, with angles in degrees.
+inline constexpr int kSmallestImageSide = 16, kLargestImageSide = 16384;  ///< px
+
 struct RigConfig {
   struct Camera {
     std::string name;                               ///< of its topics and files
@@ -99,8 +101,8 @@ struct RigConfig {
     template <class Archive>
     void serialize(Archive& archive) {
       archive("name", name);
-      archive("width", width, Range::between(16, 16384));
-      archive("height", height, Range::between(16, 16384));
+      archive("width", width, Range::between(kSmallestImageSide, kLargestImageSide));
+      archive("height", height, Range::between(kSmallestImageSide, kLargestImageSide));
       archive("fx", fx, Range::positive());
       archive("fy", fy, Range::positive());
       archive("cx", cx);

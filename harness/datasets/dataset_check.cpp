@@ -94,7 +94,7 @@ class Check {
   /// frames.csv is the last file that a recording creates before its first frame.
   bool has_begun() const {
     std::error_code ignored;
-    return card_.complete || fs::is_regular_file(folder_ / "frames.csv", ignored);
+    return card_.complete || fs::is_regular_file(folder_ / kRecordedFrames, ignored);
   }
 
   void check_sequence() {
@@ -137,29 +137,29 @@ class Check {
   }
 
   void check_frames() {
-    for (const TableRow& row : sequence_.read("frames.csv")) {
+    for (const TableRow& row : sequence_.read(kRecordedFrames)) {
       row.expect_columns(10, "number, frame, timestamp [ns], position, quaternion");
       RecordedPose frame{row.nanoseconds(2), {}};
       frame.T_world_body.translation = {row.number(3), row.number(4), row.number(5)};
       frame.T_world_body.rotation =
           Eigen::Quaterniond(row.number(9), row.number(6), row.number(7), row.number(8));
       if (row.number(0) != static_cast<double>(sequence_.frames.size())) {
-        fault("frames.csv", fmt::format("expected number {} here", sequence_.frames.size()));
+        fault(kRecordedFrames, fmt::format("expected number {} here", sequence_.frames.size()));
       }
       if (!sequence_.frames.empty() && frame.stamp <= sequence_.frames.back().stamp) {
-        fault("frames.csv",
+        fault(kRecordedFrames,
               fmt::format("frame {}: its stamp does not ascend", sequence_.frames.size()));
       }
       if (std::abs(frame.T_world_body.rotation.norm() - 1) > 1e-9) {
-        fault("frames.csv", fmt::format("frame {}: its quaternion is not of unit length",
-                                        sequence_.frames.size()));
+        fault(kRecordedFrames, fmt::format("frame {}: its quaternion is not of unit length",
+                                           sequence_.frames.size()));
       }
       sequence_.frames.push_back(frame);
     }
     report_.frames += static_cast<std::int64_t>(sequence_.frames.size());
     if (card_.complete && static_cast<std::int64_t>(sequence_.frames.size()) != card_.frames) {
-      fault("frames.csv", fmt::format("has {} frames, dataset.yaml says {}",
-                                      sequence_.frames.size(), card_.frames));
+      fault(kRecordedFrames, fmt::format("has {} frames, dataset.yaml says {}",
+                                         sequence_.frames.size(), card_.frames));
     }
   }
 

@@ -17,8 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFrameList = "frames.csv";
-
 /// frames.csv. It is written last, so a frame in it is complete in all formats.
 class FrameList : public FormatWriter {
  public:
@@ -66,7 +64,7 @@ DatasetCard initial_card(const RecordingNotes& notes, const RecordOptions& optio
 }
 
 void clear_recording(const fs::path& folder) {
-  for (const char* list : {FileManifest::kName, kFrameList}) {
+  for (const char* list : {FileManifest::kName, kRecordedFrames}) {
     std::error_code ignored;
     fs::remove(folder / list, ignored);
   }
@@ -118,7 +116,7 @@ DatasetEncoder::Writers DatasetWriter::make_writers(const RecordingNotes& notes,
       if (writer != nullptr) writers.push_back(std::move(writer));
     }
   }
-  writers.push_back(std::make_unique<FrameList>(folder_ / kFrameList));
+  writers.push_back(std::make_unique<FrameList>(folder_ / kRecordedFrames));
   return writers;
 }
 

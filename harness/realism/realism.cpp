@@ -14,6 +14,8 @@
 namespace vinebench::harness {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 StatisticComparison compare(const std::string& name, const std::vector<double>& real,
                             const std::vector<double>& ours) {
   StatisticComparison result{.name = name,
@@ -71,8 +73,7 @@ std::string format_realism(const Realism& realism) {
   return text;
 }
 
-nlohmann::ordered_json to_json(const Realism& realism) {
-  using Json = nlohmann::ordered_json;
+Json to_json(const Realism& realism) {
   Json statistics = Json::array();
   for (const StatisticComparison& s : realism.statistics) {
     statistics.push_back({{"name", s.name},

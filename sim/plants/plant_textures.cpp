@@ -151,12 +151,14 @@ cv::Mat leaf_relief(int side, RandomSequence& random, std::uint64_t seed, const 
   return light;
 }
 
-cv::Mat lit(const cv::Mat& rgb, const cv::Mat& light) {
-  cv::Mat out = rgb.clone();
-  for (int y = 0; y < out.rows; ++y) {
-    for (int x = 0; x < out.cols; ++x) out.at<cv::Vec3f>(y, x) *= light.at<float>(y, x);
+void light_up(cv::Mat& rgb, const cv::Mat& light) {
+  for (int y = 0; y < rgb.rows; ++y) {
+    const auto* by = light.ptr<float>(y);
+    auto* to = rgb.ptr<float>(y);
+    for (int x = 0; x < rgb.cols; ++x) {
+      for (int c = 0; c < 3; ++c) to[3 * x + c] *= by[x];
+    }
   }
-  return out;
 }
 
 cv::Mat paint_leaf(std::uint64_t seed, int variant, int print, const Cultivar::Leaf& look,
@@ -166,15 +168,15 @@ cv::Mat paint_leaf(std::uint64_t seed, int variant, int print, const Cultivar::L
   const std::string name = fmt::format("leaf {} {}", variant, print);
   const cv::Mat mottle = fractal_noise({side, side}, {5, 5}, 6, 0.62, seed, name);
   cv::Mat rgb = blend(mottle, colours.dark, colours.light);
-  rgb = lit(rgb, leaf_relief(side, random, seed, name + " relief"));
+  light_up(rgb, leaf_relief(side, random, seed, name + " relief"));
   const cv::Mat alpha = leaf_alpha(side, look, random);
   cv::Mat inside, rim;
   cv::distanceTransform(alpha > 127, inside, cv::DIST_L2, 3);
   cv::Mat turned = 1.6 * colours.edge_share - inside / (0.16 * side) + (mottle - 0.5) * 1.2;
   turned = cv::min(cv::max(turned, 0.0f), 1.0f);
-  rgb = mix(turned, rgb, cv::Mat(rgb.size(), CV_32FC3, cv::Scalar(colours.edge)));
+  rgb = mix(turned, std::move(rgb), colours.edge);
   const cv::Mat vein = 0.6 * leaf_veins(side, random);
-  rgb = mix(vein, rgb, cv::Mat(rgb.size(), CV_32FC3, cv::Scalar(colours.vein)));
+  rgb = mix(vein, std::move(rgb), colours.vein);
   const int spots = 4 + random.below(16);
   for (int i = 0; i < spots; ++i) {
     const cv::Point2d at(random.uniform(0.2, 0.8) * side, random.uniform(0.1, 0.8) * side);

@@ -12,18 +12,19 @@ namespace vinebench::sim {
 
 // Procedural images; the same seed gives the same bytes.
 
-/// Smooth noise in [0, 1], CV_32F, seamlessly tileable, with `cells` bumps per side.
-cv::Mat value_noise(cv::Size size, cv::Size cells, const RandomStream& random);
-
-/// Octaves of value_noise, each of twice the cells and `gain` times the height, scaled to [0, 1].
+/// Smooth noise scaled to [0, 1], CV_32F, seamlessly tileable: octaves, the first with `cells`
+/// bumps per side, each of twice the cells and `gain` times the height of the one before.
 cv::Mat fractal_noise(cv::Size size, cv::Size cells, int octaves, double gain, std::uint64_t seed,
                       std::string_view name);
 
 /// Pixel by pixel from `low` to `high` (RGB, 0 to 255) as `amount` goes from 0 to 1: CV_32FC3.
 cv::Mat blend(const cv::Mat& amount, const cv::Vec3f& low, const cv::Vec3f& high);
 
-/// Pixel by pixel from image `a` to `b`, both CV_32FC3, as `amount` goes from 0 to 1.
+/// Pixel by pixel from image `a` to `b`, both CV_32FC3, or to a colour, as `amount` goes from 0
+/// to 1. What is moved in becomes the result.
 cv::Mat mix(const cv::Mat& amount, const cv::Mat& a, const cv::Mat& b);
+cv::Mat mix(const cv::Mat& amount, cv::Mat&& a, const cv::Mat& b);
+cv::Mat mix(const cv::Mat& amount, cv::Mat&& a, const cv::Vec3f& colour);
 
 /// CV_32FC3 of 0 to 255 (and 8-bit alpha, opaque where empty) to the CV_8UC4 of a Texture.
 cv::Mat to_rgba(const cv::Mat& rgb, const cv::Mat& alpha = {});

@@ -98,13 +98,13 @@ cv::Mat repeated_noise(cv::Size size, cv::Size pieces, cv::Size cells, int octav
 /// Coarse noise, generated small and enlarged; `gain` as for fractal_noise.
 cv::Mat coarse_noise(cv::Size size, cv::Size cells, int octaves, double gain, std::uint64_t seed,
                      std::string_view name) {
-  constexpr int kRim = 4;  // px of the next tile, so that the enlarged image has no seam
+  constexpr int kBeyond = 4;  // px of the next tile, so that the enlarged image has no seam
   const cv::Size small(size.width / 4, size.height / 4);
   cv::Mat wrapped, large;
-  cv::copyMakeBorder(fractal_noise(small, cells, octaves, gain, seed, name), wrapped, kRim, kRim,
-                     kRim, kRim, cv::BORDER_WRAP);
+  cv::copyMakeBorder(fractal_noise(small, cells, octaves, gain, seed, name), wrapped, kBeyond,
+                     kBeyond, kBeyond, kBeyond, cv::BORDER_WRAP);
   cv::resize(wrapped, large, wrapped.size() * 4, 0, 0, cv::INTER_LINEAR);
-  return large(cv::Rect(cv::Point(4 * kRim, 4 * kRim), size)).clone();
+  return large(cv::Rect(cv::Point(4 * kBeyond, 4 * kBeyond), size)).clone();
 }
 
 /// Short grass from above, without individual blades.
@@ -149,10 +149,12 @@ cv::Vec3d herb(RandomSequence& random) {
 void mottle(cv::Mat& rgb, cv::Size cells, double depth, std::uint64_t seed, std::string_view name) {
   const cv::Mat patches = coarse_noise(rgb.size(), cells, 3, 0.7, seed, name);
   for (int y = 0; y < rgb.rows; ++y) {
+    const auto* patch = patches.ptr<float>(y);
+    auto* to = rgb.ptr<float>(y);
     for (int x = 0; x < rgb.cols; ++x) {
-      const double off =
-          std::clamp(3.0 * (static_cast<double>(patches.at<float>(y, x)) - 0.5), -1.0, 1.0);
-      rgb.at<cv::Vec3f>(y, x) *= static_cast<float>(1 + depth * off);
+      const double off = std::clamp(3.0 * (static_cast<double>(patch[x]) - 0.5), -1.0, 1.0);
+      const auto light = static_cast<float>(1 + depth * off);
+      for (int c = 0; c < 3; ++c) to[3 * x + c] *= light;
     }
   }
 }

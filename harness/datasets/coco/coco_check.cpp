@@ -24,7 +24,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr int kPanopticLookedAt = 12;
-constexpr int kLargestSide = 16384;  // px; calibration.yaml's
 
 class Checker {
  public:
@@ -48,10 +47,10 @@ class Checker {
     std::map<std::int64_t, cv::Size> sizes;
     for (const Json& image : root.at("images")) {
       const cv::Size size(image.at("width").get<int>(), image.at("height").get<int>());
-      if (size.width < 1 || size.height < 1 || size.width > kLargestSide ||
-          size.height > kLargestSide) {
+      if (size.width < 1 || size.height < 1 || size.width > kLargestImageSide ||
+          size.height > kLargestImageSide) {
         fault(fmt::format("image {}: expected 1 to {} pixels a side",
-                          image.at("id").get<std::int64_t>(), kLargestSide));
+                          image.at("id").get<std::int64_t>(), kLargestImageSide));
         continue;
       }
       if (!sizes.emplace(image.at("id"), size).second) {

@@ -10,7 +10,7 @@ namespace vinebench::harness {
 
 namespace {
 
-std::unique_ptr<FormatWriter> write(const WriterInputs& inputs) {
+std::unique_ptr<FormatWriter> make_coco_writer(const WriterInputs& inputs) {
   const RecordOptions& options = inputs.options;
   return std::make_unique<CocoWriter>(
       inputs.folder, inputs.notes, inputs.scene,
@@ -18,15 +18,15 @@ std::unique_ptr<FormatWriter> write(const WriterInputs& inputs) {
                   options.sequence * kCocoImagesPerSequence + 1});
 }
 
-void check(const RecordedSequence& sequence, std::vector<DatasetFault>& faults) {
+void check_coco_lists(const RecordedSequence& sequence, std::vector<DatasetFault>& faults) {
   if (!sequence.has("coco/panoptic.json")) return;  // the last file; interrupted
   for (const DatasetFault& fault : check_coco(sequence.folder / "coco")) {
     faults.push_back({"coco/" + fault.file, fault.problem});
   }
 }
 
-void join(const std::filesystem::path& folder, const std::vector<std::string>& parts,
-          const RecordOptions& options) {
+void join_coco(const std::filesystem::path& folder, const std::vector<std::string>& parts,
+               const RecordOptions& options) {
   merge_coco(folder, parts, options.categories);
 }
 
@@ -36,9 +36,9 @@ DatasetFormat coco_format() {
   return {.name = "coco",
           .description = "COCO: boxes, masks, visibility and panoptic images",
           .truth = {.labels = true, .instances = true},
-          .write = write,
-          .check = check,
-          .joined = {{"instances.json", "panoptic.json"}, join}};
+          .write = make_coco_writer,
+          .check = check_coco_lists,
+          .joined = {{"instances.json", "panoptic.json"}, join_coco}};
 }
 
 }  // namespace vinebench::harness

@@ -13,9 +13,8 @@ namespace vinebench::harness {
 namespace {
 
 constexpr double kMillimetres = 1000;
-constexpr double kMostCode = 65535;
 
-std::unique_ptr<FormatWriter> write(const WriterInputs& inputs) {
+std::unique_ptr<FormatWriter> make_depth_writer(const WriterInputs& inputs) {
   return std::make_unique<ImageWriter>(
       inputs.folder, inputs.notes, "depth", "png",
       [](const DatasetFrame& frame, std::size_t camera) {
@@ -24,7 +23,7 @@ std::unique_ptr<FormatWriter> write(const WriterInputs& inputs) {
 }
 
 /// The sky has no depth.
-void check_image(LabelImages& images) {
+void check_depth_image(LabelImages& images) {
   const cv::Mat& depth = images.read("depth", CV_16UC1);
   const cv::Mat& semantic = images.read("semantic", CV_8UC1);
   if (depth.empty() || semantic.empty()) return;
@@ -43,7 +42,7 @@ cv::Mat millimetres(const cv::Mat& depth) {
     auto* to = codes.ptr<std::uint16_t>(y);
     for (int x = 0; x < depth.cols; ++x) {
       const double mm = static_cast<double>(from[x]) * kMillimetres + 0.5;
-      to[x] = mm < kMostCode + 1 ? static_cast<std::uint16_t>(mm) : std::uint16_t{0};
+      to[x] = mm < kMostPngCode + 1 ? static_cast<std::uint16_t>(mm) : std::uint16_t{0};
     }
   }
   return codes;
@@ -53,8 +52,8 @@ DatasetFormat depth_format() {
   return {.name = "depth",
           .description = "depth, 16-bit PNG in mm, 0 for sky and beyond 65.535 m",
           .truth = {.depth = true},
-          .write = write,
-          .check_image = check_image};
+          .write = make_depth_writer,
+          .check_image = check_depth_image};
 }
 
 }  // namespace vinebench::harness

@@ -9,7 +9,7 @@ namespace vinebench::harness {
 
 namespace {
 
-std::unique_ptr<FormatWriter> write(const WriterInputs& inputs) {
+std::unique_ptr<FormatWriter> make_depth32_writer(const WriterInputs& inputs) {
   return std::make_unique<ImageWriter>(inputs.folder, inputs.notes, "depth32", "npy",
                                        [](const DatasetFrame& frame, std::size_t camera) {
                                          return encode_npy(truth_of(frame, camera).depth);
@@ -22,7 +22,7 @@ DatasetFormat depth32_format() {
   return {.name = "depth32",
           .description = "depth, NumPy arrays of float32 in m, 0 for sky",
           .truth = {.depth = true},
-          .write = write};
+          .write = make_depth32_writer};
 }
 
 }  // namespace vinebench::harness

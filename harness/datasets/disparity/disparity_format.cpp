@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/util/error.h"
+#include "harness/datasets/depth/depth_format.h"
 #include "harness/datasets/files/png_writer.h"
 #include "harness/datasets/format/image_writer.h"
 #include "harness/datasets/format/rectified.h"
@@ -18,8 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kSteps = 256;  // per px
-constexpr double kMostCode = 65535;
-constexpr double kHalfMillimetre = 0.0005 + 1e-6;
 
 class DisparityWriter : public FormatWriter {
  public:
@@ -66,7 +65,7 @@ std::vector<FileTask> DisparityWriter::files(const std::shared_ptr<const Dataset
                          for (int x = 0; x < depth.cols; ++x) {
                            const double px = camera.focal_baseline / static_cast<double>(z[x]);
                            const double steps = px * kSteps + 0.5;
-                           const bool fits = z[x] > 0 && steps < kMostCode + 1;
+                           const bool fits = z[x] > 0 && steps < kMostPngCode + 1;
                            code[x] = fits ? static_cast<std::uint16_t>(steps) : std::uint16_t{0};
                          }
                        }
@@ -76,12 +75,12 @@ std::vector<FileTask> DisparityWriter::files(const std::shared_ptr<const Dataset
   return tasks;
 }
 
-std::unique_ptr<FormatWriter> write(const WriterInputs& inputs) {
+std::unique_ptr<FormatWriter> make_disparity_writer(const WriterInputs& inputs) {
   return std::make_unique<DisparityWriter>(inputs.folder, inputs.notes);
 }
 
 /// Focal length times baseline by depth, within its own steps and depth's.
-void check_image(LabelImages& images) {
+void check_disparity_image(LabelImages& images) {
   const cv::Mat& disparity = images.read("disparity", CV_16UC1);
   const cv::Mat& depth = images.read("depth", CV_16UC1);
   if (disparity.empty() || depth.empty()) return;
@@ -95,7 +94,7 @@ void check_image(LabelImages& images) {
                          const int code = disparity.at<std::uint16_t>(y, x);
                          if (z <= 0 || code == 0) return false;
                          const double expected = focal_baseline / z;
-                         const double tolerance = 1 / kSteps + expected / z * kHalfMillimetre * 1.1;
+                         const double tolerance = 1 / kSteps + expected / z * kDepthRounding * 1.1;
                          return std::abs(code / kSteps - expected) > tolerance;
                        });
   }
@@ -107,8 +106,8 @@ DatasetFormat disparity_format() {
   return {.name = "disparity",
           .description = "disparity of the left cameras, 16-bit PNG in 1/256 px (KITTI)",
           .truth = {.depth = true},
-          .write = write,
-          .check_image = check_image};
+          .write = make_disparity_writer,
+          .check_image = check_disparity_image};
 }
 
 }  // namespace vinebench::harness

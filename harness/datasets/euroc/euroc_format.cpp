@@ -12,7 +12,7 @@ namespace vinebench::harness {
 
 namespace {
 
-std::unique_ptr<FormatWriter> write(const WriterInputs& inputs) {
+std::unique_ptr<FormatWriter> make_euroc_writer(const WriterInputs& inputs) {
   return std::make_unique<EurocWriter>(inputs.folder, inputs.notes, inputs.options.colour);
 }
 
@@ -52,7 +52,7 @@ void check_truth(const RecordedSequence& sequence, std::vector<DatasetFault>& fa
   }
 }
 
-void check(const RecordedSequence& sequence, std::vector<DatasetFault>& faults) {
+void check_euroc_lists(const RecordedSequence& sequence, std::vector<DatasetFault>& faults) {
   const std::string frames = "euroc/frames.csv";
   expect_rows(sequence, frames, sequence.read(frames).size(), faults);
   for (int i = 0; sequence.has(fmt::format("euroc/mav0/cam{}", i)); ++i) {
@@ -66,10 +66,10 @@ void check(const RecordedSequence& sequence, std::vector<DatasetFault>& faults) 
 DatasetFormat euroc_format() {
   return {.name = "euroc",
           .description = "EuRoC/ASL folder with settings for other SLAM systems",
-          .write = write,
+          .write = make_euroc_writer,
           .reader = {"an EuRoC/ASL folder (mav0/cam0 with data.csv and sensor.yaml)", is_euroc,
                      read_euroc},
-          .check = check};
+          .check = check_euroc_lists};
 }
 
 }  // namespace vinebench::harness

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDefaultRate = 20;  // Hz, of EuRoC's cameras
+constexpr double kEurocRate = 20;  // Hz, of EuRoC's cameras
 
 /// The folder that contains cam0; the user may name it or its parent.
 fs::path sensor_folder(const fs::path& folder) {
@@ -167,7 +167,7 @@ Recording read_euroc(const fs::path& named, const RecordingOptions& options) {
   recording.frames = associate_images(lists, instants);
   if (recording.rig.rate_hz <= 0) {
     const Stamp period = median_period(instants);
-    recording.rig.rate_hz = period > 0 ? 1 / to_seconds(period) : kDefaultRate;
+    recording.rig.rate_hz = period > 0 ? 1 / to_seconds(period) : kEurocRate;
   }
   read_imu(sensors / "imu0", recording);
   read_wheels(sensors / "wheels0", recording);

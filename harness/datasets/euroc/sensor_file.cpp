@@ -19,10 +19,8 @@ std::string without_directive(std::string text) {
   return text;
 }
 
-constexpr int kSmallestSide = 16;            // px
-constexpr int kLargestSide = 16384;          // px; calibration.yaml's
-constexpr double kHighestRate = 1e6;         // Hz
-constexpr double kRotationTolerance = 1e-3;  // of an entry of R R^T
+constexpr double kHighestRate = 1e6;      // Hz
+constexpr double kMountTolerance = 1e-3;  // of an entry of R R^T
 
 }  // namespace
 
@@ -91,8 +89,7 @@ Pose SensorFile::T_BS() const {
   Eigen::Matrix4d T;
   for (Eigen::Index i = 0; i < 16; ++i) T(i / 4, i % 4) = v[static_cast<std::size_t>(i)];
   const Eigen::Matrix3d R = T.topLeftCorner<3, 3>();
-  const bool rigid = (R * R.transpose()).isIdentity(kRotationTolerance) && R.determinant() > 0;
-  if (!rigid || !T.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1))) {
+  if (!is_rotation(R, kMountTolerance) || !T.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1))) {
     fault(data, "T_BS: expected a rotation and a translation, row by row, with 0 0 0 1 last");
   }
   if (R.isIdentity(0)) return {Eigen::Quaterniond::Identity(), T.topRightCorner<3, 1>()};
@@ -118,10 +115,10 @@ PinholeCamera SensorFile::camera() const {
   const std::vector<double> size = numbers(root_["resolution"], "resolution", 2);
   std::vector<double> k = numbers(root_["intrinsics"], "intrinsics", double_sphere ? 6 : 4);
   for (const double side : size) {
-    if (side < kSmallestSide || side > kLargestSide || side != std::floor(side)) {
+    if (side < kSmallestImageSide || side > kLargestImageSide || side != std::floor(side)) {
       fault(root_["resolution"],
-            fmt::format("resolution: expected {} to {} pixels a side, found {}", kSmallestSide,
-                        kLargestSide, side));
+            fmt::format("resolution: expected {} to {} pixels a side, found {}", kSmallestImageSide,
+                        kLargestImageSide, side));
     }
   }
   std::vector<double> coefficients;

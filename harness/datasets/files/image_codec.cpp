@@ -38,10 +38,6 @@ void append(std::string& bytes, T value) {
   bytes.append(raw.data(), raw.size());
 }
 
-bool is_known(const cv::Vec2f& flow) {
-  return std::isfinite(flow[0]) && std::isfinite(flow[1]);
-}
-
 }  // namespace
 
 std::string encode_image(const cv::Mat& image, ImageKind kind) {
@@ -82,6 +78,10 @@ std::string encode_npy(const cv::Mat& image) {
   return bytes;
 }
 
+bool has_flow(const cv::Vec2f& flow) {
+  return std::isfinite(flow[0]) && std::isfinite(flow[1]);
+}
+
 /// Format of Baker et al., "A Database and Evaluation Methodology for Optical Flow" (2011).
 std::string encode_flo(const cv::Mat& flow) {
   std::string bytes = "PIEH";
@@ -91,8 +91,8 @@ std::string encode_flo(const cv::Mat& flow) {
   for (int y = 0; y < flow.rows; ++y) {
     for (int x = 0; x < flow.cols; ++x) {
       const auto& f = flow.at<cv::Vec2f>(y, x);
-      append(bytes, is_known(f) ? f[0] : kFloUnknown);
-      append(bytes, is_known(f) ? f[1] : kFloUnknown);
+      append(bytes, has_flow(f) ? f[0] : kFloUnknown);
+      append(bytes, has_flow(f) ? f[1] : kFloUnknown);
     }
   }
   return bytes;

@@ -26,6 +26,9 @@ cv::Mat to_grey(const cv::Mat& image);
 /// columns, channels), little-endian.
 std::string encode_npy(const cv::Mat& image);
 
+/// Whether a pixel has flow: it is NaN where there is none.
+bool has_flow(const cv::Vec2f& flow);
+
 /// Middlebury's .flo of a flow (CV_32FC2, px; 1e10 for NaN).
 std::string encode_flo(const cv::Mat& flow);
 

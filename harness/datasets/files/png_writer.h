@@ -7,6 +7,8 @@
 
 namespace vinebench::harness {
 
+inline constexpr double kMostPngCode = 65535;  ///< of 16 bits
+
 /// How rows are compressed after the filter "Sub".
 enum class PngRows {
   kRepetitions,  ///< libdeflate's fastest level: small where rows resemble each other

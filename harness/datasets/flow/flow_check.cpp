@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 
 #include "core/truth/occlusion.h"
+#include "harness/datasets/depth/depth_format.h"
 #include "harness/datasets/flow/flow_writer.h"
 
 namespace vinebench::harness {
 
 namespace {
 
-constexpr double kHalfMillimetre = 0.0005 + 1e-6;
 constexpr double kTolerance = 0.1;  // px
 constexpr double kAgreeing = 0.9;   // share of the pixels
 constexpr double kNearest = 0.05;   // m in front of a camera
@@ -76,7 +76,7 @@ void check_flow_image(LabelImages& images) {
       const cv::Vec3w& code = flow.at<cv::Vec3w>(y, x);  // valid, v, u
       if (z <= 0 || code[0] == 0 || may_move(semantic, images.sequence(), y, x)) continue;
       const Eigen::Vector2d expected = place(x, y, z);
-      const double by_depth = (place(x, y, z + kHalfMillimetre) - expected).norm();
+      const double by_depth = (place(x, y, z + kDepthRounding) - expected).norm();
       const Eigen::Vector2d recorded(x + (code[2] - kFlowZero) / kFlowSteps,
                                      y + (code[1] - kFlowZero) / kFlowSteps);
       ++compared;

@@ -9,7 +9,7 @@ namespace vinebench::harness {
 
 namespace {
 
-constexpr TruthImages kTruth{.labels = true, .depth = true, .normals = true, .motion = true};
+constexpr TruthImages kFlowTruth{.labels = true, .depth = true, .normals = true, .motion = true};
 
 std::unique_ptr<FormatWriter> write_flow_images(const WriterInputs& inputs) {
   const bool both = inputs.options.has("flo");
@@ -28,7 +28,7 @@ std::unique_ptr<FormatWriter> write_flo(const WriterInputs& inputs) {
 DatasetFormat flow_format() {
   return {.name = "flow",
           .description = "flow to the next frame, 16-bit PNG (KITTI), with visibility",
-          .truth = kTruth,
+          .truth = kFlowTruth,
           .looks_back = true,
           .write = write_flow_images,
           .check_image = check_flow_image};
@@ -37,7 +37,7 @@ DatasetFormat flow_format() {
 DatasetFormat flo_format() {
   return {.name = "flo",
           .description = "flow to the next frame, .flo (Middlebury)",
-          .truth = kTruth,
+          .truth = kFlowTruth,
           .looks_back = true,
           .write = write_flo};
 }

@@ -14,13 +14,7 @@
 
 namespace vinebench::harness {
 
-namespace {
-
 namespace fs = std::filesystem;
-
-constexpr double kMostCode = 65535;
-
-}  // namespace
 
 FlowTruth flow_between(const DatasetFrame& a, const DatasetFrame& b, std::size_t camera,
                        const Pose& T_body_cam) {
@@ -41,7 +35,9 @@ cv::Mat kitti_flow(const cv::Mat& flow) {
     for (int x = 0; x < flow.cols; ++x) {
       const double u = static_cast<double>(f[x][0]) * kFlowSteps + kFlowZero + 0.5;
       const double v = static_cast<double>(f[x][1]) * kFlowSteps + kFlowZero + 0.5;
-      const auto fits = [](double step) { return step >= 0 && step < kMostCode + 1; };  // not NaN
+      const auto fits = [](double step) {
+        return step >= 0 && step < kMostPngCode + 1;
+      };  // not NaN
       code[x] = fits(u) && fits(v)
                     ? cv::Vec3w(static_cast<std::uint16_t>(u), static_cast<std::uint16_t>(v), 1)
                     : cv::Vec3w(0, 0, 0);

@@ -27,8 +27,8 @@ struct CalibrationConfig {
     template <class Archive>
     void serialize(Archive& archive) {
       archive("name", name);
-      archive("width", width, Range::between(1, 16384));
-      archive("height", height, Range::between(1, 16384));
+      archive("width", width, Range::between(1, kLargestImageSide));
+      archive("height", height, Range::between(1, kLargestImageSide));
       archive("fx", fx, Range::positive());
       archive("fy", fy, Range::positive());
       archive("cx", cx);

@@ -18,7 +18,10 @@ struct DatasetFault {
   std::string problem;
 };
 
-/// A line of frames.csv.
+/// Lists all frames, in the folder of a recording.
+inline constexpr const char* kRecordedFrames = "frames.csv";
+
+/// A line of it.
 struct RecordedPose {
   Stamp stamp = 0;
   Pose T_world_body;

@@ -9,12 +9,12 @@ namespace vinebench::harness {
 
 namespace {
 
-std::unique_ptr<FormatWriter> write(const WriterInputs& inputs) {
+std::unique_ptr<FormatWriter> make_instances_writer(const WriterInputs& inputs) {
   return std::make_unique<InstanceWriter>(inputs.folder, inputs.notes, inputs.scene);
 }
 
 /// Bunches are where semantic has bunches.
-void check_image(LabelImages& images) {
+void check_instances_image(LabelImages& images) {
   const cv::Mat& instances = images.read("instances", CV_8UC3);
   const cv::Mat& semantic = images.read("semantic", CV_8UC1);
   if (instances.empty() || semantic.empty()) return;
@@ -34,8 +34,8 @@ DatasetFormat instances_format() {
   return {.name = "instances",
           .description = "numbers of instances, PNG, with a table of what they are",
           .truth = {.instances = true},
-          .write = write,
-          .check_image = check_image};
+          .write = make_instances_writer,
+          .check_image = check_instances_image};
 }
 
 }  // namespace vinebench::harness

@@ -10,11 +10,11 @@ namespace vinebench::harness {
 
 namespace {
 
-std::unique_ptr<FormatWriter> write(const WriterInputs& inputs) {
+std::unique_ptr<FormatWriter> make_kitti_writer(const WriterInputs& inputs) {
   return std::make_unique<KittiWriter>(inputs.folder, inputs.notes, inputs.options.colour);
 }
 
-void check(const RecordedSequence& sequence, std::vector<DatasetFault>& faults) {
+void check_kitti_lists(const RecordedSequence& sequence, std::vector<DatasetFault>& faults) {
   for (const char* list : {"kitti/times.txt", "kitti/poses.txt"}) {
     expect_rows(sequence, list, sequence.read(list).size(), faults);
   }
@@ -25,11 +25,11 @@ void check(const RecordedSequence& sequence, std::vector<DatasetFault>& faults) 
 DatasetFormat kitti_format() {
   return {.name = "kitti",
           .description = "KITTI odometry folder of the first pair",
-          .write = write,
+          .write = make_kitti_writer,
           .reader = {"a KITTI odometry folder (calib.txt beside image_0 and image_1, image_2 and "
                      "image_3, or image_l and image_r)",
                      is_kitti, read_kitti},
-          .check = check};
+          .check = check_kitti_lists};
 }
 
 }  // namespace vinebench::harness

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDefaultRate = 10;  // Hz, of KITTI's cameras
+constexpr double kKittiRate = 10;  // Hz, of KITTI's cameras
 constexpr std::size_t kMatrixSize = 12;
 constexpr std::size_t kCameras = 2;
 
@@ -61,7 +61,7 @@ Projection projection_of(const TableRow& row, std::size_t first) {
 }
 
 /// The matrices by number: from the label `P2:`, otherwise from the line's position.
-std::map<std::size_t, Projection> read_calibration(const fs::path& file) {
+std::map<std::size_t, Projection> read_projections(const fs::path& file) {
   std::map<std::size_t, Projection> matrices;
   for (const TableRow& row : read_rows(file)) {
     const std::string& label = row.fields.front();
@@ -93,7 +93,7 @@ RigCamera camera_of(const std::string& name, const Projection& P) {
 
 Rig read_rig(const fs::path& folder, const Layout& layout) {
   const fs::path file = folder / "calib.txt";
-  const auto matrices = read_calibration(file);
+  const auto matrices = read_projections(file);
   for (const std::size_t wanted : {layout.left_matrix, layout.right_matrix}) {
     if (matrices.contains(wanted)) continue;
     fail("{}: expected a matrix P{} for the images in {} and {}", file.string(), wanted,
@@ -145,14 +145,14 @@ std::vector<RecordedFrame> read_frames(const fs::path& folder, const Layout& lay
       const auto found = camera.find(number);
       return found == camera.end() ? fs::path() : found->second;
     };
-    frames.push_back({stamp_of_frame(number - first, kDefaultRate), {of(left), of(right)}, {}});
+    frames.push_back({stamp_of_frame(number - first, kKittiRate), {of(left), of(right)}, {}});
   }
   return frames;
 }
 
 /// Stamps from times.txt, a line a frame; the frames' rate.
 void read_times(const fs::path& folder, Recording& recording) {
-  recording.rig.rate_hz = kDefaultRate;
+  recording.rig.rate_hz = kKittiRate;
   const fs::path file = folder / "times.txt";
   if (!is_present(file)) return;
   const std::vector<TableRow> rows = read_table(file);

@@ -23,7 +23,7 @@ std::string twelve(const Eigen::Matrix<double, 3, 4>& m) {
   return text;
 }
 
-Eigen::Matrix<double, 3, 4> projection(const PinholeCamera& c, double shift) {
+Eigen::Matrix<double, 3, 4> kitti_projection(const PinholeCamera& c, double shift) {
   Eigen::Matrix<double, 3, 4> P;
   P << c.fx, 0, c.cx, shift, 0, c.fy, c.cy, 0, 0, 0, 1, 0;
   return P;
@@ -37,7 +37,7 @@ std::string calibration(const Rig& rig, const StereoPair& pair) {
   for (int i = 0; i < 4; ++i) {
     const bool second = i % 2 == 1;
     const double shift = second ? -right.fx * rig.baseline(pair) : 0;
-    text += fmt::format("P{}: {}\n", i, twelve(projection(second ? right : left, shift)));
+    text += fmt::format("P{}: {}\n", i, twelve(kitti_projection(second ? right : left, shift)));
   }
   return text;
 }

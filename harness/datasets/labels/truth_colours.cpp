@@ -18,17 +18,13 @@
 namespace vinebench::harness {
 namespace {
 
-bool is_known(const cv::Vec2f& flow) {
-  return std::isfinite(flow[0]) && std::isfinite(flow[1]);
-}
-
 /// Length that 99 % of the known flow stays below, px.
 double long_flow(const cv::Mat& flow) {
   std::vector<double> lengths;
   for (int y = 0; y < flow.rows; ++y) {
     for (int x = 0; x < flow.cols; ++x) {
       const auto& f = flow.at<cv::Vec2f>(y, x);
-      if (is_known(f)) lengths.push_back(cv::norm(f));
+      if (has_flow(f)) lengths.push_back(cv::norm(f));
     }
   }
   if (lengths.empty()) return 1;
@@ -92,7 +88,7 @@ cv::Mat colour_flow(const cv::Mat& flow) {
   for (int y = 0; y < flow.rows; ++y) {
     for (int x = 0; x < flow.cols; ++x) {
       const auto& f = flow.at<cv::Vec2f>(y, x);
-      const bool known = is_known(f);
+      const bool known = has_flow(f);
       const double angle = known ? std::atan2(f[1], f[0]) * 180 / std::numbers::pi : 0;
       const double share = known ? std::min(1.0, cv::norm(f) / longest) : 0;
       hsv.at<cv::Vec3f>(y, x) = {static_cast<float>(angle < 0 ? angle + 360 : angle),

@@ -10,7 +10,7 @@ namespace vinebench::harness {
 
 namespace {
 
-std::unique_ptr<FormatWriter> write(const WriterInputs& inputs) {
+std::unique_ptr<FormatWriter> make_normals_writer(const WriterInputs& inputs) {
   return std::make_unique<ImageWriter>(
       inputs.folder, inputs.notes, "normals", "png",
       [](const DatasetFrame& frame, std::size_t camera) {
@@ -24,7 +24,7 @@ DatasetFormat normals_format() {
   return {.name = "normals",
           .description = "surface normals, PNG in colours",
           .truth = {.normals = true},
-          .write = write};
+          .write = make_normals_writer};
 }
 
 }  // namespace vinebench::harness

@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 constexpr Stamp kSameInstant = 1000;                    // ns
 constexpr Stamp kTruthGap = kNanosecondsPerSecond / 4;  // ns
 
-std::optional<SourceEvent> read_image(const Recording& recording, const fs::path& file,
-                                      const RigCamera& camera, cv::Mat& image) {
+std::optional<SourceEvent> deliver_image(const Recording& recording, const fs::path& file,
+                                         const RigCamera& camera, cv::Mat& image) {
   if (file.empty()) return SourceEvent{"picture_missing", camera.name, "not recorded"};
   if (!has_image(recording, file)) {
     return SourceEvent{"picture_missing", camera.name, file.string()};
@@ -73,8 +73,8 @@ void DatasetReader::read_images(const RecordedFrame& recorded, Sample& sample) {
   sample.frame.images.resize(cameras);
   std::vector<std::optional<SourceEvent>> faults(cameras);
   pool_.for_each(cameras, [&](std::size_t camera) {
-    faults[camera] = read_image(recording_, recorded.images[camera], recording_.rig.cameras[camera],
-                                sample.frame.images[camera]);
+    faults[camera] = deliver_image(recording_, recorded.images[camera],
+                                   recording_.rig.cameras[camera], sample.frame.images[camera]);
   });
   for (const auto& fault : faults) {
     if (fault) sample.events.push_back(*fault);

@@ -21,7 +21,7 @@ Pose kitti_pose(const TableRow& row) {
     T(static_cast<Eigen::Index>(i / 4), static_cast<Eigen::Index>(i % 4)) = row.number(i);
   }
   const Eigen::Matrix3d R = T.leftCols<3>();
-  if (!(R * R.transpose()).isIdentity(kRotationTolerance) || R.determinant() < 0) {
+  if (!is_rotation(R, kRotationTolerance)) {
     row.fault("expected a rotation matrix in columns 1-3, 5-7 and 9-11");
   }
   return {Eigen::Quaterniond(R).normalized(), T.col(3)};

@@ -9,7 +9,7 @@ namespace vinebench::harness {
 
 namespace {
 
-std::unique_ptr<FormatWriter> write(const WriterInputs& inputs) {
+std::unique_ptr<FormatWriter> make_rgb_writer(const WriterInputs& inputs) {
   const ImageKind kind = inputs.options.images.value_or(ImageKind::kPng);
   return std::make_unique<ImageWriter>(inputs.folder, inputs.notes, "rgb",
                                        yaml_names(kind).at(static_cast<std::size_t>(kind)),
@@ -21,7 +21,8 @@ std::unique_ptr<FormatWriter> write(const WriterInputs& inputs) {
 }  // namespace
 
 DatasetFormat rgb_format() {
-  return {.name = "rgb", .description = "images as the cameras gave them", .write = write};
+  return {
+      .name = "rgb", .description = "images as the cameras gave them", .write = make_rgb_writer};
 }
 
 }  // namespace vinebench::harness

@@ -27,7 +27,7 @@ void expect_ros_name(const std::string& name) {
 }
 
 /// `shift` is P's fourth number: -fx times the baseline in a right camera.
-std::array<double, 12> projection(const PinholeCamera& lens, double shift) {
+std::array<double, 12> ros_projection(const PinholeCamera& lens, double shift) {
   return {lens.fx, 0, lens.cx, shift, 0, lens.fy, lens.cy, 0, 0, 0, 1, 0};
 }
 
@@ -64,7 +64,7 @@ RosCamera alone(const RigCamera& camera) {
   if (c.lens == LensModel::kRadialTangential) ros.calibration.D.resize(5);  // k3
   ros.calibration.K = {c.fx, 0, c.cx, 0, c.fy, c.cy, 0, 0, 1};
   ros.calibration.R = rows_of(Eigen::Matrix3d::Identity());
-  ros.calibration.P = projection(c, 0);
+  ros.calibration.P = ros_projection(c, 0);
   return ros;
 }
 
@@ -80,7 +80,7 @@ void rectify(const Rig& rig, const StereoPair& pair, std::vector<RosCamera>& cam
     cameras[index].calibration.R = rows_of(
         (view.T_body_left().rotation.conjugate() * camera.T_body_cam.rotation).toRotationMatrix());
     const double shift = index == right ? -view.lens().fx * view.baseline() : 0;
-    cameras[index].calibration.P = projection(view.lens(), shift);
+    cameras[index].calibration.P = ros_projection(view.lens(), shift);
   }
 }
 
@@ -96,7 +96,7 @@ std::vector<RosCamera> ros_cameras(const Rig& rig) {
     const PinholeCamera& lens = rig.cameras[static_cast<std::size_t>(pair.right)].model;
     if (is_rectified(rig, pair)) {
       cameras[static_cast<std::size_t>(pair.right)].calibration.P =
-          projection(lens, -lens.fx * rig.baseline(pair));
+          ros_projection(lens, -lens.fx * rig.baseline(pair));
     } else {
       rectify(rig, pair, cameras);
     }

@@ -12,7 +12,6 @@ namespace vinebench::harness {
 namespace {
 
 constexpr const char* kWorld = "world";
-constexpr const char* kBody = "base_link";
 // Not a parent of the body: base_link's pose is a SLAM system's output.
 constexpr const char* kTruth = "ground_truth";
 
@@ -107,7 +106,7 @@ void RosWriter::write_rig(Stamp stamp) {
   std::vector<RosTransform> mounts;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     mounts.push_back(
-        {header(stamp, kBody), cameras_[i].frame, message(rig_.cameras[i].T_body_cam)});
+        {header(stamp, kRosBody), cameras_[i].frame, message(rig_.cameras[i].T_body_cam)});
   }
   bag_->write_latched("/tf_static", mounts);
 }
@@ -126,7 +125,7 @@ void RosWriter::write_readings(const Frame& frame) {
 }
 
 void RosWriter::write_imu(const ImuSample& reading) {
-  bag_->write("/imu", RosImu{header(reading.stamp, kBody), message(reading.angular_velocity),
+  bag_->write("/imu", RosImu{header(reading.stamp, kRosBody), message(reading.angular_velocity),
                              message(reading.specific_force),
                              variance(notes_.imu.gyroscope, notes_.imu_rate_hz),
                              variance(notes_.imu.accelerometer, notes_.imu_rate_hz)});

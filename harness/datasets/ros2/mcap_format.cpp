@@ -36,7 +36,7 @@ class McapRecording : public RosWriter {
 };
 
 /// Frames of the list are those of the sequence.
-void check(const RecordedSequence& sequence, std::vector<DatasetFault>& faults) {
+void check_mcap_lists(const RecordedSequence& sequence, std::vector<DatasetFault>& faults) {
   const std::string frames = fmt::format("mcap/{}", kFrameList);
   expect_rows(sequence, frames, sequence.read(frames).size(), faults);
 }
@@ -49,7 +49,7 @@ DatasetFormat mcap_format() {
       .description = "a bag of ROS 2 with run.mcap",
       .write = [](const WriterInputs& inputs) { return std::make_unique<McapRecording>(inputs); },
       .reader = {"a bag of ROS 2 (.mcap or .db3, or a folder with these)", is_bag, read_bag},
-      .check = check};
+      .check = check_mcap_lists};
 }
 
 }  // namespace vinebench::harness

@@ -11,7 +11,7 @@ namespace vinebench::harness {
 
 namespace {
 
-std::unique_ptr<FormatWriter> write(const WriterInputs& inputs) {
+std::unique_ptr<FormatWriter> make_semantic_writer(const WriterInputs& inputs) {
   make_folder(inputs.folder);
   write_file_atomically(inputs.folder / "labels.yaml", label_table_text());
   return std::make_unique<ImageWriter>(inputs.folder, inputs.notes, "semantic", "png",
@@ -27,7 +27,7 @@ DatasetFormat semantic_format() {
   return {.name = "semantic",
           .description = "labels, 8-bit PNG of numbers, with a table of names",
           .truth = {.labels = true},
-          .write = write,
+          .write = make_semantic_writer,
           .check_image = [](LabelImages& images) { images.read("semantic", CV_8UC1); }};
 }
 

@@ -10,11 +10,11 @@ namespace vinebench::harness {
 
 namespace {
 
-std::unique_ptr<FormatWriter> write(const WriterInputs& inputs) {
+std::unique_ptr<FormatWriter> make_tum_writer(const WriterInputs& inputs) {
   return std::make_unique<TumWriter>(inputs.folder, inputs.notes);
 }
 
-void check(const RecordedSequence& sequence, std::vector<DatasetFault>& faults) {
+void check_tum_lists(const RecordedSequence& sequence, std::vector<DatasetFault>& faults) {
   const std::filesystem::path folder = sequence.folder / "tum";
   for (const std::string& name : files_below(folder)) {
     const std::string list = "tum/" + name;
@@ -29,8 +29,8 @@ void check(const RecordedSequence& sequence, std::vector<DatasetFault>& faults) 
 DatasetFormat tum_format() {
   return {.name = "tum",
           .description = "true trajectories of the body and of each camera",
-          .write = write,
-          .check = check};
+          .write = make_tum_writer,
+          .check = check_tum_lists};
 }
 
 }  // namespace vinebench::harness

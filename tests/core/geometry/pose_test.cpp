@@ -95,6 +95,17 @@ TEST(PoseTest, RollPitchYawTurnAboutTheFixedAxesInThatOrder) {
       kRounding);
 }
 
+TEST(PoseTest, ARotationIsOrthonormalAndDoesNotMirror) {
+  const Eigen::Matrix3d R = exp_so3({0.1, -0.2, 0.3}).toRotationMatrix();
+  EXPECT_TRUE(is_rotation(R, 1e-9));
+  EXPECT_FALSE(is_rotation(-R, 1e-9));        // determinant -1
+  EXPECT_TRUE(is_rotation(1.001 * R, 0.01));  // R R^T has 1.002 on its diagonal
+  EXPECT_FALSE(is_rotation(1.01 * R, 0.01));  // 1.0201
+  Eigen::Matrix3d unknown = R;
+  unknown(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(is_rotation(unknown, 0.01));
+}
+
 TEST(PoseTest, YawIsTheHeadingWhateverRollAndPitch) {
   EXPECT_NEAR(yaw_of(from_roll_pitch_yaw({0.4, -0.3, 2.5})), 2.5, kRounding);
   EXPECT_NEAR(yaw_of(from_roll_pitch_yaw({0, 0.2, -3.1})), -3.1, kRounding);

@@ -11,14 +11,14 @@ namespace vinebench::harness {
 namespace {
 
 /// Of the x axis, rad.
-double yaw_of(const Pose& pose) {
+double heading_of(const Pose& pose) {
   const Eigen::Vector3d x = pose.rotation * Eigen::Vector3d::UnitX();
   return std::atan2(x.y(), x.x());
 }
 
 void expect_pose(const Pose& pose, const Eigen::Vector3d& at, double yaw) {
   EXPECT_LT((pose.translation - at).norm(), 1e-9) << pose.translation.transpose();
-  EXPECT_NEAR(std::remainder(yaw_of(pose) - yaw, 2 * std::numbers::pi), 0, 1e-9);
+  EXPECT_NEAR(std::remainder(heading_of(pose) - yaw, 2 * std::numbers::pi), 0, 1e-9);
 }
 
 TEST(AisleRouteTest, DrivesTheMiddleAisleLookingAheadAndBackByTurns) {

@@ -11,6 +11,8 @@
 
 namespace vinebench::harness {
 
+inline constexpr const char* kRosBody = "base_link";  ///< the body's frame (REP 105)
+
 using RosVector = std::array<double, 3>;
 using RosQuaternion = std::array<double, 4>;  ///< x, y, z, w
 

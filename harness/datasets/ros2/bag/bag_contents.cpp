@@ -26,12 +26,12 @@ void expect_finite(const std::array<double, N>& numbers, const char* what) {
 }
 
 void expect_pose(const RosTransform& transform) {
-  constexpr double kTolerance = 0.01;  // of a quaternion's norm
+  constexpr double kNormTolerance = 0.01;  // of a quaternion's norm
   expect_finite(transform.pose.position, "position");
   expect_finite(transform.pose.rotation, "rotation");
   double square = 0;
   for (const double q : transform.pose.rotation) square += q * q;
-  if (std::abs(std::sqrt(square) - 1) > kTolerance) {
+  if (std::abs(std::sqrt(square) - 1) > kNormTolerance) {
     fail("expected a unit quaternion, found norm {}", std::sqrt(square));
   }
 }

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDefaultRate = 20;  // Hz, of a bag of one frame
+constexpr double kRateOfOneFrame = 20;  // Hz, of a bag of one frame
 
 /// Our own topic if it is there, otherwise the first.
 const std::pair<const std::string, BagInertial>* inertial_topic(const BagContents& contents) {
@@ -76,7 +76,7 @@ void set_frames(const BagContents& contents, const std::vector<BagCamera>& camer
   }
   if (recording.rig.rate_hz <= 0) {
     const Stamp period = median_period(instants);
-    recording.rig.rate_hz = period > 0 ? 1 / to_seconds(period) : kDefaultRate;
+    recording.rig.rate_hz = period > 0 ? 1 / to_seconds(period) : kRateOfOneFrame;
   }
 }
 

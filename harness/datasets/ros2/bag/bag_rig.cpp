@@ -10,11 +10,8 @@
 namespace vinebench::harness {
 namespace {
 
-constexpr const char* kBody = "base_link";
-constexpr int kSmallestSide = 16;            // px
-constexpr int kLargestSide = 16384;          // px
-constexpr double kRotationTolerance = 1e-3;  // of an entry of R R^T
-constexpr double kSmallestBaseline = 1e-4;   // m
+constexpr double kRectificationTolerance = 1e-3;  // of an entry of R R^T
+constexpr double kSmallestBaseline = 1e-4;        // m
 
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
@@ -40,8 +37,9 @@ Told told_of(const BagContents& contents, const BagCamera& camera) {
 
 void expect_size_and_lens(const Told& told, const PinholeCamera& lens) {
   for (const int side : {lens.width, lens.height}) {
-    if (side < kSmallestSide || side > kLargestSide) {
-      told.fault("expected {} to {} pixels a side, found {}", kSmallestSide, kLargestSide, side);
+    if (side < kSmallestImageSide || side > kLargestImageSide) {
+      told.fault("expected {} to {} pixels a side, found {}", kSmallestImageSide, kLargestImageSide,
+                 side);
     }
   }
   const bool finite = std::isfinite(lens.fx) && std::isfinite(lens.fy) && std::isfinite(lens.cx) &&
@@ -95,10 +93,7 @@ PinholeCamera lens_of(const Told& told, bool rectified) {
 Eigen::Quaterniond rectifying(const Told& told) {
   const RowMajor3 R = Eigen::Map<const RowMajor3>(told.info.R.data());
   if (R.isIdentity(0) || R.isZero(0)) return Eigen::Quaterniond::Identity();
-  if (!R.allFinite() || !(R * R.transpose()).isIdentity(kRotationTolerance) ||
-      R.determinant() < 0) {
-    told.fault("R: expected a rotation");
-  }
+  if (!is_rotation(R, kRectificationTolerance)) told.fault("R: expected a rotation");
   return Eigen::Quaterniond(Eigen::Matrix3d(R)).normalized();
 }
 
@@ -215,7 +210,7 @@ class RigMaker {
 
 std::optional<Pose> BagRig::body_from(const std::string& frame) const {
   const std::optional<Pose> T_reference_frame = mounts.between(reference, frame);
-  if (!T_reference_frame || reference == kBody) return T_reference_frame;
+  if (!T_reference_frame || reference == kRosBody) return T_reference_frame;
   return T_body_reference * *T_reference_frame;
 }
 
@@ -223,9 +218,9 @@ BagRig place_frames(const BagContents& contents, const BagCameras& cameras) {
   const std::string& left = contents.images.at(cameras.cameras.front().topic).frame;
   BagRig place{.rig = {},
                .mounts = TransformTree(contents.mounts),
-               .reference = kBody,
+               .reference = kRosBody,
                .T_body_reference = {}};
-  if (place.mounts.between(kBody, left)) return place;
+  if (place.mounts.between(kRosBody, left)) return place;
   place.reference = left;
   place.T_body_reference = Rig::mount(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
   return place;
