@@ -3,20 +3,14 @@
 #include "slam/pipeline.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include "core/util/error.h"
-#include "slam/camera/rectification.h"
 #include "slam/frame/measurements.h"
 #include "slam/loop/loop_correction.h"
 #include "slam/tracking/keyframe_selector.h"
 
 namespace vinebench::slam {
 namespace {
-
-/// While a tag is in view keyframes are this near to each other, so that it is seen from several
-/// places.
-constexpr double kTagKeyframeDistance = 0.05;  // m
 
 /// What a pose by a tag is uncertain by besides its corners: the tag's print, the lens.
 Matrix6d by_tag_covariance() {
@@ -25,45 +19,10 @@ Matrix6d by_tag_covariance() {
   return isotropic_covariance(kPosition, kRotation);
 }
 
-/// Whether somebody said how accurate the rig file is. The defaults are wide enough for any rig:
-/// taken for an error that it has, they would make the covariances of most useless until a dozen of
-/// keyframes tell better.
-bool is_accuracy_told(const SlamConfig& config) {
-  const CalibrationConfig& told = config.calibration;
-  const CalibrationConfig usual;
-  return told.position != usual.position || told.rotation_deg != usual.rotation_deg ||
-         told.disparity_slope != usual.disparity_slope || told.focal != usual.focal ||
-         told.baseline != usual.baseline || told.time != usual.time ||
-         told.readout != usual.readout || told.principal_point != usual.principal_point ||
-         told.right_turn_deg != usual.right_turn_deg || told.right_ahead != usual.right_ahead ||
-         config.stereo.calibration_sigma != StereoConfig{}.calibration_sigma;
-}
-
 /// Whether tags tell by their surveys how the map lies, and none of them exactly.
 bool several_surveys(const Map& map) {
   return std::ranges::count_if(map.tags(), [](const MapTag& t) { return t.survey.has_value(); }) >
          1;
-}
-
-/// Whether there ought to have been a keyframe for as long a way again.
-bool is_overdue(const TrackedFrame& tracked, const Map& map, const KeyframeConfig& config) {
-  const Pose step = map.keyframes().back().T_map_body.inverse() * tracked.motion.T_map_body;
-  return step.translation.norm() > 2 * config.distance ||
-         angle_of(step.rotation) > 2 * config.angle_deg * std::numbers::pi / 180;
-}
-
-/// Whether a loaded map knows the place as well as a new keyframe would.
-bool is_covered(const TrackedFrame& tracked, const Map& map, const KeyframeConfig& config) {
-  if (tracked.motion.inliers < config.min_inliers) return false;
-  for (const Keyframe& keyframe : map.keyframes()) {
-    if (!keyframe.inherited()) return false;  // they come first
-    const Pose step = keyframe.T_map_body.inverse() * tracked.motion.T_map_body;
-    if (step.translation.norm() <= config.distance &&
-        angle_of(step.rotation) <= config.angle_deg * std::numbers::pi / 180) {
-      return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace
@@ -82,9 +41,10 @@ Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
                     inertial_noise(config.inertial, rig.imu)},
                    rig_.tag_cameras, tags),
       recovery_(tracker_, loop_closer_, rig_, map_),
-      calibration_({config.calibration, config.stereo.calibration_sigma,
-                    config.stereo.self_calibration, is_accuracy_told(config), is_live()},
-                   rig_) {
+      calibration_(
+          {config.calibration, config.stereo.calibration_sigma, config.stereo.self_calibration,
+           is_accuracy_told(config.calibration, config.stereo.calibration_sigma), is_live()},
+          rig_) {
   rig_.wheels = config.dead_reckoning.wheels;
   rig_.noise.loss = config.loss;
   if (config.places) places_.emplace(*config.places);
@@ -102,39 +62,14 @@ Estimate Pipeline::process(const std::shared_ptr<FrameFeatures>& frame) {
   join_due_mapping();
   correct_stereo(*frame);
   TrackedFrame tracked = locate(frame);
-  Estimate estimate = report(tracked);
+  Estimate estimate = report_of(tracked, rig_.rig, status(tracked));
   gate_tags(tracked, estimate);
   if (wants_new_keyframe(tracked)) map_keyframe(tracked, estimate);
   release_images(*frame);
   record_tags(tracked);
   record_pose(tracked, estimate);
-  record_support(tracked);
+  supporting_.keep(tracked);
   return estimate;
-}
-
-void Pipeline::record_support(const TrackedFrame& tracked) {
-  supporting_.assign(rig_.rig.pairs.size(), {});
-  if (!tracked.tracked) return;
-  for (std::size_t v = 0; v < tracked.associations.size(); ++v) {
-    const std::vector<Keypoint>& keypoints = tracked.frame->views[v].features.keypoints;
-    for (std::size_t i = 0; i < tracked.associations[v].size(); ++i) {
-      if (tracked.associations[v][i] < 0) continue;
-      supporting_[v].emplace_back(keypoints[i].x, keypoints[i].y);
-    }
-  }
-}
-
-std::vector<SupportingFeature> Pipeline::supporting_features() const {
-  std::vector<SupportingFeature> features;
-  for (std::size_t v = 0; v < supporting_.size(); ++v) {
-    const RectifiedPair& pair = rig_.rig.pairs[v];
-    for (const Eigen::Vector2f& at : supporting_[v]) {
-      const Eigen::Vector2d pixel = at.cast<double>();
-      features.push_back({pair.left_camera,
-                          pair.rectification ? pair.rectification->in_left_image(pixel) : pixel});
-    }
-  }
-  return features;
 }
 
 void Pipeline::join_due_mapping() {
@@ -297,6 +232,13 @@ TrackedFrame Pipeline::track(const std::shared_ptr<FrameFeatures>& frame) {
   return tracked;
 }
 
+TrackingStatus Pipeline::status(const TrackedFrame& tracked) const {
+  if (tracked.tracked) return TrackingStatus::kTracking;
+  if (!started_) return TrackingStatus::kInitializing;
+  return tracker_.dead_reckoning().is_lost() ? TrackingStatus::kLost
+                                             : TrackingStatus::kDeadReckoning;
+}
+
 bool Pipeline::wants_new_keyframe(const TrackedFrame& tracked) const {
   if (!tracked.tracked) return false;
   if (!started_ || tracked.link) return true;
@@ -307,10 +249,8 @@ bool Pipeline::wants_new_keyframe(const TrackedFrame& tracked) const {
   if (is_covered(tracked, map_, config_.keyframes)) {
     return loop_closer_.sees_loop(*tracked.frame, path_length_);
   }
-  const Keyframe& last = map_.keyframes().back();
-  const double moved = (last.T_map_body.translation - tracked.motion.T_map_body.translation).norm();
-  const bool tag_from_elsewhere = !tracked.frame->tags.empty() && moved > kTagKeyframeDistance;
-  return tag_from_elsewhere || loop_closer_.sees_loop(*tracked.frame, path_length_) ||
+  return sees_tag_from_elsewhere(tracked, map_) ||
+         loop_closer_.sees_loop(*tracked.frame, path_length_) ||
          wants_keyframe(tracked, map_, config_.keyframes);
 }
 
@@ -443,30 +383,6 @@ void Pipeline::calibrate(Estimate& estimate) {
 void Pipeline::use_calibration(const std::vector<PairCalibration>& pairs) {
   rig_ = rig_.with_calibration(pairs);
   map_.calibration() = pairs;
-}
-
-Estimate Pipeline::report(const TrackedFrame& tracked) const {
-  const FrameFeatures& frame = *tracked.frame;
-  Estimate estimate;
-  estimate.stamp = frame.stamp;
-  estimate.status = tracked.tracked                       ? TrackingStatus::kTracking
-                    : !started_                           ? TrackingStatus::kInitializing
-                    : tracker_.dead_reckoning().is_lost() ? TrackingStatus::kLost
-                                                          : TrackingStatus::kDeadReckoning;
-  estimate.tags = frame.tags;
-  estimate.cameras.resize(rig_.rig.cameras.size());
-  for (std::size_t p = 0; p < rig_.rig.pairs.size(); ++p) {
-    const RectifiedPair& pair = rig_.rig.pairs[p];
-    const StereoView& view = frame.views[p];
-    CameraCounts& left = estimate.cameras[static_cast<std::size_t>(pair.left_camera)];
-    left.features = static_cast<int>(view.features.size());
-    left.stereo = count_with_depth(view.stereo);
-    left.matches = tracked.motion.matches_per_view[p];
-    left.inliers = tracked.motion.inliers_per_view[p];
-    // The right camera's part is where the left camera's features were found in it.
-    estimate.cameras[static_cast<std::size_t>(pair.right_camera)].features = left.stereo;
-  }
-  return estimate;
 }
 
 }  // namespace vinebench::slam

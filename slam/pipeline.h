@@ -19,6 +19,7 @@
 #include "slam/runtime/global_adjuster.h"
 #include "slam/runtime/mapping_scheduler.h"
 #include "slam/runtime/self_calibration.h"
+#include "slam/tracking/frame_report.h"
 #include "slam/tracking/tracker.h"
 
 namespace vinebench::slam {
@@ -41,7 +42,9 @@ class Pipeline {
   SlamSummary finish();
 
   /// As MappingSystem::supporting_features().
-  std::vector<SupportingFeature> supporting_features() const;
+  std::vector<SupportingFeature> supporting_features() const {
+    return supporting_.in_images(rig_.rig);
+  }
 
   const Map& map() const { return map_; }
   const EstimatorRig& rig() const { return rig_; }
@@ -56,7 +59,6 @@ class Pipeline {
   static void release_images(FrameFeatures& frame);
   void record_tags(const TrackedFrame& tracked);
   void record_pose(const TrackedFrame& tracked, Estimate& estimate);
-  void record_support(const TrackedFrame& tracked);
 
   TrackedFrame initialise(const std::shared_ptr<FrameFeatures>& frame);
   TrackedFrame relocalise(const std::shared_ptr<FrameFeatures>& frame);
@@ -79,7 +81,7 @@ class Pipeline {
   void calibrate(Estimate& estimate);
   void use_calibration(const std::vector<PairCalibration>& pairs);
   Matrix6d covariance(const TrackedFrame& tracked, bool keyframe) const;
-  Estimate report(const TrackedFrame& tracked) const;
+  TrackingStatus status(const TrackedFrame& tracked) const;
 
   SlamConfig config_;
   EstimatorRig rig_;
@@ -95,8 +97,8 @@ class Pipeline {
   PoseUncertainty uncertainty_;     ///< of the latest keyframe
   StageTimes times_;
   TrajectoryRecord records_;
-  std::vector<std::vector<Eigen::Vector2f>> supporting_;  ///< px, of the last frame's views
-  double path_length_ = 0;                                ///< m
+  SupportingFeatures supporting_;
+  double path_length_ = 0;  ///< m
   int closures_ = 0;
   bool started_ = false;
   bool tags_since_adjustment_ = false;  ///< tags were seen after the last global adjustment

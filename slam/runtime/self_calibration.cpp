@@ -4,7 +4,19 @@
 
 #include <memory>
 
+#include "slam/stereo/stereo_matcher.h"
+
 namespace vinebench::slam {
+
+bool is_accuracy_told(const CalibrationConfig& told, double disparity_sigma) {
+  const CalibrationConfig usual;
+  return told.position != usual.position || told.rotation_deg != usual.rotation_deg ||
+         told.disparity_slope != usual.disparity_slope || told.focal != usual.focal ||
+         told.baseline != usual.baseline || told.time != usual.time ||
+         told.readout != usual.readout || told.principal_point != usual.principal_point ||
+         told.right_turn_deg != usual.right_turn_deg || told.right_ahead != usual.right_ahead ||
+         disparity_sigma != StereoConfig{}.calibration_sigma;
+}
 
 SelfCalibration::SelfCalibration(const SelfCalibrationSettings& settings, const EstimatorRig& rig)
     : settings_(settings), watch_(settings.accuracy, settings.disparity_sigma, rig) {}

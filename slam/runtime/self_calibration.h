@@ -20,6 +20,11 @@ struct SelfCalibrationSettings {
   bool beside_tracking = false;  ///< looks take their time on a thread of their own
 };
 
+/// Whether somebody said how accurate the rig file is. The defaults are wide enough for any rig:
+/// taken for an error that it has, they would make the covariances of most useless until a dozen of
+/// keyframes tell better.
+bool is_accuracy_told(const CalibrationConfig& accuracy, double disparity_sigma);
+
 /// CalibrationWatch over a drive: when it looks, at once or beside tracking, and what error the
 /// rig's calibrations have by the latest look.
 class SelfCalibration {

@@ -13,4 +13,14 @@ namespace vinebench::slam {
 /// the body has moved or turned on since then.
 bool wants_keyframe(const TrackedFrame& tracked, const Map& map, const KeyframeConfig& config);
 
+/// Whether the body has moved or turned twice as far as keyframes may be apart.
+bool is_overdue(const TrackedFrame& tracked, const Map& map, const KeyframeConfig& config);
+
+/// Whether a loaded map, to which no keyframe was added yet, knows the place as well as a new
+/// keyframe would.
+bool is_covered(const TrackedFrame& tracked, const Map& map, const KeyframeConfig& config);
+
+/// Whether a tag is in view, and from so far from the last keyframe that it says more.
+bool sees_tag_from_elsewhere(const TrackedFrame& tracked, const Map& map);
+
 }  // namespace vinebench::slam

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <thread>
 
+#include "slam/stereo/stereo_matcher.h"
 #include "tests/support/aisle_map.h"
 #include "tests/support/winding_drive.h"
 
@@ -40,6 +41,16 @@ class SelfCalibrationTest : public testing::Test {
   test::AisleMap made_{aisle_, {}};
   StageTimes times_;
 };
+
+// What tags are good for says nothing of the pairs.
+TEST(AccuracyTest, IsToldWhereANumberOfThePairsIsNotTheUsualOne) {
+  const double usual = StereoConfig{}.calibration_sigma;
+  EXPECT_FALSE(is_accuracy_told({}, usual));
+  EXPECT_TRUE(is_accuracy_told({}, 0.5 * usual));
+  EXPECT_TRUE(is_accuracy_told({.focal = 0.001}, usual));
+  EXPECT_TRUE(is_accuracy_told({.right_ahead = 0.001}, usual));
+  EXPECT_FALSE(is_accuracy_told({.tag_size = 0.01}, usual));
+}
 
 TEST_F(SelfCalibrationTest, SwitchedOffItNeverLooks) {
   SelfCalibration calibration({.enabled = false}, made_.rig);

@@ -28,15 +28,20 @@ class KeyframeSelectorTest : public testing::Test {
   }
 
   /// `inliers` tracked; every other feature has a depth and no landmark.
-  bool wants(std::int64_t index, int inliers, const Pose& pose = {}) const {
+  static TrackedFrame tracked(std::int64_t index, int inliers, const Pose& pose = {}) {
     TrackedFrame tracked;
     tracked.frame = frame(index);
     tracked.associations = no_associations(*tracked.frame);
     for (int f = 0; f < inliers; ++f) tracked.associations[0][static_cast<std::size_t>(f)] = f;
     tracked.motion.inliers = inliers;
     tracked.motion.T_map_body = pose;
-    return wants_keyframe(tracked, map_, config_);
+    return tracked;
   }
+  bool wants(std::int64_t index, int inliers, const Pose& pose = {}) const {
+    return wants_keyframe(tracked(index, inliers, pose), map_, config_);
+  }
+  static Pose at_x(double x) { return {Eigen::Quaterniond::Identity(), {x, 0, 0}}; }
+  static Pose turned_by(double yaw) { return {exp_so3({0, 0, yaw}), Eigen::Vector3d::Zero()}; }
 
   Map map_{1.2};
   KeyframeConfig config_ = [] {
@@ -84,6 +89,33 @@ TEST_F(KeyframeSelectorTest, SoDoMovingAndTurning) {
 TEST_F(KeyframeSelectorTest, ButNotTooSoonAfterTheLast) {
   EXPECT_FALSE(wants(11, 50, Pose{Eigen::Quaterniond::Identity(), {1, 0, 0}}));
   EXPECT_TRUE(wants(12, 50, Pose{Eigen::Quaterniond::Identity(), {1, 0, 0}}));
+}
+
+TEST_F(KeyframeSelectorTest, IsOverdueAfterTwiceTheWayOrTheTurn) {
+  EXPECT_FALSE(is_overdue(tracked(20, 390, at_x(0.49)), map_, config_));  // 0.25 m apart
+  EXPECT_TRUE(is_overdue(tracked(20, 390, at_x(0.51)), map_, config_));
+  // 12 degrees apart: 0.419 rad.
+  EXPECT_FALSE(is_overdue(tracked(20, 390, turned_by(0.41)), map_, config_));
+  EXPECT_TRUE(is_overdue(tracked(20, 390, turned_by(0.43)), map_, config_));
+}
+
+TEST_F(KeyframeSelectorTest, ALoadedMapCoversWhereItsKeyframesAreNear) {
+  EXPECT_FALSE(is_covered(tracked(20, 390), map_, config_));  // the keyframe is of this run
+  map_ = Map{1.2};
+  map_.add_keyframe(frame(-1), Pose{}, {});
+  EXPECT_TRUE(is_covered(tracked(20, 200, at_x(0.24)), map_, config_));
+  EXPECT_FALSE(is_covered(tracked(20, 199, at_x(0.24)), map_, config_));  // tracks too little
+  EXPECT_FALSE(is_covered(tracked(20, 390, at_x(0.26)), map_, config_));
+  EXPECT_FALSE(is_covered(tracked(20, 390, turned_by(0.22)), map_, config_));
+}
+
+TEST_F(KeyframeSelectorTest, ATagSaysMoreFromFiveCentimetresOn) {
+  TrackedFrame near = tracked(20, 390, at_x(0.049));
+  TrackedFrame far = tracked(20, 390, at_x(0.051));
+  EXPECT_FALSE(sees_tag_from_elsewhere(far, map_));  // no tag
+  for (TrackedFrame* seen : {&near, &far}) seen->frame->tags.resize(1);
+  EXPECT_FALSE(sees_tag_from_elsewhere(near, map_));
+  EXPECT_TRUE(sees_tag_from_elsewhere(far, map_));
 }
 
 TEST_F(KeyframeSelectorTest, WithNothingNewToSeeAWeakFrameAddsNothing) {
