@@ -67,30 +67,43 @@ class Subset {
   explicit Subset(const CalibrationBelief& belief)
       : belief_(belief),
         factor_(Eigen::MatrixXd::Zero(belief.information.rows(), belief.information.cols())),
+        row_(belief.information.rows()),
         solved_(Eigen::VectorXd::Zero(belief.information.rows())) {}
 
   void add(Eigen::Index number) {
     const auto n = static_cast<Eigen::Index>(numbers_.size());
-    const auto factor = factor_.topLeftCorner(n, n).triangularView<Eigen::Lower>();
-    const Eigen::VectorXd row = factor.solve(belief_.information(numbers_, number));
+    auto row = row_.head(n);
+    row = belief_.information(numbers_, number);
+    if (!row.isZero(0)) {
+      factor_.topLeftCorner(n, n).triangularView<Eigen::Lower>().solveInPlace(row);
+    }
     const double pivot = std::sqrt(belief_.information(number, number) - row.squaredNorm());
     factor_.row(n).head(n) = row.transpose();
     factor_(n, n) = pivot;
     solved_[n] = (belief_.information_vector[number] - row.dot(solved_.head(n))) / pivot;
     numbers_.push_back(number);
+    logarithms_.push_back(logarithm() + std::log(pivot));
   }
-  void remove(std::size_t count) { numbers_.resize(numbers_.size() - count); }
+  void remove(std::size_t count) {
+    numbers_.resize(numbers_.size() - count);
+    logarithms_.resize(numbers_.size());
+  }
 
   /// Logarithm of the integral of the belief over these numbers, but for powers of 2 pi.
   double log_integral() const {
     const auto n = static_cast<Eigen::Index>(numbers_.size());
-    return 0.5 * solved_.head(n).squaredNorm() - factor_.diagonal().head(n).array().log().sum();
+    return 0.5 * solved_.head(n).squaredNorm() - logarithm();
   }
 
  private:
+  /// Of the product of the factor's diagonal.
+  double logarithm() const { return logarithms_.empty() ? 0 : logarithms_.back(); }
+
   const CalibrationBelief& belief_;
   std::vector<Eigen::Index> numbers_;
+  std::vector<double> logarithms_;  ///< logarithm() with each number
   Eigen::MatrixXd factor_;
+  Eigen::VectorXd row_;  ///< to work on
   Eigen::VectorXd solved_;
 };
 
@@ -142,10 +155,16 @@ CalibrationAverage average(const CalibrationBelief& now, const CalibrationBelief
   CalibrationAverage found{Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size),
                            std::exp(logarithms[0] - most) / sum};
   Eigen::MatrixXd& moments = found.covariance;  // about the rig file, at first
+  // As before anything is seen, where each of the sets counts.
+  const bool apart = now.information.isDiagonal(0) && now.information_vector.isZero(0);
   for (std::size_t set = 1; set < sets; ++set) {
     const double weight = std::exp(logarithms[set] - most) / sum;
     if (weight < kLeastWeight) continue;
     const std::vector<Eigen::Index> numbers = numbers_of(causes, set);
+    if (apart) {
+      for (const Eigen::Index i : numbers) moments(i, i) += weight * (1 / now.information(i, i));
+      continue;
+    }
     const Eigen::LDLT<Eigen::MatrixXd> information(now.information(numbers, numbers));
     const Eigen::VectorXd mean = information.solve(now.information_vector(numbers));
     const auto count = static_cast<Eigen::Index>(numbers.size());

@@ -31,6 +31,19 @@ TEST(CalibrationAverageTest, BeforeAnythingIsSeenEverySecondFileIsRight) {
   EXPECT_NEAR(found.covariance(6, 6), 0.5 * 128 / 255, 1e-12);
 }
 
+// Numbers that are known apart are added up without a matrix: to what one with a correlation of
+// 1e-300, which rounds to nothing, gives.
+TEST(CalibrationAverageTest, NumbersThatAreKnownApartTakeNoMatrix) {
+  CalibrationBelief prior = within_one(2);
+  prior.information.diagonal().setLinSpaced(0.3, 7.0);
+  CalibrationBelief matrix = prior;
+  matrix.information(0, 1) = matrix.information(1, 0) = 1e-300;
+  const CalibrationAverage apart = average(prior, prior), together = average(matrix, matrix);
+  EXPECT_EQ(apart.file_is_right, together.file_is_right);
+  EXPECT_EQ(apart.mean, together.mean);
+  EXPECT_EQ(apart.covariance.diagonal(), together.covariance.diagonal());
+}
+
 // The disparity offset is measured as 0.5 with a deviation of 1/sqrt(99): together with the file's
 // 1 the information is 100, the mean 0.495. Against none at all, an offset has the evidence E =
 // exp(49.5^2 / 100 / 2) / sqrt(100); whether other causes are at work changes nothing. Of the 255
