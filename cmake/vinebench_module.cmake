@@ -59,7 +59,7 @@ endfunction()
 # How many folders deep vinebench_unity() tells folders apart, such as sim/render. Fourteen small folders of tests
 # took half the time at once: headers, and what templates become, are common to them.
 set(vinebench_unity_depth 2)
-# Folders that are compiled together: lists of names, each separated by spaces. A module's own folder has its name.
+# Folders that are compiled together, in lists of names with spaces between.
 set(vinebench_unity_together "")
 
 # vinebench_unity(TARGET sources...): compiles each folder's sources at once, with those of folders deeper than

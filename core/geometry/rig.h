@@ -81,9 +81,10 @@ struct Rig {
   static Pose mount(const Eigen::Vector3d& position, const Eigen::Vector3d& rpy);
 };
 
-/// The YAML form of a rig, with angles in degrees.
-inline constexpr int kSmallestImageSide = 16, kLargestImageSide = 16384;  ///< px
+inline constexpr int kSmallestImageSide = 16,
+                     kLargestImageSide = 16384;  ///< px, of a rig's cameras
 
+/// The YAML form of a rig, with angles in degrees.
 struct RigConfig {
   struct Camera {
     std::string name;                               ///< of its topics and files

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "sim/textures/textures.h"
 

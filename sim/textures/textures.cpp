@@ -19,9 +19,9 @@ struct CubicTaps {
   std::vector<std::array<float, 4>> weights;
 };
 
-/// Of `size` values over `cells` cells that repeat. Keys' cubic with a = -0.75, each step in the
-/// order and precision in which OpenCV's resize() takes it, of an image with three cells more on
-/// either side: it gives the same bytes, but computes the rims too.
+/// Of `size` values over `cells` cells that repeat: Keys' cubic with a = -0.75. Each step is in the
+/// order and precision in which OpenCV's resize() takes it on an image with three cells more on
+/// either side. That gives the same bytes, but computes the rims too.
 CubicTaps cubic_taps(int size, int cells) {
   constexpr int kBeyond = 3;
   constexpr float kA = -0.75f;
