@@ -2,17 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/report/events.h"
 
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <utility>
 
 #include "harness/datasets/files/json_file.h"
+#include "harness/report/report_json.h"
 #include "harness/report/tick_events.h"
 
 namespace vinebench::harness {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// What is known of the ticks after the run, behind what each says by itself.
 class EventLog {
