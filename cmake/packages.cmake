@@ -73,7 +73,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 # As vinebenchConfig.cmake.in finds them.
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
     "libopencv-dev, libeigen3-dev, libceres-dev, libapriltag-dev, libhwy-dev, libyaml-cpp-dev, libfmt-dev, pkgconf, \
-nlohmann-json3-dev, libxxhash-dev, libdeflate-dev, libzstd-dev, libsqlite3-dev, libcpp-httplib-dev, libssl-dev")
+nlohmann-json3-dev, libxxhash-dev, libdeflate-dev, libzstd-dev, liblz4-dev, libbz2-dev, libsqlite3-dev, libcpp-httplib-dev, libssl-dev")
 if(VINEBENCH_SIM)
   string(APPEND CPACK_DEBIAN_DEV_PACKAGE_DEPENDS ", libassimp-dev, libtinygltf-dev, libnlopt-dev, libmujoco-dev, libqhull-dev")
   if(OSMESA_FOUND)

@@ -138,7 +138,7 @@ void define_ros_messages(py::module_& module) {
            py::arg("tags"))
       .def_property_readonly("rig", &RosMessages::rig)
       .def_property_readonly("topics", &RosMessages::topics)
-      .def_property_readonly_static("start", [](const py::object&) { return RosWriter::kStart; })
+      .def_property_readonly_static("start", [](const py::object&) { return harness::kRosStart; })
       .def("of_frame", &RosMessages::of_frame, py::arg("frame"))
       .def("of_truth", &RosMessages::of_truth, py::arg("stamp"), py::arg("T_world_body"));
 }

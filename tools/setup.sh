@@ -22,7 +22,7 @@ packages=(
   libboost-math-dev
   # files, text, command line
   libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libxxhash-dev libdeflate-dev
-  libzstd-dev libsqlite3-dev libnlopt-dev libcpp-httplib-dev libssl-dev
+  libzstd-dev liblz4-dev libbz2-dev libsqlite3-dev libnlopt-dev libcpp-httplib-dev libssl-dev
   # the front end of reports
   esbuild libjs-three
   # the Python module

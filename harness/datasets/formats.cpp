@@ -19,18 +19,30 @@
 #include "harness/datasets/normals/normals_format.h"
 #include "harness/datasets/rgb/rgb_format.h"
 #include "harness/datasets/ros/ros_format.h"
+#include "harness/datasets/ros2/bag/bag_metadata.h"
+#include "harness/datasets/ros2/bag/bag_reader.h"
 #include "harness/datasets/ros2/mcap_format.h"
 #include "harness/datasets/semantic/semantic_format.h"
 #include "harness/datasets/tum/tum_format.h"
 
 namespace vinebench::harness {
+namespace {
+
+/// What reads bags of ROS 1 is with that of ROS 2.
+DatasetFormat readable_ros_format() {
+  DatasetFormat format = ros_format();
+  format.reader = {"a bag of ROS 1 (.bag, or a folder with one)", is_ros1_bag, read_bag, true};
+  return format;
+}
+
+}  // namespace
 
 const std::vector<DatasetFormat>& dataset_formats() {
   static const std::vector<DatasetFormat> formats{
-      euroc_format(),     kitti_format(), tum_format(),     dcvslam_format(),
-      rgb_format(),       depth_format(), depth32_format(), disparity_format(),
-      flow_format(),      flo_format(),   normals_format(), semantic_format(),
-      instances_format(), coco_format(),  ros_format(),     mcap_format()};
+      euroc_format(),     kitti_format(), tum_format(),          dcvslam_format(),
+      rgb_format(),       depth_format(), depth32_format(),      disparity_format(),
+      flow_format(),      flo_format(),   normals_format(),      semantic_format(),
+      instances_format(), coco_format(),  readable_ros_format(), mcap_format()};
   return formats;
 }
 

@@ -72,7 +72,7 @@ Recording open_recording(const fs::path& named, const RecordingOptions& options)
   if (format == nullptr) {
     fail("{}: is not a recording: expected {}", folder.string(), known_layouts());
   }
-  if (!options.topics.empty() && format->name != "mcap") {
+  if (!options.topics.empty() && !format->reader.topics) {
     fail("{}: is {}: --topics are a bag's", folder.string(), format->reader.layout);
   }
   Recording recording = format->reader.read(folder, options);

@@ -60,6 +60,17 @@ inline std::string sensor_yaml(double y, const std::string& distortion = "[0, 0,
       y, kWidth, kHeight, distortion);
 }
 
+/// A camera of a chain of Kalibr, which looks forward from `y` on the inertial unit.
+inline std::string kalibr_camera(const std::string& name, double y) {
+  // The inverse of sensor_yaml()'s T_BS: x right = -y of the unit, which is at y there.
+  return fmt::format(
+      "{}:\n  T_cam_imu:\n  - [0, -1, 0, {}]\n  - [0, 0, -1, 0]\n  - [1, 0, 0, 0]\n"
+      "  - [0, 0, 0, 1]\n  cam_overlaps: [0]\n  camera_model: pinhole\n"
+      "  distortion_coeffs: [0.01, -0.001, 0.002, 0]\n  distortion_model: equidistant\n"
+      "  intrinsics: [20, 20, 15, 11]\n  resolution: [{}, {}]\n  rostopic: /{}/image_raw\n",
+      name, y, kWidth, kHeight, name);
+}
+
 inline constexpr std::int64_t kFirstStamp = 1403715273262142976;
 inline constexpr std::int64_t kPeriod = 50'000'000;  // ns
 

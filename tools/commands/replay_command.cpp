@@ -65,37 +65,39 @@ Command replay_command(const Surroundings& surroundings) {
   Command command{
       .name = "replay",
       .description =
-          "Run the SLAM core, or another system, on a recorded data set (EuRoC/ASL or KITTI "
-          "odometry folder, ROS 2 bag)",
-      .options = {{.name = "DATASET",
-                   .target = &arguments->dataset,
-                   .help = "Folder of the data set, or file of a bag",
-                   .required = true},
-                  {.name = "--rig",
-                   .target = &arguments->rig,
-                   .help = "Rig file, or the name of a rig, in place of the data set's calibration",
-                   .data = harness::DataKind::kRig},
-                  {.name = "--slam",
-                   .target = &arguments->slam,
-                   .help =
-                       "Settings of the SLAM core: a file with the keys of a scenario's `slam`"},
-                  {.name = "--groundtruth",
-                   .target = &arguments->groundtruth,
-                   .help = "True poses in place of the data set's: TUM, KITTI or EuRoC file"},
-                  {.name = "--topics",
-                   .target = &arguments->topics,
-                   .help = "Topics of a bag's images: left and right of a pair, of a second one, "
-                           "others (default: by their names)",
-                   .commas = true},
-                  {.name = "--out",
-                   .target = &arguments->out,
-                   .help = "Folder for the results (default: out/<data set's name>)"},
-                  overrides_option(arguments->overrides,
-                                   "Set a key of the settings, e.g. slam.cameras=front"),
-                  threads_option(arguments->threads),
-                  {.name = "--untrusted",
-                   .target = &arguments->untrusted,
-                   .help = "Refuse settings that execute programs or load code"}},
+          "Run the SLAM core, or another system, on a recorded data set (EuRoC/ASL, TUM-VI "
+          "or KITTI folder, bag of ROS 1 or 2)",
+      .options =
+          {{.name = "DATASET",
+            .target = &arguments->dataset,
+            .help = "Folder of the data set, or file of a bag",
+            .required = true},
+           {.name = "--rig",
+            .target = &arguments->rig,
+            .help =
+                "Rig file, the name of a rig, or a camera chain of Kalibr, in place of the data "
+                "set's calibration",
+            .data = harness::DataKind::kRig},
+           {.name = "--slam",
+            .target = &arguments->slam,
+            .help = "Settings of the SLAM core: a file with the keys of a scenario's `slam`"},
+           {.name = "--groundtruth",
+            .target = &arguments->groundtruth,
+            .help = "True poses in place of the data set's: TUM, KITTI or EuRoC file"},
+           {.name = "--topics",
+            .target = &arguments->topics,
+            .help = "Topics of a bag's images: left and right of a pair, of a second one, "
+                    "others (default: by their names)",
+            .commas = true},
+           {.name = "--out",
+            .target = &arguments->out,
+            .help = "Folder for the results (default: out/<data set's name>)"},
+           overrides_option(arguments->overrides,
+                            "Set a key of the settings, e.g. slam.cameras=front"),
+           threads_option(arguments->threads),
+           {.name = "--untrusted",
+            .target = &arguments->untrusted,
+            .help = "Refuse settings that execute programs or load code"}},
       .run = [arguments] { return replay(*arguments); }};
   append(command.options, report_options(arguments->page));
   append(command.options, view_options(arguments->page));

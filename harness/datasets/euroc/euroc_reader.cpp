@@ -7,11 +7,12 @@
 #include "core/files/input_file.h"
 #include "core/util/error.h"
 #include "harness/datasets/euroc/our_files.h"
-#include "harness/datasets/euroc/sensor_file.h"
 #include "harness/datasets/files/text_table.h"
 #include "harness/datasets/reading/groundtruth.h"
 #include "harness/datasets/reading/image_association.h"
+#include "harness/datasets/reading/kalibr_chain.h"
 #include "harness/datasets/reading/reading_order.h"
+#include "harness/datasets/reading/sensor_file.h"
 
 namespace vinebench::harness {
 namespace {
@@ -19,6 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kEurocRate = 20;  // Hz, of EuRoC's cameras
+// TUM-VI's calibration, by Kalibr; its cameras have no sensor.yaml.
+constexpr const char* kKalibrChain = "dso/camchain.yaml";
+constexpr const char* kKalibrNoise = "dso/imu_config.yaml";
 
 /// The folder that contains cam0; the user may name it or its parent.
 fs::path sensor_folder(const fs::path& folder) {
@@ -57,7 +61,6 @@ std::vector<Stamp> read_instants(const fs::path& folder, const ImageList& first_
   return is_present(file) ? read_frame_list(file) : instants_of(first_camera);
 }
 
-/// cam0 and cam1 are a pair, and so are cam2 and cam3; further cameras are tag cameras.
 Rig rig_of_sensors(const fs::path& sensors, const std::vector<fs::path>& folders) {
   Rig rig;
   rig.name = "EuRoC";
@@ -66,11 +69,7 @@ Rig rig_of_sensors(const fs::path& sensors, const std::vector<fs::path>& folders
     rig.cameras.push_back({folder.filename().string(), sensor.camera(), sensor.T_BS()});
     if (rig.cameras.size() == 1) rig.rate_hz = sensor.rate_hz().value_or(0);
   }
-  rig.stereo_pairs.push_back({"front", 0, 1});
-  if (folders.size() >= 4) rig.stereo_pairs.push_back({"back", 2, 3});
-  for (int i = folders.size() >= 4 ? 4 : 2; i < static_cast<int>(folders.size()); ++i) {
-    rig.tag_cameras.push_back(i);
-  }
+  pair_in_order(rig);
   if (const fs::path imu = sensors / "imu0/sensor.yaml"; is_present(imu)) {
     rig.imu = SensorFile(imu).imu_noise();
   }
@@ -84,6 +83,13 @@ Rig read_rig(const fs::path& folder, const std::vector<fs::path>& cameras,
   if (is_present(ours)) return load_rig_for(ours, cameras.size());
   if (cameras.size() < 2) {
     fail("{}: expected a cam1 beside cam0: a stereo pair", sensor_folder(folder).string());
+  }
+  if (const fs::path chain = folder / kKalibrChain; is_present(chain)) {
+    Rig rig = load_rig_for(chain, cameras.size());
+    if (const fs::path imu = folder / kKalibrNoise; is_present(imu)) {
+      rig.imu = SensorFile(imu).imu_noise();
+    }
+    return rig;
   }
   return rig_of_sensors(sensor_folder(folder), cameras);
 }
@@ -128,7 +134,7 @@ void read_wheels(const fs::path& folder, Recording& recording) {
 
 /// The state estimate if there is one, otherwise motion capture.
 Trajectory read_truth(const fs::path& sensors) {
-  for (const char* name : {"state_groundtruth_estimate0", "vicon0"}) {
+  for (const char* name : {"state_groundtruth_estimate0", "vicon0", "mocap0"}) {
     const fs::path folder = sensors / name;
     if (!is_present(folder / "data.csv")) continue;
     const bool described = is_present(folder / "sensor.yaml");

@@ -6,9 +6,9 @@
 
 #include "core/files/files.h"
 #include "harness/datasets/euroc/our_files.h"
-#include "harness/datasets/euroc/sensor_file.h"
 #include "harness/datasets/euroc/slam_settings.h"
 #include "harness/datasets/files/image_codec.h"
+#include "harness/datasets/reading/sensor_file.h"
 
 namespace vinebench::harness {
 namespace {

@@ -33,13 +33,14 @@ struct TruthImages {
   bool instances = false;
 };
 
-/// Reads a format; all three are set, or none.
+/// Reads a format; the first three are set, or none.
 struct FormatReader {
   std::string layout;  ///< what it recognises, for error messages: "an EuRoC folder (mav0)"
   std::function<bool(const std::filesystem::path& folder)> recognises;
   /// Without the ground truth where the options name another. Throws Error.
   std::function<Recording(const std::filesystem::path& folder, const RecordingOptions& options)>
       read;
+  bool topics = false;  ///< whether cameras can be chosen by RecordingOptions::topics
 };
 
 /// Lists that a data set of several sequences has of them all, in its own folder.

@@ -3,6 +3,7 @@
 #include "harness/datasets/kitti/kitti_format.h"
 
 #include "harness/datasets/files/text_table.h"
+#include "harness/datasets/kitti/kitti_raw_reader.h"
 #include "harness/datasets/kitti/kitti_reader.h"
 #include "harness/datasets/kitti/kitti_writer.h"
 
@@ -20,16 +21,24 @@ void check_kitti_lists(const RecordedSequence& sequence, std::vector<DatasetFaul
   }
 }
 
+Recording read_either(const std::filesystem::path& folder, const RecordingOptions& options) {
+  return is_kitti(folder) ? read_kitti(folder, options) : read_kitti_raw(folder, options);
+}
+
 }  // namespace
 
 DatasetFormat kitti_format() {
-  return {.name = "kitti",
-          .description = "KITTI odometry folder of the first pair",
-          .write = make_kitti_writer,
-          .reader = {"a KITTI odometry folder (calib.txt beside image_0 and image_1, image_2 and "
-                     "image_3, or image_l and image_r)",
-                     is_kitti, read_kitti},
-          .check = check_kitti_lists};
+  return {
+      .name = "kitti",
+      .description = "KITTI odometry folder of the first pair",
+      .write = make_kitti_writer,
+      .reader = {"a KITTI odometry folder (calib.txt beside image_0 and image_1, image_2 and "
+                 "image_3, or image_l and image_r), a drive of KITTI's raw data (image_00/data)",
+                 [](const std::filesystem::path& folder) {
+                   return is_kitti(folder) || is_kitti_raw(folder);
+                 },
+                 read_either},
+      .check = check_kitti_lists};
 }
 
 }  // namespace vinebench::harness

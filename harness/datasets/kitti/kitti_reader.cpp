@@ -9,6 +9,8 @@
 #include "core/files/input_file.h"
 #include "core/util/error.h"
 #include "harness/datasets/files/text_table.h"
+#include "harness/datasets/kitti/kitti_images.h"
+#include "harness/datasets/kitti/kitti_projection.h"
 #include "harness/datasets/reading/groundtruth.h"
 #include "harness/datasets/reading/recorded_images.h"
 
@@ -17,7 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kKittiRate = 10;  // Hz, of KITTI's cameras
 constexpr std::size_t kMatrixSize = 12;
 constexpr std::size_t kCameras = 2;
 
@@ -43,8 +44,6 @@ const Layout* find_layout(const fs::path& folder) {
   return nullptr;
 }
 
-using Projection = Eigen::Matrix<double, 3, 4>;
-
 Projection projection_of(const TableRow& row, std::size_t first) {
   if (row.fields.size() - first != kMatrixSize) {
     row.fault(fmt::format("expected 12 numbers (3 x 4, row by row), found {}",
@@ -54,9 +53,7 @@ Projection projection_of(const TableRow& row, std::size_t first) {
   for (std::size_t i = 0; i < kMatrixSize; ++i) {
     P(static_cast<Eigen::Index>(i / 4), static_cast<Eigen::Index>(i % 4)) = row.number(first + i);
   }
-  if (P(0, 0) <= 0 || P(1, 1) <= 0 || P(2, 2) != 1) {
-    row.fault("expected a projection matrix: focal lengths above 0, 1 in row 3, column 3");
-  }
+  if (!is_projection(P)) row.fault(kProjectionExpected);
   return P;
 }
 
@@ -80,14 +77,9 @@ Pose first_camera_mount() {
 }
 
 RigCamera camera_of(const std::string& name, const Projection& P) {
-  RigCamera camera;
+  RigCamera camera = camera_of_projection(P);
   camera.name = name;
-  camera.model = {.fx = P(0, 0), .fy = P(1, 1), .cx = P(0, 2), .cy = P(1, 2)};
-  // x = K (p + t) with the matrix's last column K t: the camera is at -t of the first camera.
-  const Eigen::Vector3d t(P(0, 3) / P(0, 0) - P(0, 2) / P(0, 0) * P(2, 3),
-                          P(1, 3) / P(1, 1) - P(1, 2) / P(1, 1) * P(2, 3), P(2, 3));
-  const Pose T_body_first = first_camera_mount();
-  camera.T_body_cam = {T_body_first.rotation, T_body_first * -t};
+  camera.T_body_cam = first_camera_mount() * camera.T_body_cam;
   return camera;
 }
 
@@ -105,27 +97,6 @@ Rig read_rig(const fs::path& folder, const Layout& layout) {
                  camera_of("right", matrices.at(layout.right_matrix))};
   rig.stereo_pairs = {{"front", 0, 1}};
   return rig;
-}
-
-/// Images by the number in their name.
-std::map<std::int64_t, fs::path> images_in(const fs::path& folder) {
-  static const std::array<std::string, 7> kinds{".png", ".jpg", ".jpeg", ".pgm",
-                                                ".bmp", ".tif", ".webp"};
-  std::error_code error;
-  std::map<std::int64_t, fs::path> images;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string stem = entry.path().stem().string();
-    const bool image = std::ranges::count(kinds, entry.path().extension().string()) > 0;
-    const bool number = !stem.empty() && stem.size() <= 18 &&
-                        stem.find_first_not_of("0123456789") == std::string::npos;
-    if (image && number) images[std::stoll(stem)] = entry.path();
-  }
-  if (error) fail("{}: cannot be read: {}", folder.string(), error.message());
-  if (images.empty()) {
-    fail("{}: expected images named by their number, such as 000000.png, found none",
-         folder.string());
-  }
-  return images;
 }
 
 /// One frame for every number from the first to the last of either camera.

@@ -47,12 +47,13 @@ struct Recording {
 
 /// Files that replace those of the recording.
 struct RecordingOptions {
-  std::filesystem::path rig;          ///< RigConfig, camera i is the recording's camera i
+  std::filesystem::path rig;          ///< for load_rig_for(); camera i is the recording's camera i
   std::filesystem::path groundtruth;  ///< TUM, KITTI (12 numbers a line) or EuRoC (csv)
   std::vector<std::string> topics{};  ///< of a bag's images, in the order of cameras
 };
 
-/// A rig from its file for a recording with that many cameras; it may use fewer. Throws Error.
+/// A rig from its file, ours or a camera chain of Kalibr, for a recording with that many cameras;
+/// it may use fewer. A chain has no rate. Throws Error.
 Rig load_rig_for(const std::filesystem::path& file, std::size_t cameras);
 
 }  // namespace vinebench::harness

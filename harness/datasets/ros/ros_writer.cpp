@@ -93,7 +93,7 @@ void RosWriter::finish() {
 }
 
 RosHeader RosWriter::header(Stamp stamp, const std::string& frame) {
-  const std::int64_t time = kStart + stamp;
+  const std::int64_t time = kRosStart + stamp;
   if (time > clock_) {
     const bool first = std::exchange(clock_, time) == 0;
     bag_->write_clock("/clock", time);

@@ -18,9 +18,6 @@ namespace vinebench::harness {
 /// a separate topic and in a separate frame. docs/datasets.md has topics, types and frames.
 class RosWriter : public FormatWriter {
  public:
-  /// Offset of stamps, because 0 means "not set" in ROS and faults may make stamps negative.
-  static constexpr Stamp kStart = kNanosecondsPerSecond;
-
   /// Raw images if `kind` is absent. Throws Error for WebP, which ROS does not support, and as
   /// ros_cameras() does.
   RosWriter(std::unique_ptr<RosOutput> bag, const RecordingNotes& notes, bool colour,

@@ -19,7 +19,7 @@ namespace {
 class McapRecording : public RosWriter {
  public:
   explicit McapRecording(const WriterInputs& inputs)
-      : RosWriter(std::make_unique<McapOutput>(make_folder(inputs.folder) / "run.mcap", kStart),
+      : RosWriter(std::make_unique<McapOutput>(make_folder(inputs.folder) / "run.mcap", kRosStart),
                   inputs.notes, inputs.options.colour, inputs.options.images),
         frames_(inputs.folder / kFrameList) {
     frames_.append(kFrameListHeader);
@@ -48,7 +48,7 @@ DatasetFormat mcap_format() {
       .name = "mcap",
       .description = "a bag of ROS 2 with run.mcap",
       .write = [](const WriterInputs& inputs) { return std::make_unique<McapRecording>(inputs); },
-      .reader = {"a bag of ROS 2 (.mcap or .db3, or a folder with these)", is_bag, read_bag},
+      .reader = {"a bag of ROS 2 (.mcap or .db3, or a folder with these)", is_bag, read_bag, true},
       .check = check_mcap_lists};
 }
 

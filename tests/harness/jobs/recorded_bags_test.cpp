@@ -6,6 +6,9 @@
 #include <gmock/gmock.h>
 
 #include "harness/datasets/dataset_check.h"
+#include "harness/datasets/open_recording.h"
+#include "harness/datasets/reading/dataset_reader.h"
+#include "harness/datasets/reading/recorded_images.h"
 #include "harness/datasets/ros/rosbag/ros_bag.h"
 #include "tests/support/size_limit.h"
 #include "tests/support/small_scenario.h"
@@ -68,6 +71,27 @@ TEST_F(RecordedBagsTest, ImagesAndColourAreThoseAskedFor) {
   const std::string png = read_file(request_.out / "euroc/mav0/cam2/data/0000000000000000000.png");
   EXPECT_NE(compressed.find(png), std::string::npos);
   EXPECT_FALSE(fs::exists(request_.out / "ros/left"));
+}
+
+TEST_F(RecordedBagsTest, ABagIsReplayedAsTheRunItIsOf) {
+  if (!has_rosbag()) GTEST_SKIP() << "built without rosbag";
+  record({"ros", "euroc"});
+  const Recording of_bag = open_recording(bag());
+  const Recording of_files = open_recording(request_.out / "euroc");
+  ASSERT_EQ(of_bag.frames.size(), of_files.frames.size());
+  for (std::size_t i = 0; i < of_bag.frames.size(); ++i) {
+    EXPECT_EQ(of_bag.frames[i].stamp, of_files.frames[i].stamp);
+    const cv::Mat image = read_grey(of_bag, of_bag.frames[i].images[1]);
+    EXPECT_EQ(cv::norm(image, read_grey(of_files.frames[i].images[1]), cv::NORM_INF), 0);
+  }
+  ASSERT_EQ(of_bag.imu.size(), of_files.imu.size());
+  EXPECT_EQ(of_bag.imu.back().stamp, of_files.imu.back().stamp);
+  EXPECT_EQ(of_bag.imu.back().specific_force, of_files.imu.back().specific_force);
+  EXPECT_EQ(of_bag.wheels.size(), of_files.wheels.size());
+  const auto end = pose_at(of_files.truth, of_bag.truth.back().stamp, kNanosecondsPerSecond);
+  ASSERT_TRUE(end);
+  // Positions of the files have fewer digits than a bag's.
+  EXPECT_LT((of_bag.truth.back().pose.translation - end->translation).norm(), 1e-6);
 }
 
 TEST_F(RecordedBagsTest, LinksInItsPlaceAreNotFollowed) {

@@ -13,6 +13,11 @@ namespace vinebench::harness {
 
 inline constexpr const char* kRosBody = "base_link";  ///< the body's frame (REP 105)
 
+// Bags of ours are by this node, and ahead of their recordings' stamps, because a time of 0 means
+// "not set" in ROS and faults may make stamps negative.
+inline constexpr const char* kRosCaller = "/vinebench";
+inline constexpr std::int64_t kRosStart = 1'000'000'000;  ///< ns
+
 using RosVector = std::array<double, 3>;
 using RosQuaternion = std::array<double, 4>;  ///< x, y, z, w
 

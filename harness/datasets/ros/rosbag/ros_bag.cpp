@@ -91,7 +91,7 @@ boost::shared_ptr<ros::M_string> latched_connection() {
   (*header)["type"] = ros::message_traits::datatype<Message>();
   (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
   (*header)["message_definition"] = ros::message_traits::definition<Message>();
-  (*header)["callerid"] = "/vinebench";
+  (*header)["callerid"] = kRosCaller;
   (*header)["latching"] = "1";
   return header;
 }

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/util/error.h"
+#include "harness/datasets/ros2/bag/ros1_file.h"
 #include "harness/datasets/ros2/bag/sqlite_file.h"
 #include "harness/datasets/ros2/cdr/ros2_messages.h"
 #include "harness/datasets/ros2/mcap/mcap_file.h"
@@ -92,12 +93,13 @@ class Collector {
   void take_image(std::size_t file, const BagMessage& message) {
     if (++images_ > kMostImages) fail("expected at most {} images", kMostImages);
     BagImages& images = contents_.images[message.topic];
-    const RosHeader header = decode_header(message.data);
+    const RosHeader header = decode_header(message.encoded());
     if (images.entries.empty()) {
       images.type = message.type;
       images.frame = header.frame;
-      images.coding = message.type == ros2::kImage ? decode_image(message.data).encoding
-                                                   : decode_compressed_image(message.data).format;
+      images.coding = message.type == ros2::kImage
+                          ? decode_image(message.encoded()).encoding
+                          : decode_compressed_image(message.encoded()).format;
     }
     if (images.type != message.type) fail("expected {}, found {}", images.type, message.type);
     images.entries.push_back({stamp_of(header), file, message.place});
@@ -105,12 +107,12 @@ class Collector {
 
   void take_camera(const BagMessage& message) {
     if (contents_.cameras.contains(message.topic)) return;
-    contents_.cameras[message.topic] = decode_camera_info(message.data);
+    contents_.cameras[message.topic] = decode_camera_info(message.encoded());
   }
 
   void take_inertial(const BagMessage& message) {
     count();
-    const RosImu reading = decode_imu(message.data);
+    const RosImu reading = decode_imu(message.encoded());
     expect_finite(reading.angular_velocity, "angular velocity");
     expect_finite(reading.linear_acceleration, "acceleration");
     BagInertial& inertial = contents_.inertial[message.topic];
@@ -121,7 +123,7 @@ class Collector {
   }
 
   void take_mounts(const BagMessage& message) {
-    for (const RosTransform& mount : decode_transforms(message.data)) {
+    for (const RosTransform& mount : decode_transforms(message.encoded())) {
       count();
       expect_pose(mount);
       contents_.mounts.push_back(mount);
@@ -130,7 +132,7 @@ class Collector {
 
   void take_wheels(const BagMessage& message) {
     count();
-    const RosJointState state = decode_joint_state(message.data);
+    const RosJointState state = decode_joint_state(message.encoded());
     if (const auto wheels = wheels_of(state, stamp_of(state.header))) {
       contents_.wheels.push_back(*wheels);
     }
@@ -138,7 +140,7 @@ class Collector {
 
   void take_truth(const BagMessage& message) {
     count();
-    RosTransform pose = decode_pose(message.type, message.data);
+    RosTransform pose = decode_pose(message.type, message.encoded());
     expect_pose(pose);
     pose.header.time = stamp_of(pose.header);
     contents_.truth.push_back(std::move(pose));
@@ -154,7 +156,8 @@ class Collector {
 std::shared_ptr<BagFile> open_bag_file(const std::filesystem::path& file) {
   if (file.extension() == ".mcap") return std::make_shared<McapFile>(file);
   if (file.extension() == ".db3") return std::make_shared<SqliteFile>(file);
-  fail("{}: expected a name that ends in .mcap or .db3", file.string());
+  if (file.extension() == ".bag") return std::make_shared<Ros1File>(file);
+  fail("{}: expected a name that ends in .mcap, .db3 or .bag", file.string());
 }
 
 }  // namespace

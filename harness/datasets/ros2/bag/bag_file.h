@@ -7,15 +7,17 @@
 #include <string>
 #include <string_view>
 
+#include "harness/datasets/ros2/cdr/encoded_message.h"
+
 namespace vinebench::harness {
 
-/// Bytes of a message at most, and of an MCAP file's chunk without compression.
+/// Bytes of a message at most, and of a chunk without compression.
 inline constexpr std::uint64_t kMostMessageBytes = std::uint64_t{256} << 20;
 
 /// Where a message is in its file.
 struct MessagePlace {
-  std::uint64_t block = 0;   ///< MCAP: byte of the file where its chunk is; SQLite: its row
-  std::uint64_t offset = 0;  ///< MCAP: byte of the message's data in the chunk, or in the file
+  std::uint64_t block = 0;   ///< byte of the file where its chunk is; SQLite: its row
+  std::uint64_t offset = 0;  ///< byte of the message's data in the chunk, or in the file
   std::uint64_t size = 0;    ///< bytes of its data
   bool chunked = false;
 };
@@ -24,20 +26,24 @@ struct MessagePlace {
 struct BagMessage {
   const std::string& topic;
   const std::string& type;  ///< "sensor_msgs/msg/Image"
-  std::string_view data;    ///< CDR
+  std::string_view data;
   MessagePlace place;
+  MessageCoding coding = MessageCoding::kCdr;
+
+  EncodedMessage encoded() const { return {data, coding}; }
 };
 
-/// A file of a bag of ROS 2, which may be broken or made to do harm. Everything throws Error, which
+/// A file of a bag, which may be broken or made to do harm. Everything throws Error, which
 /// names the file and the place in it.
 class BagFile {
  public:
   virtual ~BagFile() = default;
 
-  /// All messages in CDR, in the order of the file.
+  /// All messages in coding(), in the order of the file.
   virtual void scan(const std::function<void(const BagMessage&)>& take) = 0;
   /// A message's data again; on any thread, concurrently.
   virtual std::string read(const MessagePlace& place) const = 0;
+  virtual MessageCoding coding() const { return MessageCoding::kCdr; }
   /// The place for people: "byte 1234", "row 12".
   virtual std::string describe(const MessagePlace& place) const = 0;
   /// After scan(): what a file that ends too early lacks; empty for a whole one.

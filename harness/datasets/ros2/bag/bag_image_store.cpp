@@ -59,7 +59,7 @@ cv::Mat grey_of_raw(const PaddedImage& image, const std::string& name) {
 
 }  // namespace
 
-cv::Mat grey_of_message(std::string_view message, bool compressed, const std::string& name) {
+cv::Mat grey_of_message(const EncodedMessage& message, bool compressed, const std::string& name) {
   if (!compressed) return grey_of_raw(decode_image(message), name);
   return grey_of_decoded(decode_image(decode_compressed_image(message).bytes, name,
                                       cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION));
@@ -84,7 +84,8 @@ cv::Mat BagImageStore::read_grey(const std::filesystem::path& image) const {
   const auto place = places_.find(image.string());
   if (place == places_.end()) fail("{}: is not in the bag", image.string());
   const auto& [file, message, compressed] = place->second;
-  return grey_of_message(files_[file]->read(message), compressed, image.string());
+  const std::string bytes = files_[file]->read(message);
+  return grey_of_message({bytes, files_[file]->coding()}, compressed, image.string());
 }
 
 }  // namespace vinebench::harness

@@ -32,6 +32,6 @@ class BagImageStore : public ImageStore {
 
 /// A message's image, 8-bit grey; Throws Error for a size that does not agree with the data and for
 /// another encoding than mono8, rgb8, bgr8, rgba8, bgra8, 8UC1 and 8UC3. `name` is for errors.
-cv::Mat grey_of_message(std::string_view message, bool compressed, const std::string& name);
+cv::Mat grey_of_message(const EncodedMessage& message, bool compressed, const std::string& name);
 
 }  // namespace vinebench::harness

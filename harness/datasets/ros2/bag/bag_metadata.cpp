@@ -29,15 +29,19 @@ std::string text_of(const YAML::Node& node) {
   return node.IsDefined() && node.IsScalar() ? node.Scalar() : "";
 }
 
-bool is_bag_file(const fs::path& file) {
+bool is_ros2_file(const fs::path& file) {
   return file.extension() == ".mcap" || file.extension() == ".db3";
 }
 
-std::vector<fs::path> bag_files_in(const fs::path& folder) {
+bool is_ros1_file(const fs::path& file) {
+  return file.extension() == ".bag";
+}
+
+std::vector<fs::path> files_in(const fs::path& folder, bool (*wanted)(const fs::path&)) {
   std::vector<fs::path> files;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (is_bag_file(entry.path())) files.push_back(entry.path());
+    if (wanted(entry.path())) files.push_back(entry.path());
   }
   std::ranges::sort(files);
   return files;
@@ -91,7 +95,8 @@ std::string format_bag_metadata(const std::string& file, const std::vector<McapC
 
 std::vector<fs::path> bag_files(const fs::path& folder) {
   const fs::path metadata = folder / kBagMetadata;
-  std::vector<fs::path> files = bag_files_in(folder);
+  std::vector<fs::path> files = files_in(folder, is_ros2_file);
+  if (is_ros1_bag(folder) && !is_bag(folder)) files = files_in(folder, is_ros1_file);
   if (is_present(metadata)) {
     const YAML::Node bag = load_yaml_tree(metadata)[kRoot];
     if (!bag.IsDefined() || !bag.IsMap()) fail("{}: expected a map {}", metadata.string(), kRoot);
@@ -109,16 +114,21 @@ std::vector<fs::path> bag_files(const fs::path& folder) {
       for (const YAML::Node& file : listed) files.push_back(listed_file(folder, text_of(file)));
     }
   }
-  if (files.empty()) fail("{}: expected .mcap or .db3 files, found none", folder.string());
+  if (files.empty()) fail("{}: expected .mcap, .db3 or .bag files, found none", folder.string());
   return files;
 }
 
 bool is_bag(const fs::path& bag) {
   std::error_code ignored;
   if (fs::is_directory(bag, ignored)) {
-    return is_present(bag / kBagMetadata) || !bag_files_in(bag).empty();
+    return is_present(bag / kBagMetadata) || !files_in(bag, is_ros2_file).empty();
   }
-  return is_bag_file(bag);
+  return is_ros2_file(bag);
+}
+
+bool is_ros1_bag(const fs::path& bag) {
+  std::error_code ignored;
+  return fs::is_directory(bag, ignored) ? !files_in(bag, is_ros1_file).empty() : is_ros1_file(bag);
 }
 
 }  // namespace vinebench::harness

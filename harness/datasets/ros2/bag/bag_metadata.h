@@ -27,12 +27,16 @@ std::string format_bag_metadata(const std::string& file, const std::vector<McapC
                                 const McapStatistics& statistics);
 
 /// The files of a bag in a folder: those that its metadata.yaml lists, else those that are there,
-/// ordered by name. Throws Error for a metadata.yaml that cannot be used, for bags whose files are
-/// compressed as a whole, and names outside of the folder.
+/// ordered by name; those of ROS 1 where there are none of ROS 2. Throws Error for a metadata.yaml
+/// that cannot be used, for bags whose files are compressed as a whole, and names outside of the
+/// folder.
 std::vector<std::filesystem::path> bag_files(const std::filesystem::path& folder);
 
 /// Whether a file, or a folder with such files or metadata.yaml, is a bag of ROS 2, by the names
 /// alone.
 bool is_bag(const std::filesystem::path& bag);
+
+/// Likewise a bag of ROS 1.
+bool is_ros1_bag(const std::filesystem::path& bag);
 
 }  // namespace vinebench::harness

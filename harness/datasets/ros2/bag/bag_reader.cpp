@@ -8,6 +8,7 @@
 #include "core/files/input_file.h"
 #include "core/util/error.h"
 #include "harness/datasets/euroc/our_files.h"
+#include "harness/datasets/reading/kalibr_chain.h"
 #include "harness/datasets/reading/reading_order.h"
 #include "harness/datasets/ros2/bag/bag_image_store.h"
 #include "harness/datasets/ros2/bag/bag_metadata.h"
@@ -27,9 +28,13 @@ const std::pair<const std::string, BagInertial>* inertial_topic(const BagContent
   return contents.inertial.empty() ? nullptr : &*contents.inertial.begin();
 }
 
-void set_readings(BagContents& contents, const BagRig& place, Recording& recording) {
+/// `body_is_unit`: where the transforms do not place the unit, its axes are the body's.
+void set_readings(BagContents& contents, const BagRig& place, bool body_is_unit,
+                  Recording& recording) {
   if (const auto* topic = inertial_topic(contents)) {
-    if (const auto T_body_imu = place.body_from(topic->second.frame)) {
+    auto T_body_imu = place.body_from(topic->second.frame);
+    if (!T_body_imu && body_is_unit) T_body_imu = Pose{};
+    if (T_body_imu) {
       recording.imu = topic->second.readings;
       for (ImuSample& reading : recording.imu) {
         if (T_body_imu->rotation.w() == 1) break;
@@ -91,7 +96,8 @@ Recording read_bag(const fs::path& bag, const RecordingOptions& options) {
   const bool has_ours = folder || contents.ours;
   BagCameras chosen = choose_bag_cameras(contents, options.topics);
   Recording recording;
-  recording.format = "ROS 2 bag";
+  recording.format =
+      contents.files.front()->coding() == MessageCoding::kRos1 ? "ROS 1 bag" : "ROS 2 bag";
   fs::path rig = options.rig;
   if (rig.empty() && has_ours && is_present(place / "rig.yaml")) rig = place / "rig.yaml";
   BagRig mounted;
@@ -108,7 +114,8 @@ Recording read_bag(const fs::path& bag, const RecordingOptions& options) {
   recording.rig = mounted.rig;
   recording.T_body_left = recording.rig.cameras.front().T_body_cam;
   set_frames(contents, chosen.cameras, has_ours ? place / kFrameList : fs::path(), recording);
-  set_readings(contents, mounted, recording);
+  const bool kalibrated = !rig.empty() && is_kalibr_chain(rig);
+  set_readings(contents, mounted, kalibrated, recording);
   if (options.groundtruth.empty()) set_truth(contents, mounted, recording);
   if (has_ours) read_tags_and_settings(place, recording);
   if (!contents.cut_off.empty()) {

@@ -11,7 +11,9 @@ constexpr std::size_t kEncapsulation = 4;  // bytes: two of the kind, two of opt
 
 }  // namespace
 
-CdrReader::CdrReader(std::string_view message) : message_(message) {
+CdrReader::CdrReader(const EncodedMessage& message)
+    : message_(message.bytes), coding_(message.coding) {
+  if (coding_ == MessageCoding::kRos1) return;
   const std::string_view kind = take(kEncapsulation);
   if (kind[0] != 0 || kind[1] < 0 || kind[1] > 1) {
     fail("byte 0: expected plain CDR (encapsulation 0 or 1), found {}",
@@ -29,7 +31,7 @@ std::string_view CdrReader::take(std::size_t size) {
 }
 
 std::string_view CdrReader::take_aligned(std::size_t size) {
-  take((size - (at_ - kEncapsulation) % size) % size);
+  if (coding_ == MessageCoding::kCdr) take((size - (at_ - kEncapsulation) % size) % size);
   return take(size);
 }
 

@@ -12,15 +12,20 @@
 #include <type_traits>
 #include <vector>
 
+#include "harness/datasets/ros2/cdr/encoded_message.h"
+
 namespace vinebench::harness {
 
-/// Reads a message in plain CDR, little- or big-endian, value by value. The bytes may be anything:
+/// Reads a message in plain CDR, little- or big-endian, or as of ROS 1, value by value. The bytes
+/// may be anything:
 /// every length is held against what is left before memory is taken. Throws Error with the byte of
 /// the message.
 class CdrReader {
  public:
   /// Keeps a view of the bytes. Throws Error for another encapsulation than plain CDR's.
-  explicit CdrReader(std::string_view message);
+  explicit CdrReader(const EncodedMessage& message);
+
+  MessageCoding coding() const { return coding_; }
 
   template <class T>
   T get() {
@@ -47,6 +52,7 @@ class CdrReader {
   std::string_view take_aligned(std::size_t size);
 
   std::string_view message_;
+  MessageCoding coding_;
   std::size_t at_ = 0;
   bool swapped_ = false;
 };

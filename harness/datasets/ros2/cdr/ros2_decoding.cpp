@@ -25,6 +25,7 @@ std::int64_t get_time(CdrReader& in) {
 
 RosHeader get_header(CdrReader& in) {
   RosHeader header;
+  if (in.coding() == MessageCoding::kRos1) in.get<std::uint32_t>();  // seq, a running number
   header.time = get_time(in);
   header.frame = in.get_text();
   return header;
@@ -62,19 +63,19 @@ int get_side(CdrReader& in) {
 
 }  // namespace
 
-RosHeader decode_header(std::string_view message) {
+RosHeader decode_header(const EncodedMessage& message) {
   CdrReader in(message);
   return get_header(in);
 }
 
-std::vector<RosTransform> decode_transforms(std::string_view message) {
+std::vector<RosTransform> decode_transforms(const EncodedMessage& message) {
   CdrReader in(message);
   std::vector<RosTransform> transforms(in.get_length(kSmallestTransform));
   for (RosTransform& transform : transforms) transform = get_transform(in);
   return transforms;
 }
 
-PaddedImage decode_image(std::string_view message) {
+PaddedImage decode_image(const EncodedMessage& message) {
   CdrReader in(message);
   PaddedImage image;
   image.header = get_header(in);
@@ -87,7 +88,7 @@ PaddedImage decode_image(std::string_view message) {
   return image;
 }
 
-RosCompressedImage decode_compressed_image(std::string_view message) {
+RosCompressedImage decode_compressed_image(const EncodedMessage& message) {
   CdrReader in(message);
   RosCompressedImage image;
   image.header = get_header(in);
@@ -96,7 +97,7 @@ RosCompressedImage decode_compressed_image(std::string_view message) {
   return image;
 }
 
-RosCameraInfo decode_camera_info(std::string_view message) {
+RosCameraInfo decode_camera_info(const EncodedMessage& message) {
   CdrReader in(message);
   RosCameraInfo info;
   info.header = get_header(in);
@@ -110,7 +111,7 @@ RosCameraInfo decode_camera_info(std::string_view message) {
   return info;
 }
 
-RosImu decode_imu(std::string_view message) {
+RosImu decode_imu(const EncodedMessage& message) {
   CdrReader in(message);
   RosImu reading;
   reading.header = get_header(in);
@@ -124,7 +125,7 @@ RosImu decode_imu(std::string_view message) {
   return reading;
 }
 
-RosJointState decode_joint_state(std::string_view message) {
+RosJointState decode_joint_state(const EncodedMessage& message) {
   CdrReader in(message);
   RosJointState reading;
   reading.header = get_header(in);
@@ -135,7 +136,7 @@ RosJointState decode_joint_state(std::string_view message) {
   return reading;
 }
 
-RosTransform decode_pose(const std::string& type, std::string_view message) {
+RosTransform decode_pose(const std::string& type, const EncodedMessage& message) {
   CdrReader in(message);
   if (type == ros2::kTransform || type == ros2::kOdometry) return get_transform(in);
   if (type != ros2::kPose && type != ros2::kPoseWithCovariance) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "harness/datasets/ros/messages/ros_messages.h"
+#include "harness/datasets/ros2/cdr/encoded_message.h"
 
 namespace vinebench::harness {
 
@@ -37,12 +38,12 @@ std::string encode(const RosOdometry& odometry);
 
 /// What is read of a message; the rest is not looked at. Throws Error that names the message's
 /// byte, also for a time before 0 or beyond kMostStamp.
-RosHeader decode_header(std::string_view message);
-std::vector<RosTransform> decode_transforms(std::string_view message);
-RosCompressedImage decode_compressed_image(std::string_view message);
-RosCameraInfo decode_camera_info(std::string_view message);
-RosImu decode_imu(std::string_view message);
-RosJointState decode_joint_state(std::string_view message);
+RosHeader decode_header(const EncodedMessage& message);
+std::vector<RosTransform> decode_transforms(const EncodedMessage& message);
+RosCompressedImage decode_compressed_image(const EncodedMessage& message);
+RosCameraInfo decode_camera_info(const EncodedMessage& message);
+RosImu decode_imu(const EncodedMessage& message);
+RosJointState decode_joint_state(const EncodedMessage& message);
 
 /// An image whose rows may be padded.
 struct PaddedImage {
@@ -53,10 +54,10 @@ struct PaddedImage {
   std::uint32_t step = 0;  ///< bytes of a row
   std::string_view bytes;  ///< of the message
 };
-PaddedImage decode_image(std::string_view message);
+PaddedImage decode_image(const EncodedMessage& message);
 
 /// Of Odometry, PoseStamped, PoseWithCovarianceStamped and TransformStamped: T_parent_child, or the
 /// pose of nothing in particular, whose child is "". Throws Error for another type.
-RosTransform decode_pose(const std::string& type, std::string_view message);
+RosTransform decode_pose(const std::string& type, const EncodedMessage& message);
 
 }  // namespace vinebench::harness

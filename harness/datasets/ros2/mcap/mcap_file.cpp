@@ -9,7 +9,7 @@
 #include "core/time.h"
 #include "core/util/error.h"
 #include "harness/datasets/ros2/bag/bag_metadata.h"
-#include "harness/datasets/ros2/mcap/zstd.h"
+#include "harness/datasets/ros2/bag/unpack.h"
 
 namespace vinebench::harness {
 namespace {
@@ -191,19 +191,10 @@ std::string McapFile::unpack_chunk(std::uint64_t at) const {
          unpacked);
   }
   std::string records;
-  if (compression.empty()) {
-    records = std::string(data);
-  } else if (compression == "zstd") {
-    try {
-      records = zstd_decompress(data, unpacked);
-    } catch (const Error& error) {
-      fail("{}: {}", place_text(at), error.what());
-    }
-  } else {
-    fail(
-        "{}: expected no compression or zstd, found '{}': `mcap compress --compression zstd` "
-        "changes it",
-        place_text(at), compression);
+  try {
+    records = unpack(compression, data, unpacked);
+  } catch (const Error& error) {
+    fail("{}: {}", place_text(at), error.what());
   }
   if (crc != 0 && libdeflate_crc32(0, records.data(), records.size()) != crc) {
     fail("{}: the chunk is damaged: its checksum differs", place_text(at));

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/config/yaml_writer.h"
-#include "harness/datasets/euroc/sensor_file.h"
+#include "harness/datasets/reading/sensor_file.h"
 #include "tests/support/broken_png.h"
 #include "tests/support/recorded_folders.h"
 #include "tests/support/special_files.h"
@@ -49,6 +49,27 @@ TEST_F(EurocReaderTest, ReadsCamerasAndFrames) {
     const Pose difference = ahead.inverse() * recording.rig.cameras[1].T_body_cam;
     EXPECT_LT((difference.matrix() - Eigen::Matrix4d::Identity()).norm(), 1e-12);
   }
+}
+
+// TUM-VI: no sensor.yaml, but a chain of Kalibr beside mav0, and motion capture.
+TEST_F(EurocReaderTest, ACalibrationOfKalibrIsRead) {
+  for (const char* camera : {"cam0", "cam1"}) {
+    std::filesystem::remove(root_ / "mav0" / camera / "sensor.yaml");
+  }
+  std::filesystem::rename(root_ / "mav0/state_groundtruth_estimate0", root_ / "mav0/mocap0");
+  test::write_text(root_ / "dso/camchain.yaml",
+                   test::kalibr_camera("cam0", 0) + test::kalibr_camera("cam1", -0.1));
+  test::write_text(root_ / "dso/imu_config.yaml",
+                   "update_rate: 200.0\naccelerometer_noise_density: 0.0028\n"
+                   "accelerometer_random_walk: 0.00086\ngyroscope_noise_density: 0.00016\n"
+                   "gyroscope_random_walk: 0.000022\n");
+  const Recording recording = open_recording(root_);
+  EXPECT_NEAR(recording.rig.rate_hz, 20, 1e-9);
+  EXPECT_EQ(recording.rig.cameras.at(1).model.lens, LensModel::kEquidistant);
+  EXPECT_NEAR(recording.rig.baseline(recording.rig.stereo_pairs.at(0)), 0.1, 1e-12);
+  ASSERT_TRUE(recording.rig.imu);
+  EXPECT_EQ(recording.rig.imu->gyroscope.bias_random_walk, 0.000022);
+  EXPECT_FALSE(recording.truth.empty());
 }
 
 TEST_F(EurocReaderTest, TheUnitsFileSaysItsNoise) {

@@ -64,7 +64,7 @@ TEST_F(BagFilesTest, AreThoseOfTheList) {
 
 TEST_F(BagFilesTest, BagsThatCannotBeReadAreErrors) {
   EXPECT_FALSE(is_bag(folder_.path()));
-  EXPECT_THAT(problem(), HasSubstr("expected .mcap or .db3 files, found none"));
+  EXPECT_THAT(problem(), HasSubstr("expected .mcap, .db3 or .bag files, found none"));
   folder_.write("a.db3", "");
   list("  compression_mode: FILE\n");
   EXPECT_THAT(problem(), HasSubstr("metadata.yaml: expected a bag that is not compressed"));

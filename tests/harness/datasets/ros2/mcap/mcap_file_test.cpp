@@ -6,6 +6,7 @@
 
 #include "harness/datasets/ros2/mcap/mcap_writer.h"
 #include "harness/datasets/ros2/mcap/zstd.h"
+#include "tests/support/compressed.h"
 #include "tests/support/test_folder.h"
 
 namespace vinebench::harness {
@@ -96,6 +97,8 @@ TEST_F(McapFileTest, MessagesAreFoundInAndOutsideOfChunks) {
   EXPECT_THAT(messages(file(bare_chunk(all, all.size()) + end)), both);
   const std::string packed = zstd_compress(all);
   EXPECT_THAT(messages(file(bare_chunk(packed, all.size(), 0, "zstd") + end)), both);
+  const std::string lz4 = test::lz4_frame(all);
+  EXPECT_THAT(messages(file(bare_chunk(lz4, all.size(), 0, "lz4") + end)), both);
   EXPECT_THAT(messages(file(channel_of_a(2, "json") + two + end)), ElementsAre());
 }
 
@@ -159,16 +162,17 @@ TEST_F(McapFileTest, BrokenRecordsAreErrorsWithTheirPlace) {
 TEST_F(McapFileTest, BrokenChunksAreErrorsWithTheirPlace) {
   const std::string all = channel_of_a() + message_of(3, "x");
   EXPECT_THAT(problem(bare_chunk(all, all.size(), 1)), HasSubstr("the chunk is damaged"));
-  EXPECT_THAT(problem(bare_chunk(all, all.size(), 0, "lz4")), HasSubstr("or zstd, found 'lz4'"));
+  EXPECT_THAT(problem(bare_chunk(all, all.size(), 0, "lz4")), HasSubstr("byte 17: lz4: "));
+  EXPECT_THAT(problem(bare_chunk(all, all.size(), 0, "xz")), HasSubstr("or bz2, found 'xz'"));
   EXPECT_THAT(problem(bare_chunk(all, all.size(), 0, "zstd")), HasSubstr("byte 17: zstd: "));
   const std::string packed = zstd_compress(all);
   EXPECT_THAT(problem(bare_chunk(packed, all.size() + 1, 0, "zstd")),
               HasSubstr("bytes without compression, found"));
   EXPECT_THAT(problem(bare_chunk(packed, std::uint64_t{1} << 60, 0, "zstd")),
               HasSubstr("expected a chunk of at most 268435456 bytes"));
-  EXPECT_THAT(problem(bare_chunk(all.substr(0, all.size() - 1), 0)),
+  EXPECT_THAT(problem(bare_chunk(all.substr(0, all.size() - 1), all.size() - 1)),
               HasSubstr("of the chunk at byte 17: expected 23 more bytes, found 22"));
-  EXPECT_THAT(problem(bare_chunk(all + "\5", 0)), HasSubstr("expected a record"));
+  EXPECT_THAT(problem(bare_chunk(all + "\5", all.size() + 1)), HasSubstr("expected a record"));
 }
 
 }  // namespace

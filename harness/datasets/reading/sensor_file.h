@@ -19,19 +19,31 @@ namespace vinebench::harness {
 /// "ds", with xi and alpha before its other intrinsics).
 std::string sensor_lens(const PinholeCamera& camera);
 
-/// A sensor.yaml of an EuRoC/ASL folder. Unknown keys are ignored, because files of others have
-/// additional ones; the keys that are read are validated. Throws Error with file and line.
+/// A sensor.yaml of an EuRoC/ASL folder, or a camera's part of a file of Kalibr, which has the same
+/// words. Unknown keys are ignored, because files of others have additional ones; the keys that are
+/// read are validated. Throws Error with file and line.
 class SensorFile {
  public:
   explicit SensorFile(std::filesystem::path file);
 
-  Pose T_BS() const;             ///< sensor to body
+  /// The map of that key; none if it is absent.
+  std::optional<SensorFile> part(const std::string& key) const;
+  Pose T_BS() const;  ///< sensor to body
+  /// Four rows of four numbers; none if it is absent.
+  std::optional<Pose> transform(const std::string& key) const;
   PinholeCamera camera() const;  ///< with any lens of LensModel, by the names of sensor_lens()
   std::optional<double> rate_hz() const;
   /// Noise of an inertial unit; none unless all four numbers are there and above 0.
   std::optional<ImuNoise> imu_noise() const;
 
+  /// Throws Error with the place of this part.
+  [[noreturn]] void fault(const std::string& message) const { fault(root_, message); }
+
  private:
+  SensorFile(std::filesystem::path file, YAML::Node root)
+      : file_(std::move(file)), root_(std::move(root)) {}
+  /// `place` is for errors.
+  Pose pose_of(const YAML::Node& data, const YAML::Node& place, const std::string& key) const;
   LensModel lens_model() const;
   std::optional<double> positive(const std::string& key) const;
   [[noreturn]] void fault(const YAML::Node& node, const std::string& message) const;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Vinebench authors
 // SPDX-License-Identifier: Apache-2.0
-#include "harness/datasets/euroc/sensor_file.h"
+#include "harness/datasets/reading/sensor_file.h"
 
 #include <fmt/ranges.h>
 
@@ -82,15 +82,39 @@ void SensorFile::expect_word(const std::string& key, const std::vector<std::stri
   }
 }
 
+std::optional<SensorFile> SensorFile::part(const std::string& key) const {
+  const YAML::Node node = root_[key];
+  if (!node.IsDefined()) return std::nullopt;
+  if (!node.IsMap()) fault(node, fmt::format("{}: expected a map of keys", key));
+  return SensorFile(file_, node);
+}
+
 Pose SensorFile::T_BS() const {
   const YAML::Node node = root_["T_BS"];
   const YAML::Node data = node.IsDefined() && node.IsMap() ? node["data"] : node;
-  const std::vector<double> v = numbers(data, "T_BS", 16);
+  return pose_of(data, data, "T_BS");
+}
+
+std::optional<Pose> SensorFile::transform(const std::string& key) const {
+  const YAML::Node node = root_[key];
+  if (!node.IsDefined()) return std::nullopt;
+  YAML::Node data(YAML::NodeType::Sequence);
+  for (const YAML::Node& row : node) {
+    if (!row.IsSequence()) fault(node, fmt::format("{}: expected four rows of numbers", key));
+    for (const YAML::Node& number : row) data.push_back(number);
+  }
+  if (data.size() != 16) fault(node, fmt::format("{}: expected four rows of four numbers", key));
+  return pose_of(data, node, key);
+}
+
+Pose SensorFile::pose_of(const YAML::Node& data, const YAML::Node& place,
+                         const std::string& key) const {
+  const std::vector<double> v = numbers(data, key, 16);
   Eigen::Matrix4d T;
   for (Eigen::Index i = 0; i < 16; ++i) T(i / 4, i % 4) = v[static_cast<std::size_t>(i)];
   const Eigen::Matrix3d R = T.topLeftCorner<3, 3>();
   if (!is_rotation(R, kMountTolerance) || !T.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1))) {
-    fault(data, "T_BS: expected a rotation and a translation, row by row, with 0 0 0 1 last");
+    fault(place, key + ": expected a rotation and a translation, row by row, with 0 0 0 1 last");
   }
   if (R.isIdentity(0)) return {Eigen::Quaterniond::Identity(), T.topRightCorner<3, 1>()};
   return {Eigen::Quaterniond(R).normalized(), T.topRightCorner<3, 1>()};
@@ -131,14 +155,16 @@ PinholeCamera SensorFile::camera() const {
   if (camera.fx <= 0 || camera.fy <= 0) {
     fault(root_["intrinsics"], "intrinsics: expected focal lengths above 0");
   }
-  const YAML::Node node = root_["distortion_coefficients"];
+  const std::string key =
+      root_["distortion_coeffs"].IsDefined() ? "distortion_coeffs" : "distortion_coefficients";
+  const YAML::Node node = root_[key];
   const bool some = node.IsDefined() && !(node.IsSequence() && node.size() == 0);
   if (!double_sphere && some) {
     const std::size_t count = node.IsSequence() ? node.size() : 0;
     if (!has_coefficients(lens, count)) {
-      fault(node, "distortion_coefficients: " + expected_coefficients(lens));
+      fault(node, fmt::format("{}: {}", key, expected_coefficients(lens)));
     }
-    coefficients = numbers(node, "distortion_coefficients", count);
+    coefficients = numbers(node, key, count);
   }
   camera.set_lens(lens, coefficients);
   return camera;
