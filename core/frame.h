@@ -32,8 +32,14 @@ struct Frame {
   /// One image for each camera, in the rig's order; CV_8UC1 (grey) or CV_8UC3 (RGB), top row first.
   /// Empty if the camera delivered none.
   std::vector<cv::Mat> images;
+  /// When each image was taken, where they have stamps of their own; empty: all at `stamp`.
+  std::vector<Stamp> image_stamps{};
   std::vector<ImuSample> imu;       ///< since the previous frame, oldest first
   std::vector<WheelSample> wheels;  ///< since the previous frame, oldest first
+
+  Stamp image_stamp(std::size_t camera) const {
+    return image_stamps.empty() ? stamp : image_stamps[camera];
+  }
 };
 
 }  // namespace vinebench

@@ -26,8 +26,10 @@
 extern "C" {
 #endif
 
-/* Incremented by every incompatible change. */
-#define VINEBENCH_SLAM_PLUGIN_VERSION 1
+/* Incremented by every change. Plug-ins of version 1, which do not know of a frame's image_stamps,
+ * are loaded too. */
+#define VINEBENCH_SLAM_PLUGIN_VERSION 2
+#define VINEBENCH_SLAM_PLUGIN_OLDEST_VERSION 1
 
 typedef struct vinebench_pose {
   double position[3];
@@ -100,6 +102,7 @@ typedef struct vinebench_frame {
   size_t imu_count;
   const vinebench_wheel_sample* wheels; /* likewise */
   size_t wheel_count;
+  const int64_t* image_stamps; /* when each image was taken; all are `stamp` if they have none */
 } vinebench_frame;
 
 enum { /* vinebench_estimate.status */

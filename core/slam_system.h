@@ -57,6 +57,7 @@ struct TagSighting {
   Pose T_cam_tag;
   double corner_sigma = 0;  ///< px, standard deviation of a corner in x or y; 0 if unknown
   bool ambiguous = false;   ///< another pose fits the corners nearly as well
+  double late = 0;          ///< s, that its image was taken after the frame's stamp
 };
 
 /// Why a sighting of a tag was rejected.

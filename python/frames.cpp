@@ -71,7 +71,8 @@ py::tuple flow_to(const TrueFrame& self, const TrueFrame& next, const std::strin
 }
 
 SensorFrame sensor_frame(Stamp stamp, const std::map<std::string, py::object>& images,
-                         const py::object& imu, const py::object& wheels, std::int64_t index) {
+                         const py::object& imu, const py::object& wheels, std::int64_t index,
+                         const std::map<std::string, Stamp>& image_stamps) {
   SensorFrame made;
   Frame frame;
   frame.index = index;
@@ -82,6 +83,15 @@ SensorFrame sensor_frame(Stamp stamp, const std::map<std::string, py::object>& i
   for (const auto& [name, image] : images) {
     made.cameras.push_back(name);
     frame.images.push_back(to_image(image, fmt::format("image of camera '{}'", name)));
+  }
+  for (const auto& [name, own] : image_stamps) {
+    const auto camera = std::ranges::find(made.cameras, name);
+    if (camera == made.cameras.end() || !is_in_range(own)) {
+      throw py::value_error(
+          fmt::format("image_stamps: '{}': expected ns of one of the images, found {}", name, own));
+    }
+    frame.image_stamps.resize(frame.images.size(), stamp);
+    frame.image_stamps[static_cast<std::size_t>(camera - made.cameras.begin())] = own;
   }
   frame.imu = imu_of(to_rows(imu, 7, "imu"));
   frame.wheels = wheels_of(to_rows(wheels, 9, "wheels"));
@@ -182,6 +192,17 @@ void define_readings(Class& definition, const FrameOf& frame_of) {
           "time", [frame_of](const Self& f) { return to_seconds(frame_of(f).stamp); },
           "the same in s")
       .def_property_readonly(
+          "image_stamps",
+          [frame_of](const Self& f) {
+            const Frame& frame = frame_of(f);
+            std::vector<Stamp> stamps;
+            for (std::size_t i = 0; i < frame.images.size(); ++i) {
+              stamps.push_back(frame.image_stamp(i));
+            }
+            return stamps;
+          },
+          "ns, of each camera's image: the frame's where they have no stamps of their own")
+      .def_property_readonly(
           "imu", [frame_of](const Self& f) { return rows_of(frame_of(f).imu); },
           "(n, 7) since the previous frame: s, rad/s x y z, m/s^2 x y z")
       .def_property_readonly(
@@ -197,9 +218,10 @@ void define_sensor_frame(py::module_& module) {
   sensors
       .def(py::init(&sensor_frame), py::arg("stamp"), py::arg("images"), py::kw_only(),
            py::arg("imu") = py::none(), py::arg("wheels") = py::none(), py::arg("index") = 0,
+           py::arg("image_stamps") = std::map<std::string, Stamp>(),
            "stamp in ns; images by camera name, uint8 (h, w) grey or (h, w, 3) RGB, None where a "
            "camera delivered none; imu (n, 7) and wheels (n, 9) since the previous frame. All is "
-           "copied.")
+           "copied. image_stamps: ns by camera name, of images that were not taken at the stamp.")
       .def_property_readonly(
           "images", [](const SensorFrame& f) { return image_arrays(f.cameras, *f.frame); },
           "uint8 by camera name, (h, w, 3) RGB or (h, w) grey")
@@ -282,6 +304,7 @@ Frame frame_for(const Rig& rig, const py::object& given) {
                                                                : given.cast<SensorFrame>();
   Frame frame = *sensors.frame;
   frame.images.assign(rig.cameras.size(), {});
+  if (!frame.image_stamps.empty()) frame.image_stamps.assign(rig.cameras.size(), frame.stamp);
   for (std::size_t i = 0; i < sensors.cameras.size(); ++i) {
     const int camera = rig.find_camera(sensors.cameras[i]);
     if (camera < 0) {
@@ -290,6 +313,7 @@ Frame frame_for(const Rig& rig, const py::object& given) {
     }
     const auto place = static_cast<std::size_t>(camera);
     frame.images[place] = sensors.frame->images.at(i);
+    if (!frame.image_stamps.empty()) frame.image_stamps[place] = sensors.frame->image_stamps.at(i);
     check_size(rig.cameras[place], frame.images[place]);
   }
   return frame;

@@ -71,6 +71,7 @@ class Simulation : public CommandedSimulation {
     for (; index_ < frames_ && index_ <= plan_.last; ++index_) {
       sample.frame.index = index_;
       sample.frame.stamp = timing_.stamp(index_);
+      sample.frame.image_stamps = timing_.image_stamps(index_);
       drive(sample);
       if (index_ == 0) {
         exposure_.meter([&](std::size_t camera) { return capture(camera, shot_of(camera)).rgb; });
@@ -198,7 +199,7 @@ class Simulation : public CommandedSimulation {
   void note_captures(Sample& sample) const {
     sample.truth.captures.clear();
     for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
-      const Stamp late = sample.frame.stamp - timing_.instant(index_, i);
+      const Stamp late = sample.frame.image_stamp(i) - timing_.instant(index_, i);
       sample.truth.captures.push_back({.gain_db = exposure_.of(i).gain_db,
                                        .readout_time = config_.sensors.camera.readout_time,
                                        .stamp_error = to_seconds(late)});

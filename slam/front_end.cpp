@@ -49,6 +49,10 @@ cv::Mat FrontEnd::grey(const Frame& frame, int camera) const {
     fail("frame {}: expected {} images, one a camera of the rig, found {}", frame.index,
          rig_.cameras.size(), frame.images.size());
   }
+  if (!frame.image_stamps.empty() && frame.image_stamps.size() != frame.images.size()) {
+    fail("frame {}: expected {} stamps of images, found {}", frame.index, frame.images.size(),
+         frame.image_stamps.size());
+  }
   const cv::Mat& image = frame.images[static_cast<std::size_t>(camera)];
   if (image.empty()) return image;
   if (image.cols != expected.model.width || image.rows != expected.model.height) {
@@ -172,10 +176,19 @@ std::shared_ptr<FrameFeatures> FrontEnd::process(const Frame& frame, StageTimes&
   features->right_pyramids.resize(rig_.pairs.size());
   if (odometry_) features->wheels = odometry_->step(frame.wheels);
   features->imu = frame.imu;
+  const auto late = [&frame](int camera) {
+    return to_seconds(frame.image_stamp(static_cast<std::size_t>(camera)) - frame.stamp);
+  };
+  for (std::size_t p = 0; p < rig_.pairs.size(); ++p) {
+    features->views[p].late = late(rig_.pairs[p].left_camera);
+  }
   extract(frame, times);
   match(*features, times);
   for (const std::vector<TagSighting>& seen : sightings_) {
-    features->tags.insert(features->tags.end(), seen.begin(), seen.end());
+    for (const TagSighting& sighting : seen) {
+      features->tags.push_back(sighting);
+      features->tags.back().late = late(sighting.camera);
+    }
   }
   return features;
 }

@@ -7,6 +7,7 @@
 #include "core/util/error.h"
 #include "slam/frame/measurements.h"
 #include "slam/loop/loop_correction.h"
+#include "slam/tags/tag_sightings.h"
 #include "slam/tracking/keyframe_selector.h"
 
 namespace vinebench::slam {
@@ -62,6 +63,9 @@ Estimate Pipeline::process(const std::shared_ptr<FrameFeatures>& frame) {
   join_due_mapping();
   correct_stereo(*frame);
   TrackedFrame tracked = locate(frame);
+  for (TagSighting& tag : frame->tags) {
+    bring_to_stamp(frame->velocity, loop_closer_.gates().cameras(), tag);
+  }
   Estimate estimate = report_of(tracked, rig_.rig, status(tracked));
   gate_tags(tracked, estimate);
   if (wants_new_keyframe(tracked)) map_keyframe(tracked, estimate);

@@ -74,6 +74,7 @@ Frame frame_of(const vinebench_frame& given, std::size_t cameras) {
     image = cv::Mat(view.height, view.width, CV_8UC(view.channels),
                     const_cast<std::uint8_t*>(view.data), view.stride);
   }
+  frame.image_stamps.assign(given.image_stamps, given.image_stamps + cameras);
   for (std::size_t i = 0; i < given.imu_count; ++i) {
     const vinebench_imu_sample& s = given.imu[i];
     frame.imu.push_back(

@@ -123,9 +123,13 @@ DatasetEncoder::Writers DatasetWriter::make_writers(const RecordingNotes& notes,
 DatasetFrame DatasetWriter::frame_of(const Sample& sample) const {
   Sample chosen = sample;
   chosen.frame.images.clear();
+  chosen.frame.image_stamps.clear();
   chosen.truth.views.clear();
   for (const std::size_t camera : cameras_) {
     chosen.frame.images.push_back(sample.frame.images.at(camera));
+    if (!sample.frame.image_stamps.empty()) {
+      chosen.frame.image_stamps.push_back(sample.frame.image_stamps.at(camera));
+    }
     if (!sample.truth.views.empty()) chosen.truth.views.push_back(sample.truth.views.at(camera));
   }
   return own_frame(chosen, frames_);

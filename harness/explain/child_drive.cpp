@@ -81,6 +81,7 @@ std::string pack_sample(const Sample& sample) {
   message.add(sample.frame.stamp);
   message.add(static_cast<std::uint64_t>(sample.frame.images.size()));
   for (const cv::Mat& image : sample.frame.images) add_image(message, image);
+  message.add_list(sample.frame.image_stamps.data(), sample.frame.image_stamps.size());
   message.add(static_cast<std::uint64_t>(sample.frame.imu.size()));
   for (const ImuSample& reading : sample.frame.imu) {
     message.add(reading.stamp);
@@ -104,6 +105,7 @@ Sample unpack_sample(const std::string& content) {
   sample.frame.stamp = message.read<Stamp>();
   sample.frame.images.resize(message.read<std::uint64_t>());
   for (cv::Mat& image : sample.frame.images) image = read_image(message);
+  sample.frame.image_stamps = message.read_list<Stamp>();
   sample.frame.imu.resize(message.read<std::uint64_t>());
   for (ImuSample& reading : sample.frame.imu) {
     reading.stamp = message.read<Stamp>();

@@ -58,6 +58,7 @@ struct RunHash::State {
     add(frame.index);
     add(frame.stamp);
     for (const cv::Mat& image : frame.images) add(image);
+    for (const Stamp stamp : frame.image_stamps) add(stamp);
     for (const ImuSample& sample : frame.imu) {
       add(sample.stamp);
       add(sample.angular_velocity);

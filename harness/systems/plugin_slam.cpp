@@ -94,9 +94,11 @@ class Setup {
 /// The images are not copied.
 PluginFrame plugin_frame(const Frame& frame) {
   PluginFrame plugin{.index = frame.index, .stamp = frame.stamp};
-  for (const cv::Mat& image : frame.images) {
+  for (std::size_t i = 0; i < frame.images.size(); ++i) {
+    const cv::Mat& image = frame.images[i];
     plugin.images.push_back(
         {image.data, image.cols, image.rows, image.channels(), image.empty() ? 0 : image.step[0]});
+    plugin.image_stamps.push_back(frame.image_stamp(i));
   }
   for (const ImuSample& sample : frame.imu) {
     vinebench_imu_sample& s = plugin.imu.emplace_back();

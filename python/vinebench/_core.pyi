@@ -78,6 +78,9 @@ class _Readings:
     def images(self) -> dict[str, _Image]:
         """By camera, (h, w, 3) RGB, or (h, w) of a grey camera; none where none was delivered."""
     @property
+    def image_stamps(self) -> list[int]:
+        """ns, of each camera's image: the frame's where they have no stamps of their own."""
+    @property
     def imu(self) -> _Array:
         """(n, 7) since the previous frame: s, rad/s x y z, m/s^2 x y z, body axes."""
     @property
@@ -90,10 +93,11 @@ class SensorFrame(_Readings):
 
     def __init__(self, stamp: int, images: Mapping[str, Optional[_Image]], *,
                  imu: Optional[npt.NDArray[Any]] = None,
-                 wheels: Optional[npt.NDArray[Any]] = None, index: int = 0) -> None:
+                 wheels: Optional[npt.NDArray[Any]] = None, index: int = 0,
+                 image_stamps: Mapping[str, int] = {}) -> None:
         """stamp in ns; images by camera name, uint8 (h, w) grey or (h, w, 3) RGB, None where a
         camera delivered none; imu (n, 7) and wheels (n, 9) since the previous frame. All is
-        copied."""
+        copied. image_stamps: ns by camera name, of images that were not taken at the stamp."""
 
 class Thing(TypedDict):
     """A labelled object of an image."""

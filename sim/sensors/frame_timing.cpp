@@ -31,7 +31,17 @@ FrameTiming::FrameTiming(const FrameTimingConfig& timing, const FrameDropConfig&
     if (camera < 0) {
       fail("sensors.timing.triggers: rig '{}' has no camera named '{}'", rig.name, trigger.camera);
     }
-    delays_[static_cast<std::size_t>(camera)] = from_seconds(trigger.delay);
+    const Stamp delay = from_seconds(trigger.delay);
+    delays_[static_cast<std::size_t>(camera)] = delay;
+    if (!trigger.stamped) continue;
+    if (!(2 * std::abs(trigger.delay) < 1 / rate_hz_)) {
+      fail(
+          "sensors.timing.triggers: camera '{}': expected a stamped delay of less than half of the "
+          "{} s between frames, found {}",
+          trigger.camera, 1 / rate_hz_, trigger.delay);
+    }
+    stamped_delays_.resize(cameras_.size());
+    stamped_delays_[static_cast<std::size_t>(camera)] = delay;
   }
 }
 
@@ -39,6 +49,12 @@ Stamp FrameTiming::stamp(std::int64_t frame) const {
   const RandomStream stream(seed_, "timing.stamp_jitter", static_cast<std::uint64_t>(frame));
   const double draw = std::clamp(stream.normal(0), -kMostSigmas, kMostSigmas);
   return instant(frame) + from_seconds(timing_.stamp_offset + timing_.stamp_jitter * draw);
+}
+
+std::vector<Stamp> FrameTiming::image_stamps(std::int64_t frame) const {
+  std::vector<Stamp> stamps = stamped_delays_;
+  for (Stamp& one : stamps) one += stamp(frame);
+  return stamps;
 }
 
 bool FrameTiming::is_dropped(std::int64_t frame, std::size_t camera) const {

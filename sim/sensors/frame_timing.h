@@ -18,12 +18,14 @@ namespace vinebench::sim {
 /// stamped, by default.
 struct FrameTimingConfig {
   struct Trigger {
-    std::string camera;  ///< name in the rig
-    double delay = 0;    ///< s, that it exposes later than the frame's instant
+    std::string camera;    ///< name in the rig
+    double delay = 0;      ///< s, that it exposes later than the frame's instant
+    bool stamped = false;  ///< whether its images' stamps say so (Frame::image_stamps)
     template <class Archive>
     void serialize(Archive& archive) {
       archive("camera", camera);
       archive("delay", delay, Range::between(-0.05, 0.05));
+      archive("stamped", stamped);
     }
   };
   double stamp_jitter = 0;  ///< s, standard deviation of the stamp's error, at most 3 of them
@@ -53,8 +55,8 @@ struct FrameDropConfig {
 /// Instants, stamps and drops of a rig's frames, each a function of the seed and the frame.
 class FrameTiming {
  public:
-  /// Throws Error where jitter or offset could bring a stamp to or before the one before it, or a
-  /// trigger's camera is not in the rig.
+  /// Throws Error where jitter or offset could bring a stamp to or before the one before it, a
+  /// trigger's camera is not in the rig, or a stamped image would be nearer to another frame.
   FrameTiming(const FrameTimingConfig& timing, const FrameDropConfig& drops, const Rig& rig,
               std::uint64_t seed);
 
@@ -64,6 +66,8 @@ class FrameTiming {
   }
   /// What the frame says of its instant; ascends from frame to frame.
   Stamp stamp(std::int64_t frame) const;
+  /// Of each camera's image; empty where all have the frame's.
+  std::vector<Stamp> image_stamps(std::int64_t frame) const;
   bool is_dropped(std::int64_t frame, std::size_t camera) const;
   /// The most that a camera exposes before or after the frame's instant.
   Stamp longest_delay() const;
@@ -75,6 +79,7 @@ class FrameTiming {
   std::uint64_t seed_;
   std::vector<std::string> cameras_;
   std::vector<Stamp> delays_;
+  std::vector<Stamp> stamped_delays_;  ///< of each camera, as its stamps tell; empty if none does
 };
 
 }  // namespace vinebench::sim

@@ -40,7 +40,7 @@ Reprojection::Linearised Reprojection::linearise(const Pose& T_map_body,
   result.residual = residual_at(p_cam);
   result.by_point_in_body =
       weights().asDiagonal() * projection_jacobian(*camera_, p_cam) * R_cam_body;
-  if (!camera_->has_times()) {
+  if (!has_times()) {
     result.by_pose = result.by_point_in_body * body_point_jacobian(p_seen);
     return result;
   }
@@ -91,7 +91,7 @@ Eigen::Matrix<double, 3, kPairUnknowns> Reprojection::by_calibration(
 
 double Reprojection::chi_squared(const Pose& T_map_body, const Eigen::Vector3d& p_map) const {
   const Eigen::Vector3d p_cam =
-      camera_->has_times()
+      has_times()
           ? camera_->T_cam_body * (way_until_exposed().inverse() * (T_map_body.inverse() * p_map))
           : camera_->T_cam_body * (T_map_body.inverse() * p_map);
   if (p_cam.z() < kMinDepth) return std::numeric_limits<double>::infinity();

@@ -21,6 +21,7 @@ struct PixelMeasurement {
   double tolerance = 1;
   /// Of the body in its own frame (m/s, rad/s), of which a camera with times of its own makes use.
   Vector6d velocity = Vector6d::Zero();
+  double late = 0;  ///< s after the frame's stamp that the image was taken, by its own stamp
   int size() const { return right_x ? 3 : 2; }
 };
 
@@ -28,8 +29,8 @@ struct PixelMeasurement {
 /// deviations, two for the pixel, a third for the column in the right camera. The same error serves
 /// tracking, motion-only, local and global bundle adjustment.
 ///
-/// A camera that exposes a row later than the frame's stamp sees it from where the body's velocity
-/// has carried it by then.
+/// An image with a stamp of its own, or a camera that exposes a row later than the frame's stamp
+/// sees it from where the body's velocity has carried it by then.
 class Reprojection {
  public:
   /// Keeps a pointer to the camera.
@@ -67,10 +68,12 @@ class Reprojection {
   Eigen::Vector3d in_body(const Pose& T_map_body, const Eigen::Vector3d& p_map) const {
     const Eigen::Vector3d p_body =
         T_map_body.rotation.conjugate() * (p_map - T_map_body.translation);
-    return camera_->has_times() ? way_until_exposed().inverse() * p_body : p_body;
+    return has_times() ? way_until_exposed().inverse() * p_body : p_body;
   }
+  bool has_times() const { return camera_->has_times() || measurement_.late != 0; }
   Pose way_until_exposed() const {
-    return step_of(measurement_.velocity * camera_->time_of(measurement_.pixel.y()));
+    return step_of(measurement_.velocity *
+                   (measurement_.late + camera_->time_of(measurement_.pixel.y())));
   }
   Eigen::Vector3d in_camera(const Eigen::Vector3d& p_body) const;
   Eigen::Vector3d residual_at(const Eigen::Vector3d& p_cam) const;

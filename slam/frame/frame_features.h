@@ -26,6 +26,8 @@ struct StereoView {
   /// where none does.
   std::vector<char> placed;
 
+  double late = 0;  ///< s, that its left image was taken after the frame's stamp
+
   /// How many features at the end were not detected but followed by their landmark's patch.
   std::size_t followed = 0;
 

@@ -18,7 +18,21 @@ PixelMeasurement measure(const StereoView& view, int feature, const MeasurementN
     m.tolerance = noise.placed_tolerance;
   }
   if (view.stereo[f].depth > 0) m.right_x = view.stereo[f].x_right;
+  m.late = view.late;
   return m;
+}
+
+Pose view_pose(const FrameFeatures& frame, std::size_t view, const Pose& T_map_body) {
+  const double late = frame.views[view].late;
+  return late == 0 ? T_map_body : T_map_body * step_of(frame.velocity * late);
+}
+
+std::vector<Pose> view_poses(const FrameFeatures& frame, const Pose& T_map_body) {
+  std::vector<Pose> poses;
+  for (std::size_t v = 0; v < frame.views.size(); ++v) {
+    poses.push_back(view_pose(frame, v, T_map_body));
+  }
+  return poses;
 }
 
 Eigen::Vector3d stereo_point(const StereoView& view, int feature, const PinholeCamera& lens,

@@ -15,7 +15,7 @@ namespace vinebench::slam {
 namespace {
 
 constexpr std::string_view kMagic("vinemap\0", 8);
-constexpr std::uint32_t kVersion = 7;
+constexpr std::uint32_t kVersion = 8;
 constexpr std::uint32_t kOldestVersion = 3;  // without inertial states
 constexpr std::size_t kHeaderSize = 20;      // magic, version, size of the content
 constexpr std::size_t kChecksumSize = 8;
@@ -108,6 +108,12 @@ void fields(Archive& archive, StoredKeyframe& k) {
           k.patches, k.link);
   if (archive.version() >= 4) archive(k.inertial);
   if (archive.version() >= 6) archive(k.frame.velocity);
+  if (archive.version() < 8) return;
+  std::vector<double> late;
+  for (const StereoView& view : k.frame.views) late.push_back(view.late);
+  archive(late);
+  late.resize(k.frame.views.size());
+  for (std::size_t v = 0; v < late.size(); ++v) k.frame.views[v].late = late[v];
 }
 
 namespace {
@@ -168,6 +174,7 @@ bool is_sound(const StereoView& view, const PinholeCamera& lens, std::size_t lev
   const std::size_t n = view.features.keypoints.size();
   if (view.features.descriptors.size() != n || view.stereo.size() != n) return false;
   if ((!view.placed.empty() && view.placed.size() != n) || view.followed > n) return false;
+  if (!std::isfinite(view.late)) return false;
   for (const Keypoint& k : view.features.keypoints) {
     const Eigen::Vector2d pixel(k.x, k.y);
     const bool level_known = k.level >= 0 && static_cast<std::size_t>(k.level) < levels;

@@ -22,11 +22,13 @@ struct Candidate {
 std::vector<Candidate> candidates(const Keyframe& keyframe, std::size_t v,
                                   const EstimatorRig& rig) {
   const StereoView& view = keyframe.frame->views[v];
-  const Eigen::Quaterniond R_map_cam = keyframe.T_map_body.rotation * rig.T_body_cams[v].rotation;
+  const Pose T_map_body = view_pose(*keyframe.frame, v, keyframe.T_map_body);
+  const Eigen::Quaterniond R_map_cam = T_map_body.rotation * rig.T_body_cams[v].rotation;
   std::vector<Candidate> result;
   for (std::size_t f = 0; f < view.detected(); ++f) {
     if (keyframe.landmarks[v][f] >= 0 || view.stereo[f].depth > 0) continue;
-    const PixelMeasurement m = measure(view, static_cast<int>(f), rig.noise);
+    PixelMeasurement m = measure(view, static_cast<int>(f), rig.noise);
+    if (m.late != 0) m.velocity = keyframe.frame->velocity;
     result.push_back({static_cast<int>(f),
                       (R_map_cam * rig.left_cameras[v].lens.unproject(m.pixel)).normalized(), m});
   }
@@ -52,8 +54,8 @@ std::optional<Eigen::Vector3d> intersect_rays(const Eigen::Vector3d& p_a,
 std::vector<EpipolarMatch> match_epipolar(const Keyframe& a, const Keyframe& b, int view,
                                           const EstimatorRig& rig, int max_hamming) {
   const auto v = static_cast<std::size_t>(view);
-  const Eigen::Vector3d p_a = a.T_map_body * rig.T_body_cams[v].translation;
-  const Eigen::Vector3d p_b = b.T_map_body * rig.T_body_cams[v].translation;
+  const Eigen::Vector3d p_a = view_pose(*a.frame, v, a.T_map_body) * rig.T_body_cams[v].translation;
+  const Eigen::Vector3d p_b = view_pose(*b.frame, v, b.T_map_body) * rig.T_body_cams[v].translation;
   std::vector<EpipolarMatch> matches;
   if ((p_a - p_b).norm() < 0.02) return matches;
   const std::vector<Candidate> of_b = candidates(b, v, rig);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/matching/match_refiner.h"
 
+#include "slam/frame/measurements.h"
 #include "slam/matching/patch_projector.h"
 
 namespace vinebench::slam {
@@ -11,7 +12,10 @@ class Refiner {
  public:
   Refiner(const Map& map, const Pose& T_map_body, const EstimatorRig& rig,
           const RefinementConfig& config, FrameFeatures& frame)
-      : projector_(map, T_map_body, rig), noise_(rig.noise), config_(config), frame_(frame) {}
+      : projector_(map, view_poses(frame, T_map_body), rig),
+        noise_(rig.noise),
+        config_(config),
+        frame_(frame) {}
 
   /// Tries the oldest fitting patch, which has not drifted, then the newest. False where there are
   /// patches to compare with and none fits: the feature is not the landmark.

@@ -5,6 +5,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "slam/frame/measurements.h"
 
 namespace vinebench::slam {
 namespace {
@@ -36,8 +39,9 @@ double magnification(const Eigen::Matrix3d& H) {
 
 }  // namespace
 
-PatchProjector::PatchProjector(const Map& map, const Pose& T_map_body, const EstimatorRig& rig)
-    : map_(map), T_map_body_(T_map_body), rig_(rig) {
+PatchProjector::PatchProjector(const Map& map, std::vector<Pose> T_map_bodies,
+                               const EstimatorRig& rig)
+    : map_(map), T_map_bodies_(std::move(T_map_bodies)), rig_(rig) {
   steps_.assign(rig.left_cameras.size(), std::vector<std::optional<Step>>(map.keyframes().size()));
 }
 
@@ -52,9 +56,11 @@ const PatchProjector::Step& PatchProjector::step(int keyframe, int v) {
   std::optional<Step>& step =
       steps_[static_cast<std::size_t>(v)][static_cast<std::size_t>(keyframe)];
   if (step) return *step;
-  const Pose& T_body_cam = rig_.T_body_cams[static_cast<std::size_t>(v)];
-  const Pose T_then_map = (map_.keyframe(keyframe).T_map_body * T_body_cam).inverse();
-  const Pose T_now_then = (T_map_body_ * T_body_cam).inverse() * T_then_map.inverse();
+  const auto view = static_cast<std::size_t>(v);
+  const Pose& T_body_cam = rig_.T_body_cams[view];
+  const Keyframe& then = map_.keyframe(keyframe);
+  const Pose T_then_map = (view_pose(*then.frame, view, then.T_map_body) * T_body_cam).inverse();
+  const Pose T_now_then = (T_map_bodies_[view] * T_body_cam).inverse() * T_then_map.inverse();
   const Eigen::Matrix3d K = calibration(rig_.left_cameras[static_cast<std::size_t>(v)].lens);
   step = Step{K * T_now_then.rotation.toRotationMatrix() * K.inverse(), K * T_now_then.translation,
               T_then_map};

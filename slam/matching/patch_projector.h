@@ -20,7 +20,8 @@ struct PatchView {
 /// stereo told where the patch was cut.
 class PatchProjector {
  public:
-  PatchProjector(const Map& map, const Pose& T_map_body, const EstimatorRig& rig);
+  /// `T_map_bodies`: of each view, when it was taken.
+  PatchProjector(const Map& map, std::vector<Pose> T_map_bodies, const EstimatorRig& rig);
 
   /// On that level of view `v`. None where the observation has no patch, is of another view, or is
   /// so much nearer, farther or turned that it would be another image.
@@ -46,7 +47,7 @@ class PatchProjector {
   std::optional<PatchView> view_on(const Eigen::Matrix3d& H, const Patch& patch, int level) const;
 
   const Map& map_;
-  Pose T_map_body_;
+  std::vector<Pose> T_map_bodies_;  ///< of each view
   const EstimatorRig& rig_;
   std::vector<std::vector<std::optional<Step>>> steps_;  ///< of each view, by keyframe
 };

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/frame/measurements.h"
+
 namespace vinebench::slam {
 namespace {
 
@@ -76,9 +78,9 @@ int find_feature(const Landmark& landmark, const StereoView& view, int v, const 
 int match_by_projection(const Map& map, const std::vector<int>& landmarks,
                         const FrameFeatures& frame, const Pose& T_map_body, const EstimatorRig& rig,
                         const ProjectionSearch& search, Associations& associations) {
-  const Pose T_body_map = T_map_body.inverse();
   int added = 0;
   for (std::size_t v = 0; v < frame.views.size(); ++v) {
+    const Pose T_body_map = view_pose(frame, v, T_map_body).inverse();
     const StereoView& view = frame.views[v];
     std::vector<int>& taken = associations[v];
     std::vector<char> matched(map.landmarks().size(), 0);

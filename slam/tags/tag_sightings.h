@@ -25,6 +25,10 @@ double corner_sigma(const TagSighting& sighting, double systematic);
 Eigen::Vector2d ideal_corner(const TagSighting& sighting, std::size_t corner,
                              const TagCameras& cameras);
 
+/// The sighting as the camera would have had it at the frame's stamp, for a body with that velocity
+/// (in its own frame, m/s and rad/s); unchanged where the image is of that instant.
+void bring_to_stamp(const Vector6d& velocity, const TagCameras& cameras, TagSighting& sighting);
+
 /// The tag as the sighting has it, in the body frame.
 Pose T_body_tag(const TagSighting& sighting, const TagCameras& cameras);
 

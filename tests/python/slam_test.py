@@ -35,6 +35,20 @@ class SlamTest(CourtTest):
                                    for name in ("right", "left")}) for f in self.frames]
         np.testing.assert_array_equal(self.poses(vb.Slam(rig), turned), expected)
 
+    def test_images_may_have_stamps_of_their_own(self):
+        frame = self.frames[1]
+        self.assertEqual(frame.image_stamps, [frame.stamp] * len(frame.images))
+        late = {"left": frame.stamp + 5_000_000, "right": frame.stamp + 5_000_000}
+        given = plain(frame, image_stamps=late)
+        self.assertEqual([given.image_stamps[list(given.images).index(name)] for name in late],
+                         list(late.values()))
+        rig = self.folder / "rig.yaml"
+        frames = [plain(f, image_stamps={name: f.stamp for name in f.images}) for f in self.frames]
+        np.testing.assert_array_equal(self.poses(vb.Slam(rig), frames),
+                                      self.poses(vb.Slam(rig), self.frames))
+        with self.assertRaisesRegex(ValueError, "image_stamps: 'top': expected ns of one of"):
+            plain(frame, image_stamps={"top": 0})
+
     def test_an_estimate_says_how_it_came_about(self):
         slam = vb.Slam(vb.Rig.load(self.folder / "rig.yaml"))
         estimate = [slam.process(frame) for frame in self.frames[:3]][-1]

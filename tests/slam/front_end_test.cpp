@@ -87,6 +87,20 @@ std::ptrdiff_t on_the_wall(const StereoView& view) {
       view.stereo, [](const StereoMatch& m) { return std::abs(m.depth - 1.5F) < 0.03F; });
 }
 
+TEST_F(FrontEndTest, ViewsAndTagsKnowHowLateTheirImagesAre) {
+  frame_.image_stamps.assign(5, frame_.stamp);
+  frame_.image_stamps[2] += 5'000'000;   // the back pair's left eye
+  frame_.image_stamps[4] -= 20'000'000;  // the side camera
+  const auto features = process(frame_);
+  EXPECT_EQ(features->views[0].late, 0);
+  EXPECT_DOUBLE_EQ(features->views[1].late, 0.005);
+  ASSERT_EQ(features->tags.size(), 1u);
+  EXPECT_DOUBLE_EQ(features->tags[0].late, -0.02);
+  frame_.image_stamps.pop_back();
+  EXPECT_THAT([&] { process(frame_); }, testing::ThrowsMessage<Error>(testing::HasSubstr(
+                                            "frame 4: expected 5 stamps of images, found 4")));
+}
+
 /// All results, byte by byte.
 std::string bytes_of(const FrameFeatures& features) {
   std::string bytes;

@@ -107,10 +107,10 @@ void EurocWriter::describe(const fs::path& folder, const RecordingNotes& notes) 
 }
 
 std::vector<FileTask> EurocWriter::files(const std::shared_ptr<const DatasetFrame>& frame) {
-  const std::string name = digits_of(frame->frame.stamp) + ".png";
   std::vector<FileTask> tasks;
   for (std::size_t i = 0; i < frame->frame.images.size(); ++i) {
     if (frame->frame.images[i].empty()) continue;
+    const std::string name = digits_of(frame->frame.image_stamp(i)) + ".png";
     tasks.push_back(camera_image(frame, i, colour_, mav_ / fmt::format("cam{}/data", i) / name));
   }
   return tasks;
@@ -123,11 +123,14 @@ void EurocWriter::commit(const DatasetFrame& written) {
   };
   for (std::size_t i = 0; i < frame.images.size(); ++i) {
     if (!frame.images[i].empty()) {
-      cameras_[i].append(fmt::format("{0},{0}.png\n", digits_of(frame.stamp)));
+      cameras_[i].append(fmt::format("{0},{0}.png\n", digits_of(frame.image_stamp(i))));
     }
   }
   if (pair_ && has(pair_->left) && has(pair_->right)) {
-    times_.append(digits_of(frame.stamp) + "\n");
+    // Readers of this list take both eyes' images to have this name.
+    const Stamp left = frame.image_stamp(static_cast<std::size_t>(pair_->left));
+    const bool together = left == frame.image_stamp(static_cast<std::size_t>(pair_->right));
+    if (together) times_.append(digits_of(left) + "\n");
   }
   write_readings(frame);
   if (written.truth.known) add_truth(written);

@@ -54,6 +54,7 @@ std::optional<Sample> DatasetReader::next() {
   Sample sample;
   sample.frame.index = static_cast<std::int64_t>(index_);
   sample.frame.stamp = recorded.stamp;
+  sample.frame.image_stamps = recorded.image_stamps;
   sample.events = recorded.events;
   read_images(recorded, sample);
   take_readings(recording_.imu, next_imu_, recorded.stamp, sample.frame.imu);

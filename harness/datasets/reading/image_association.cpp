@@ -40,6 +40,14 @@ std::size_t nearest_frame(const std::vector<RecordedFrame>& frames, Stamp stamp)
   return stamp - frames[index - 1].stamp <= frames[index].stamp - stamp ? index - 1 : index;
 }
 
+/// The image of a camera is of that instant.
+void set_stamp(RecordedFrame& frame, std::size_t camera, Stamp stamp) {
+  std::vector<Stamp>& stamps = frame.image_stamps;
+  if (stamps.empty() && stamp == frame.stamp) return;
+  if (stamps.empty()) stamps.assign(frame.images.size(), frame.stamp);
+  stamps[camera] = stamp;
+}
+
 /// Each image goes to its nearest frame; each frame keeps the nearest of its images.
 void associate(const ImageList& list, std::size_t camera, Stamp half,
                std::vector<RecordedFrame>& frames) {
@@ -55,6 +63,7 @@ void associate(const ImageList& list, std::size_t camera, Stamp half,
     if (taken) {
       off[index] = distance;
       frame.images[camera] = entry.file;
+      set_stamp(frame, camera, entry.stamp);
     }
     if (!taken || replaces) {
       const std::string detail = fmt::format("stamp {}", format_seconds(entry.stamp));

@@ -26,8 +26,8 @@ struct ImageList {
 void put_in_order(ImageList& list);
 
 /// Frames at the given ascending instants. Each takes from each list the image nearest in time, at
-/// most half a frame period away, and each image is used at most once. Unmatched images, faults of
-/// a list and gaps between the instants become events.
+/// most half a frame period away, with its stamp, and each image is used at most once. Unmatched
+/// images, faults of a list and gaps between the instants become events.
 std::vector<RecordedFrame> associate_images(const std::vector<ImageList>& lists,
                                             const std::vector<Stamp>& instants);
 

@@ -27,6 +27,7 @@ struct RecordedFrame {
   Stamp stamp = 0;
   std::vector<std::filesystem::path> images;  ///< of each camera of the rig; empty if it has none
   std::vector<SourceEvent> events;            ///< faults found during association
+  std::vector<Stamp> image_stamps{};          ///< as Frame::image_stamps
 };
 
 /// The index of a recorded data set, as its format's reader found it; the images themselves stay on

@@ -82,7 +82,7 @@ void RosWriter::commit(const DatasetFrame& written) {
   write_readings(frame);
   if (written.truth.known) write_truth({frame.stamp, written.truth.T_world_body});
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
-    if (!frame.images[i].empty()) write_image(i, frame.images[i], frame.stamp);
+    if (!frame.images[i].empty()) write_image(i, frame.images[i], frame.image_stamp(i));
   }
   write_tags(frame);
   bag_->end_chunk();

@@ -22,9 +22,10 @@ vinebench_slam_functions load_functions(const std::string& file) {
     fail("slam.plugin.library: {}: exports no vinebench_slam (core/slam_plugin.h)", file);
   }
   const vinebench_slam_functions* functions = entry();
-  if (functions == nullptr || functions->version != VINEBENCH_SLAM_PLUGIN_VERSION) {
-    fail("slam.plugin.library: {}: expected version {} of core/slam_plugin.h, found {}", file,
-         VINEBENCH_SLAM_PLUGIN_VERSION, functions == nullptr ? 0 : functions->version);
+  const std::uint32_t version = functions == nullptr ? 0 : functions->version;
+  if (version < VINEBENCH_SLAM_PLUGIN_OLDEST_VERSION || version > VINEBENCH_SLAM_PLUGIN_VERSION) {
+    fail("slam.plugin.library: {}: expected version {} to {} of core/slam_plugin.h, found {}", file,
+         VINEBENCH_SLAM_PLUGIN_OLDEST_VERSION, VINEBENCH_SLAM_PLUGIN_VERSION, version);
   }
   return *functions;
 }

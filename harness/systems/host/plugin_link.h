@@ -17,10 +17,12 @@ struct PluginFrame {
   std::vector<vinebench_image> images{};
   std::vector<vinebench_imu_sample> imu{};
   std::vector<vinebench_wheel_sample> wheels{};
+  std::vector<std::int64_t> image_stamps{};  ///< ns, of each image
 
   /// Valid while this is unchanged.
   vinebench_frame view() const {
-    return {index, stamp, images.data(), imu.data(), imu.size(), wheels.data(), wheels.size()};
+    return {index,      stamp,         images.data(), imu.data(),
+            imu.size(), wheels.data(), wheels.size(), image_stamps.data()};
   }
 };
 

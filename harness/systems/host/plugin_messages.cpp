@@ -54,6 +54,7 @@ void add_frame(MessageWriter& message, const vinebench_frame& frame,
   message.add_list(images.data(), images.size());
   message.add_list(frame.imu, frame.imu_count);
   message.add_list(frame.wheels, frame.wheel_count);
+  message.add_list(frame.image_stamps, images.size());
 }
 
 PluginFrame read_frame(MessageReader& message, const std::uint8_t* memory) {
@@ -68,6 +69,7 @@ PluginFrame read_frame(MessageReader& message, const std::uint8_t* memory) {
   }
   frame.imu = message.read_list<vinebench_imu_sample>();
   frame.wheels = message.read_list<vinebench_wheel_sample>();
+  frame.image_stamps = message.read_list<std::int64_t>();
   return frame;
 }
 

@@ -14,6 +14,7 @@ namespace {
 Sample sample() {
   Sample sample = *test::FakeSource(7).next();
   sample.frame.images[1].release();  // a dropped image
+  sample.frame.image_stamps = {7, 8, 9};
   sample.frame.imu = {{5, {1, 2, 3}, {4, 5, 6}}};
   sample.frame.wheels = {{6, {1, 2, 3, 4}, {5, 6, 7, 8}}};
   sample.truth.path = {{4, sample.truth.T_world_body}};
@@ -28,6 +29,7 @@ TEST(ChildDriveTest, ASampleSurvivesItsMessage) {
   ASSERT_EQ(received.frame.images.size(), 3u);
   EXPECT_TRUE(received.frame.images[1].empty());
   EXPECT_EQ(received.frame.images[2].at<cv::Vec3b>(5, 7), sent.frame.images[2].at<cv::Vec3b>(5, 7));
+  EXPECT_EQ(received.frame.image_stamps, sent.frame.image_stamps);
   EXPECT_EQ(received.frame.imu.at(0).specific_force, Eigen::Vector3d(4, 5, 6));
   EXPECT_EQ(received.frame.wheels.at(0).velocity[3], 8);
   EXPECT_EQ(received.truth.T_world_body.translation, sent.truth.T_world_body.translation);

@@ -3,7 +3,8 @@
  *
  * A SLAM system in plain C that stands still, for plugin_slam_test. The settings' file name says
  * what goes wrong: *.create, *.process, *.finish, *.pose, *.covariance; it is the position's x in
- * millimetres that says how many bytes of images and samples it was given. With exit.*, crash.*,
+ * millimetres that says how many bytes of images and samples it was given, and y how many ns after
+ * the frame its third image was taken. With exit.*, crash.*,
  * hang.* and grow.* it takes its process along, in create, in finish or in the fourth frame. */
 #include <math.h>
 #include <signal.h>
@@ -78,6 +79,9 @@ static int process(void* system, const vinebench_frame* frame, vinebench_estimat
   }
   pose->stamp = frame->stamp;
   pose->T_map_body.position[0] = 1e-3 * (bytes + (double)frame->imu_count);
+  if (FAKE_PLUGIN_VERSION > 1) {
+    pose->T_map_body.position[1] = (double)(frame->image_stamps[2] - frame->stamp);
+  }
   pose->T_map_body.quaternion[3] = strstr(fake->settings, "pose") != NULL ? 2 : 1;
   estimate->status = VINEBENCH_TRACKING;
   if (strstr(fake->settings, "covariance") != NULL) estimate->covariance[7] = NAN;

@@ -73,6 +73,20 @@ TEST_P(PluginSlamTest, AFrameGoesInAndAnEstimateComesOut) {
   EXPECT_EQ(slam->times().samples().at("fake").size(), 1u);
 }
 
+TEST_P(PluginSlamTest, ItIsToldWhenImagesWereTaken) {
+  const auto slam = load();
+  Frame late = frame();
+  late.image_stamps = {late.stamp, late.stamp, late.stamp + 250};
+  EXPECT_EQ(slam->process(late).T_map_body.value().translation.y(), 250);
+  late.image_stamps.clear();
+  EXPECT_EQ(slam->process(late).T_map_body.value().translation.y(), 0);
+}
+
+TEST_P(PluginSlamTest, OnesOfVersion1AreLoaded) {
+  EXPECT_DOUBLE_EQ(load("", "old_plugin.so")->process(frame()).T_map_body.value().translation.x(),
+                   0.290);
+}
+
 TEST_P(PluginSlamTest, WhatItSaysOfAFailureIsTheFailure) {
   for (const char* function : {"process", "finish"}) {
     EXPECT_THAT(failure(std::string("fail.") + function),
@@ -96,7 +110,7 @@ TEST_P(PluginSlamTest, WhatIsNoPluginIsAnError) {
   EXPECT_THAT(test::error_of([&] { load("", "empty_plugin.so"); }),
               HasSubstr("exports no vinebench_slam"));
   EXPECT_THAT(test::error_of([&] { load("", "future_plugin.so"); }),
-              HasSubstr("expected version 1 of core/slam_plugin.h, found 99"));
+              HasSubstr("expected version 1 to 2 of core/slam_plugin.h, found 99"));
 }
 
 TEST_P(PluginSlamTest, ItsExceptionsAreNamed) {

@@ -57,6 +57,24 @@ TEST(FrameTimingTest, TriggersAreLate) {
   EXPECT_EQ(timing.longest_delay(), 3'000'000);
 }
 
+TEST(FrameTimingTest, StampsTellOfTriggersThatAreStamped) {
+  FrameTimingConfig config;
+  config.stamp_offset = 0.01;
+  config.triggers = {{"right", -0.003, false}};
+  EXPECT_TRUE(FrameTiming(config, {}, two_cameras(), 1).image_stamps(7).empty());
+  config.triggers = {{"right", -0.003, true}};
+  const FrameTiming timing(config, {}, two_cameras(), 1);
+  const std::vector<Stamp> stamps = timing.image_stamps(7);
+  ASSERT_EQ(stamps.size(), 2u);
+  EXPECT_EQ(stamps[0], timing.stamp(7));
+  EXPECT_EQ(stamps[1], timing.stamp(7) - 3'000'000);
+  // At 15 Hz half of the time between frames is 33.3 ms.
+  config.triggers = {{"left", 0.034, true}};
+  EXPECT_THROW(FrameTiming(config, {}, two_cameras(), 1), Error);
+  config.triggers[0].stamped = false;
+  EXPECT_NO_THROW(FrameTiming(config, {}, two_cameras(), 1));
+}
+
 TEST(FrameTimingTest, RatesOfDrops) {
   FrameDropConfig drops;
   drops.camera_rate = 0.1;

@@ -45,5 +45,34 @@ TEST(ReprojectionTest, TheResidualAloneIsThatOfTheLinearisation) {
   }
 }
 
+// An image of a stamp of its own is as one of a camera that is known to be late by so much; where
+// both are, the times add.
+TEST(ReprojectionTest, AnImagesOwnStampIsAsTheCamerasOffset) {
+  StereoCameraModel late = camera();
+  late.time_offset = 0.03;
+  late.readout = 0.01;
+  StereoCameraModel less_late = late;
+  less_late.time_offset = 0.01;
+  PixelMeasurement m;
+  m.pixel = {400, 200};
+  m.right_x = 380;
+  m.velocity << 1, 0.2, -0.1, 0.1, -0.3, 0.5;
+  PixelMeasurement stamped = m;
+  stamped.late = 0.02;
+  const Reprojection by_camera(late, m), by_both(less_late, stamped);
+  EXPECT_LT((by_camera.residual(body(), point()) - by_both.residual(body(), point())).norm(), 1e-9);
+  const auto a = by_camera.linearise(body(), point()), b = by_both.linearise(body(), point());
+  EXPECT_LT((a.by_pose - b.by_pose).norm(), 1e-9 * a.by_pose.norm());
+  EXPECT_LT((by_camera.by_calibration(body(), point(), camera()) -
+             by_both.by_calibration(body(), point(), camera()))
+                .norm(),
+            1e-9 * by_camera.by_calibration(body(), point(), camera()).norm());
+  const StereoCameraModel known = camera();
+  EXPECT_GT((Reprojection(known, stamped).residual(body(), point()) -
+             Reprojection(known, m).residual(body(), point()))
+                .norm(),
+            1);  // 2 cm at 1 m/s are pixels
+}
+
 }  // namespace
 }  // namespace vinebench::slam

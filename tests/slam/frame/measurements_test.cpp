@@ -46,6 +46,21 @@ TEST(MeasurementsTest, StereoPutsAPointWhereItIs) {
   }
 }
 
+TEST(MeasurementsTest, AViewIsSeenFromWhereTheBodyWasThen) {
+  const SyntheticAisle aisle(0, 1, 300);
+  const EstimatorRig rig(aisle.rig, OrbConfig{});
+  const Pose body{exp_so3({0.02, 0.01, 0.4}), {0.3, 0.1, 0.02}};
+  auto frame = aisle.frame(0, body);
+  frame->velocity << 2, 0, 0, 0, 0, 0.5;
+  frame->views[1].late = -0.01;
+  EXPECT_EQ(view_pose(*frame, 0, body).translation, body.translation);
+  EXPECT_EQ(view_pose(*frame, 0, body).rotation.coeffs(), body.rotation.coeffs());
+  const Pose step = body.inverse() * view_poses(*frame, body).at(1);
+  EXPECT_LT((step.translation - Eigen::Vector3d(-0.02, 0, 0)).norm(), 1e-12);
+  EXPECT_LT((log_so3(step.rotation) - Eigen::Vector3d(0, 0, -0.005)).norm(), 1e-9);
+  EXPECT_EQ(measure(frame->views[1], 0, rig.noise).late, -0.01);
+}
+
 // Half a pixel more of disparity, and the depth that this is. What lies beyond the limit has no
 // depth any more, and keeps its match.
 TEST(MeasurementsTest, CorrectsDepthsByTheDisparityOffset) {

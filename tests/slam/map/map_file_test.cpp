@@ -196,7 +196,7 @@ TEST_F(MapFileTest, AnotherVersionIsSaidSo) {
   std::string other = bytes_;
   other[8] = 1;  // version, low byte
   EXPECT_THAT(error_of(sealed(other)),
-              AllOf(HasSubstr("version 1"), HasSubstr("expected version 3 to 7")));
+              AllOf(HasSubstr("version 1"), HasSubstr("expected version 3 to 8")));
 }
 
 std::string rig_bytes(const EstimatorRig& rig, std::uint32_t version) {
@@ -213,8 +213,35 @@ std::string with_contents(std::string bytes, std::uint32_t version) {
   return sealed(bytes);
 }
 
-/// Bytes at the end of a keyframe from version 6 on.
+/// Bytes at the end of a keyframe from version 6 on, and after these from version 8 on: how many
+/// views, and how late each is.
 constexpr std::size_t kVelocity = 6 * sizeof(double);
+constexpr std::size_t kLate = sizeof(std::uint32_t) + 2 * sizeof(double);
+
+/// Without what came with version 8, of a map of one keyframe; the checksum is behind it.
+std::string of_version_7(std::string bytes) {
+  return bytes.erase(bytes.size() - 8 - kLate, kLate);
+}
+
+// Until version 7 all images were of their frame's stamp.
+TEST_F(MapFileTest, MapsOfVersion7AreRead) {
+  AisleMap one(aisle_, {Pose{}});
+  const std::string older = of_version_7(format_map(one.map, one.rig));
+  const Map map = parse_map(with_contents(older, 7), one.rig, "older.map");
+  ASSERT_EQ(map.keyframes().size(), 1u);
+  EXPECT_EQ(map.keyframe(0).frame->views[1].late, 0);
+}
+
+TEST_F(MapFileTest, WhenViewsWereTakenIsKept) {
+  FrameFeatures frame = *made_.map.keyframe(1).frame;
+  frame.views[1].late = 0.0125;
+  made_.map.keyframe(1).frame = std::make_shared<const FrameFeatures>(frame);
+  const std::string bytes = format_map(made_.map, made_.rig);
+  EXPECT_EQ(parse(bytes).keyframe(1).frame->views[1].late, 0.0125);
+  frame.views[1].late = std::nan("");
+  made_.map.keyframe(1).frame = std::make_shared<const FrameFeatures>(frame);
+  EXPECT_THAT(error_of(format_map(made_.map, made_.rig)), HasSubstr("a keyframe's features"));
+}
 
 // Until version 6 six numbers of each pair were missing at the end of it.
 TEST_F(MapFileTest, CalibrationsOfVersion6AreRead) {
@@ -222,8 +249,8 @@ TEST_F(MapFileTest, CalibrationsOfVersion6AreRead) {
   const std::size_t without = format_map(one.map, one.rig).size();
   one.map.calibration() = {{}, {{exp_so3({0, 0.01, 0}), {0.005, 0, 0}}, 0.25}};
   one.map.calibration()[1].readout = 0.02;
-  std::string older = format_map(one.map, one.rig);
-  const std::size_t pair = (older.size() - without) / 2, missing = 6 * sizeof(double);
+  std::string older = of_version_7(format_map(one.map, one.rig));
+  const std::size_t pair = (older.size() + kLate - without) / 2, missing = 6 * sizeof(double);
   const std::size_t at =
       20 + rig_bytes(one.rig, 6).size() + sizeof(double) + sizeof(std::uint64_t);  // the scale, 2
   older.erase(at + 2 * pair - missing, missing);
@@ -238,7 +265,7 @@ TEST_F(MapFileTest, CalibrationsOfVersion6AreRead) {
 // Until version 5 there was one number a pair, its disparity offset.
 TEST_F(MapFileTest, DisparityOffsetsOfVersion5AreRead) {
   AisleMap one(aisle_, {Pose{}});
-  std::string older = format_map(one.map, one.rig);
+  std::string older = of_version_7(format_map(one.map, one.rig));
   BinaryWriter none(6), offsets(5);
   none(std::vector<double>{});  // an empty list of anything
   offsets(std::vector<double>{0, 0.25});
@@ -256,7 +283,7 @@ TEST_F(MapFileTest, DisparityOffsetsOfVersion5AreRead) {
 // keyframe that is the content's last byte before the velocity.
 TEST_F(MapFileTest, MapsOfVersion3AreRead) {
   AisleMap one(aisle_, {Pose{}});
-  std::string older = format_map(one.map, one.rig);
+  std::string older = of_version_7(format_map(one.map, one.rig));
   const std::size_t flag = older.size() - 9 - kVelocity;
   ASSERT_EQ(older[flag], 0);
   older.erase(flag, 1 + kVelocity);

@@ -13,6 +13,9 @@ namespace {
 
 class PatchProjectorTest : public testing::Test, protected test::SlantedPlane {
  protected:
+  /// All views at once.
+  std::vector<Pose> at(const Pose& pose) const { return {rig.left_cameras.size(), pose}; }
+
   static Observation seen(std::size_t landmark) { return {0, 0, static_cast<int>(landmark)}; }
 
   /// RMS error (px) of windows that are searched at their true positions in the image from a pose;
@@ -40,7 +43,7 @@ class PatchProjectorTest : public testing::Test, protected test::SlantedPlane {
 };
 
 TEST_F(PatchProjectorTest, FromTheSamePlaceAPatchIsItself) {
-  PatchProjector projector(map, Pose{}, rig);
+  PatchProjector projector(map, at(Pose{}), rig);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto view = projector.on_best_level(seen(i), 0, map.landmark(static_cast<int>(i)));
     ASSERT_TRUE(view) << i;
@@ -57,7 +60,7 @@ TEST_F(PatchProjectorTest, FromTheSamePlaceAPatchIsItself) {
 TEST_F(PatchProjectorTest, ForetellsWhatAnotherPoseSees) {
   // 0.15 m nearer (of about 1.2 m), sideways, and rotated by 6 degrees about the line of sight.
   const Pose pose{exp_so3({0.02, -0.03, 0.1}), {0.05, -0.03, 0.15}};
-  PatchProjector projector(map, pose, rig);
+  PatchProjector projector(map, at(pose), rig);
   int found = 0;
   const double foretold = fit_error(
       pose,
@@ -87,7 +90,7 @@ TEST_F(PatchProjectorTest, NearerIsALevelUp) {
   for (const std::size_t i : {places.size() / 2, places.size() / 2 + 3}) {
     const Landmark& landmark = map.landmark(static_cast<int>(i));
     const Pose nearer{Eigen::Quaterniond::Identity(), (1 - 1 / 1.2) * landmark.position};
-    PatchProjector projector(map, nearer, rig);
+    PatchProjector projector(map, at(nearer), rig);
     const auto view = projector.on_best_level(seen(i), 0, landmark);
     ASSERT_TRUE(view);
     EXPECT_EQ(view->level, level_of(places[i]) + 1);
@@ -97,7 +100,7 @@ TEST_F(PatchProjectorTest, NearerIsALevelUp) {
 
 TEST_F(PatchProjectorTest, SaysNothingOfWhatItCannotKnow) {
   const Landmark& landmark = map.landmark(0);  // at level 0
-  PatchProjector here(map, Pose{}, rig);
+  PatchProjector here(map, at(Pose{}), rig);
   ASSERT_TRUE(here.on_level(seen(0), 0, landmark, 0));
   EXPECT_TRUE(here.on_level(seen(0), 0, landmark, 1));
   EXPECT_FALSE(here.on_level(seen(0), 0, landmark, 2));    // 1.44 times smaller: another image
@@ -112,7 +115,7 @@ TEST_F(PatchProjectorTest, SaysNothingOfWhatItCannotKnow) {
 TEST_F(PatchProjectorTest, SaysNothingFromBehind) {
   const Landmark& landmark = map.landmark(0);
   const Pose past{Eigen::Quaterniond::Identity(), 1.5 * landmark.position};
-  EXPECT_FALSE(PatchProjector(map, past, rig).on_best_level(seen(0), 0, landmark));
+  EXPECT_FALSE(PatchProjector(map, at(past), rig).on_best_level(seen(0), 0, landmark));
 }
 
 }  // namespace

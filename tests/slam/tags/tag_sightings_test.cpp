@@ -51,5 +51,41 @@ TEST(TagSightingsTest, ATagAheadOfTheCameraIsAheadOfTheBody) {
   EXPECT_LT((p_body - Eigen::Vector3d(2.2, 0, 0.5)).norm(), 1e-12);
 }
 
+/// What the camera sees of a tag of 0.2 m that stands in the map.
+TagSighting seen_from(const Pose& T_map_body, const TagCameras& cameras) {
+  const Pose T_map_tag{exp_so3({0.1, 1.7, 0.2}), {2, 0.3, 0.6}};
+  const RigCamera& camera = cameras.cameras[0];
+  TagSighting sighting;
+  sighting.T_cam_tag = (T_map_body * camera.T_body_cam).inverse() * T_map_tag;
+  const auto corners = tag_corners(0.2);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    sighting.corners[i] = camera.model.project(sighting.T_cam_tag * corners[i]);
+  }
+  return sighting;
+}
+
+TEST(TagSightingsTest, ALateImagesTagIsBroughtToTheFramesStamp) {
+  const TagCameras cameras = bent_camera();
+  Vector6d velocity;
+  velocity << 1, 0.1, 0, 0, 0, 0.4;
+  TagSighting sighting = seen_from(step_of(velocity * 0.02), cameras);
+  const TagSighting now = seen_from(Pose{}, cameras);
+  ASSERT_GT((sighting.corners[0] - now.corners[0]).norm(), 1);  // px
+  const TagSighting then = sighting;
+  bring_to_stamp(velocity, cameras, sighting);
+  EXPECT_EQ(sighting.corners, then.corners);  // nobody said that it was late
+  sighting.late = 0.02;
+  bring_to_stamp(velocity, cameras, sighting);
+  EXPECT_LT((sighting.T_cam_tag.translation - now.T_cam_tag.translation).norm(), 1e-12);
+  EXPECT_LT(angle_of(sighting.T_cam_tag.rotation.conjugate() * now.T_cam_tag.rotation), 1e-7);
+  for (std::size_t i = 0; i < now.corners.size(); ++i) {
+    // Undistortion iterates to below 1e-6 px.
+    EXPECT_LT((sighting.corners[i] - now.corners[i]).norm(), 1e-5) << i;
+  }
+  const TagSighting once = sighting;
+  bring_to_stamp(velocity, cameras, sighting);
+  EXPECT_EQ(sighting.corners, once.corners);
+}
+
 }  // namespace
 }  // namespace vinebench::slam

@@ -161,6 +161,9 @@ TEST_F(EurocReaderTest, CamerasWithStampsOfTheirOwnAreAssociated) {
             (Counts{{"picture_missing", 1}, {"picture_unmatched", 1}, {"stamps_differ", 1}}));
   EXPECT_THAT(samples[0].events.at(0).detail + samples[0].events.back().detail,
               HasSubstr("in 4 frames, by 10.000 ms at most"));
+  EXPECT_EQ(samples[1].frame.stamp, kFirstStamp + kPeriod);
+  EXPECT_EQ(samples[1].frame.image_stamp(0), kFirstStamp + kPeriod);
+  EXPECT_EQ(samples[1].frame.image_stamp(1), kFirstStamp + kPeriod + kPeriod / 5);
 }
 
 TEST_F(EurocReaderTest, AGapIsTold) {
