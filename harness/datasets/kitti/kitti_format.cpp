@@ -33,7 +33,7 @@ DatasetFormat kitti_format() {
       .description = "KITTI odometry folder of the first pair",
       .write = make_kitti_writer,
       .reader = {"a KITTI odometry folder (calib.txt beside image_0 and image_1, image_2 and "
-                 "image_3, or image_l and image_r), a drive of KITTI's raw data (image_00/data)",
+                 "image_3, or image_l and image_r) or a drive of KITTI's raw data (image_00/data)",
                  [](const std::filesystem::path& folder) {
                    return is_kitti(folder) || is_kitti_raw(folder);
                  },

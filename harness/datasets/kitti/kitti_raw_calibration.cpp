@@ -26,7 +26,7 @@ class NamedNumbers {
   explicit NamedNumbers(const fs::path& file) : file_(file) {
     for (TableRow& row : read_rows(file)) {
       std::string name = row.fields.front();
-      if (name.back() != ':') continue;
+      if (!name.ends_with(':')) continue;
       name.pop_back();
       lines_.insert_or_assign(std::move(name), std::move(row));
     }

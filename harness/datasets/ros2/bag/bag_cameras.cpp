@@ -151,8 +151,9 @@ std::string list_of_topics(const BagContents& contents) {
 void fault_without_pair(const BagContents& contents) {
   fail(
       "{}: expected a stereo pair, such as images on /left/image_rect and /right/image_rect, or "
-      "--topics LEFT,RIGHT; found {}",
-      contents.names.front().string(), list_of_topics(contents));
+      "--topics LEFT,RIGHT; found {}{}",
+      contents.names.front().string(), list_of_topics(contents),
+      contents.cut_off.empty() ? "" : "; " + contents.cut_off);
 }
 
 BagCameras choose_bag_cameras(const BagContents& contents, const std::vector<std::string>& topics) {

@@ -193,6 +193,11 @@ TEST_F(KittiRawReaderTest, WithoutStampsTheRateIsTheCameras) {
   EXPECT_EQ(open_recording(drive_).frames[3].stamp, 300'000'000);
 }
 
+TEST_F(KittiRawReaderTest, OtherLinesOfTheCalibrationAreIgnored) {
+  test::write_text(day_ / "calib_cam_to_cam.txt", std::string(", 1\nno name\n:\n") + kCameras);
+  EXPECT_EQ(open_recording(drive_).frames.size(), 5u);
+}
+
 TEST_F(KittiRawReaderTest, WhatCannotBeUsedIsAnError) {
   const auto expect_error = [&](const char* from, const char* to, const char* message) {
     std::string text = kCameras;

@@ -210,6 +210,14 @@ TEST_F(Ros1FileTest, AStereoPairIsReplayed) {
   }
 }
 
+TEST_F(Ros1FileTest, ABagThatEndsBeforeItsImagesSaysSo) {
+  const std::string records =
+      connection(0, "/clock", "rosgraph_msgs/Clock") + message(0, "12345678");
+  const fs::path cut = file(bag(records) + "\5");
+  EXPECT_THAT(error_of([&] { open_recording(cut); }),
+              testing::AllOf(HasSubstr("found /clock"), HasSubstr("a.bag: ends at byte ")));
+}
+
 // EuRoC's own bags have images and readings alone.
 TEST_F(Ros1FileTest, AChainOfKalibrIsTheCalibrationOfABagWithoutOne) {
   std::string records;
