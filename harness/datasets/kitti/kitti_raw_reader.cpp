@@ -21,8 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kCalibration = "calib_cam_to_cam.txt";
-// Below this the estimator's integration between readings is too coarse: synchronised drives have
-// one reading a frame.
+// Below this the estimator's integration between readings is too coarse:
+// synchronised drives have one reading a frame.
 constexpr double kLowestInertialRate = 40;  // Hz
 
 fs::path camera_folder(const fs::path& drive, int camera) {
@@ -93,6 +93,41 @@ void set_unit(const fs::path& folder, const Pose& T_body_unit, Recording& record
   put_in_order(recording.imu, "oxts", recording);
 }
 
+/// What is known of a drive's cameras and unit.
+struct Day {
+  std::optional<KittiRawCalibration> calibration;
+  std::optional<Pose> T_first_unit;  ///< in camera 0 as it is
+};
+
+Day read_day(const fs::path& drive, int left, bool required, const Recording& recording) {
+  const fs::path folder = calibration_folder(drive);
+  Day day{std::nullopt, KittiRawCalibration::inertial_unit(folder)};
+  if (!required && !is_present(folder / kCalibration)) return day;
+  const cv::Size size = first_image_size(recording, 0);
+  if (size.empty()) {
+    fail("{}: no image of the left camera can be read",
+         recording.frames.front().images[0].string());
+  }
+  day.calibration.emplace(folder, left, left + 1, size);
+  return day;
+}
+
+Rig rig_of_day(const Day& day, double rate_hz) {
+  const Pose T_body_first = day.T_first_unit
+                                ? day.T_first_unit->inverse()
+                                : Rig::mount(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+  Rig rig;
+  rig.name = "KITTI";
+  rig.rate_hz = rate_hz;
+  rig.stereo_pairs = {{"front", 0, 1}};
+  for (std::size_t i = 0; i < 2; ++i) {
+    RigCamera camera = day.calibration->camera(i);
+    camera.T_body_cam = T_body_first * camera.T_body_cam;
+    rig.cameras.push_back(std::move(camera));
+  }
+  return rig;
+}
+
 }  // namespace
 
 bool is_kitti_raw(const fs::path& folder) {
@@ -105,39 +140,15 @@ Recording read_kitti_raw(const fs::path& drive, const RecordingOptions& options)
   Recording recording;
   recording.format = "KITTI raw";
   set_frames(drive, *left, recording);
-  const fs::path day = calibration_folder(drive);
-  std::optional<KittiRawCalibration> calibration;
-  if (options.rig.empty() || is_present(day / kCalibration)) {
-    const cv::Size size = first_image_size(recording, 0);
-    if (size.empty()) {
-      fail("{}: no image of the left camera can be read",
-           recording.frames.front().images[0].string());
-    }
-    calibration.emplace(day, *left, *left + 1, size);
-  }
-  const std::optional<Pose> T_first_unit = KittiRawCalibration::inertial_unit(day);
-  Pose T_body_first = T_first_unit ? T_first_unit->inverse()
-                                   : Rig::mount(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+  const Day day = read_day(drive, *left, options.rig.empty(), recording);
   const double rate = recording.rig.rate_hz;
-  if (options.rig.empty()) {
-    recording.rig.name = "KITTI";
-    recording.rig.stereo_pairs = {{"front", 0, 1}};
-    for (std::size_t i = 0; i < 2; ++i) {
-      RigCamera camera = calibration->camera(i);
-      camera.T_body_cam = T_body_first * camera.T_body_cam;
-      recording.rig.cameras.push_back(std::move(camera));
-    }
-  } else {
-    recording.rig = load_rig_for(options.rig, 2);
-    recording.rig.rate_hz = rate;
-    if (calibration) {
-      T_body_first =
-          recording.rig.cameras[0].T_body_cam * calibration->camera(0).T_body_cam.inverse();
-    }
-  }
-  recording.T_body_left = recording.rig.cameras.front().T_body_cam;
-  if (T_first_unit && calibration) {
-    set_unit(drive / "oxts", T_body_first * *T_first_unit, recording);
+  recording.rig = options.rig.empty() ? rig_of_day(day, rate) : load_rig_for(options.rig, 2);
+  recording.rig.rate_hz = rate;
+  const Pose& T_body_left = recording.rig.cameras.front().T_body_cam;
+  recording.T_body_left = T_body_left;
+  if (day.calibration && day.T_first_unit) {
+    const Pose T_left_unit = day.calibration->camera(0).T_body_cam.inverse() * *day.T_first_unit;
+    set_unit(drive / "oxts", T_body_left * T_left_unit, recording);
   }
   if (!options.groundtruth.empty()) recording.truth.clear();
   return recording;

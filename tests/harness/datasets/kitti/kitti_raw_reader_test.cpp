@@ -156,6 +156,16 @@ TEST_F(KittiRawReaderTest, WithoutTheUnitsPlaceTheBodyIsCamera0) {
   EXPECT_LT(recording.rig.cameras[0].T_body_cam.translation.norm(), 1e-15);
 }
 
+TEST_F(KittiRawReaderTest, TheTruthIsOfAnotherRigsBodyToo) {
+  const auto rig = folder_.write(
+      "chain.yaml", test::kalibr_camera("cam0", 0) + test::kalibr_camera("cam1", -0.5));
+  const Recording recording = open_recording(drive_, {.rig = rig, .groundtruth = {}});
+  EXPECT_NEAR(recording.rig.rate_hz, 10, 1e-9);
+  // The body is at the left camera, with the unit's axes, and so 1 m below the unit.
+  ASSERT_EQ(recording.truth.size(), 5u);
+  EXPECT_LT((recording.truth[0].pose.translation - Eigen::Vector3d(0, 0, -1)).norm(), 1e-12);
+}
+
 TEST_F(KittiRawReaderTest, ADriveMayHaveItsCalibrationBesideItsImages) {
   for (const char* name :
        {"calib_cam_to_cam.txt", "calib_velo_to_cam.txt", "calib_imu_to_velo.txt"}) {
