@@ -75,39 +75,17 @@ std::string type_of_ros2(std::string type) {
 
 }  // namespace
 
-Ros1File::Ros1File(const std::filesystem::path& file) : name_(file), file_(file, FileKind::kPart) {
-  std::string magic(kMagic.size(), '\0');
-  if (file_.read_at(0, magic.data(), magic.size()) < magic.size() || magic != kMagic) {
-    fail("{}: expected a bag of ROS 1, which begins with '#ROSBAG V2.0'", name_.string());
+Ros1File::Ros1File(const std::filesystem::path& file) : ChunkedFile(file) {
+  if (!begins_with(kMagic)) {
+    fail("{}: expected a bag of ROS 1, which begins with '#ROSBAG V2.0'", name().string());
   }
-}
-
-std::string Ros1File::place_text(std::uint64_t byte) const {
-  return fmt::format("{}: byte {}", name_.string(), byte);
-}
-
-std::string Ros1File::describe(const MessagePlace& place) const {
-  if (!place.chunked) return fmt::format("byte {}", place.offset);
-  return fmt::format("byte {} of the chunk at byte {}", place.offset, place.block);
-}
-
-std::string Ros1File::read_bytes(std::uint64_t at, std::uint64_t size) const {
-  if (size > kMostMessageBytes) {
-    fail("{}: expected at most {} bytes, found {}", place_text(at), kMostMessageBytes, size);
-  }
-  std::string bytes(size, '\0');
-  if (at > file_.size() || size > file_.size() - at ||
-      file_.read_at(at, bytes.data(), size) < size) {
-    fail("{}: expected {} more bytes, the file has {}", place_text(at), size, file_.size());
-  }
-  return bytes;
 }
 
 bool Ros1File::next_record(std::uint64_t& at, Record& record) {
-  if (at == file_.size()) return false;
-  const auto left = [&](std::uint64_t from) { return file_.size() - from; };
+  if (at == size()) return false;
+  const auto left = [&](std::uint64_t from) { return size() - from; };
   const auto ends = [&] {
-    cut_off_ = fmt::format("ends at byte {}, in the record at byte {}", file_.size(), at);
+    cut_off_ = fmt::format("ends at byte {}, in the record at byte {}", size(), at);
     return false;
   };
   if (left(at) < kLength) return ends();
@@ -176,7 +154,7 @@ void Ros1File::take_chunk(const Record& record, const Take& take) {
   for (std::uint64_t at = 0; at < records.size();) {
     MessagePlace place{.block = record.at, .offset = at, .size = 0, .chunked = packed};
     if (!packed) place.offset += record.at;
-    const std::string where = fmt::format("{}: {}", name_.string(), describe(place));
+    const std::string where = fmt::format("{}: {}", name().string(), describe(place));
     McapFieldReader in(records.substr(at), where);
     const Fields fields = fields_of(in.get_text(), where);
     const std::string_view data = in.get_text();
@@ -190,34 +168,17 @@ void Ros1File::take_chunk(const Record& record, const Take& take) {
   }
 }
 
-std::shared_ptr<const std::string> Ros1File::chunk_at(std::uint64_t at) const {
-  const std::lock_guard lock(mutex_);
-  if (latest_ == nullptr || latest_at_ != at) {
-    latest_.reset();
-    const Packed& packed = packed_.at(at);
-    if (packed.unpacked > kMostMessageBytes) {
-      fail("{}: expected a chunk of at most {} bytes, found {}", place_text(at), kMostMessageBytes,
-           packed.unpacked);
-    }
-    try {
-      latest_ = std::make_shared<const std::string>(
-          unpack(packed.compression, read_bytes(at, packed.size), packed.unpacked));
-    } catch (const Error& error) {
-      fail("{}: {}", place_text(at), error.what());
-    }
-    latest_at_ = at;
+std::string Ros1File::unpack_chunk(std::uint64_t at) const {
+  const Packed& packed = packed_.at(at);
+  if (packed.unpacked > kMostMessageBytes) {
+    fail("{}: expected a chunk of at most {} bytes, found {}", place_text(at), kMostMessageBytes,
+         packed.unpacked);
   }
-  return latest_;
-}
-
-std::string Ros1File::read(const MessagePlace& place) const {
-  if (!place.chunked) return read_bytes(place.offset, place.size);
-  const std::shared_ptr<const std::string> chunk = chunk_at(place.block);
-  if (place.offset > chunk->size() || place.size > chunk->size() - place.offset) {
-    fail("{}: expected {} bytes at byte {} of the chunk", place_text(place.block), place.size,
-         place.offset);
+  try {
+    return unpack(packed.compression, read_bytes(at, packed.size), packed.unpacked);
+  } catch (const Error& error) {
+    fail("{}: {}", place_text(at), error.what());
   }
-  return chunk->substr(place.offset, place.size);
 }
 
 }  // namespace vinebench::harness

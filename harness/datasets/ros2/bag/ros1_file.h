@@ -5,25 +5,20 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <memory>
-#include <mutex>
 #include <string>
 #include <unordered_map>
 
-#include "core/files/input_file.h"
-#include "harness/datasets/ros2/bag/bag_file.h"
+#include "harness/datasets/ros2/bag/chunked_file.h"
 
 namespace vinebench::harness {
 
 /// A bag of ROS 1, format 2.0 (wiki.ros.org/Bags/Format/2.0), read from its beginning, without its
 /// index; a bag that was not closed is read up to its last whole record.
-class Ros1File : public BagFile {
+class Ros1File : public ChunkedFile {
  public:
   explicit Ros1File(const std::filesystem::path& file);
 
   void scan(const std::function<void(const BagMessage&)>& take) override;
-  std::string read(const MessagePlace& place) const override;
-  std::string describe(const MessagePlace& place) const override;
   MessageCoding coding() const override { return MessageCoding::kRos1; }
   std::string cut_off() const override { return cut_off_; }
   std::int64_t start() const override { return start_; }
@@ -43,8 +38,6 @@ class Ros1File : public BagFile {
     std::string type;
   };
 
-  std::string place_text(std::uint64_t byte) const;
-  std::string read_bytes(std::uint64_t at, std::uint64_t size) const;
   /// Advances to the record after it. False at the end of the file, which may be too early.
   bool next_record(std::uint64_t& at, Record& record);
   void take_chunk(const Record& record, const Take& take);
@@ -52,7 +45,7 @@ class Ros1File : public BagFile {
   void take_message(const Fields& fields, std::string_view data, const MessagePlace& place,
                     const std::string& where, const Take& take) const;
   /// Of a compressed chunk whose data begin at that byte.
-  std::shared_ptr<const std::string> chunk_at(std::uint64_t at) const;
+  std::string unpack_chunk(std::uint64_t at) const override;
 
   struct Packed {
     std::string compression;
@@ -60,15 +53,10 @@ class Ros1File : public BagFile {
     std::uint64_t unpacked = 0;  ///< bytes without compression
   };
 
-  std::filesystem::path name_;
-  InputFile file_;
   std::unordered_map<std::uint32_t, Connection> connections_;
   std::map<std::uint64_t, Packed> packed_;  ///< compressed chunks, by the byte of their data
   std::string cut_off_;
   std::int64_t start_ = 0;
-  mutable std::mutex mutex_;
-  mutable std::shared_ptr<const std::string> latest_;  ///< the chunk that was read last
-  mutable std::uint64_t latest_at_ = 0;
 };
 
 }  // namespace vinebench::harness

@@ -18,41 +18,16 @@ constexpr std::size_t kMessageHead = 22;  // bytes of a message's fields before 
 
 }  // namespace
 
-McapFile::McapFile(const std::filesystem::path& file) : name_(file), file_(file, FileKind::kPart) {
-  std::string magic(kMcapMagic.size(), '\0');
-  const std::size_t found = file_.read_at(0, magic.data(), magic.size());
-  if (found < magic.size() || magic != kMcapMagic) {
-    fail("{}: expected an MCAP file, which begins with \\x89MCAP0", name_.string());
+McapFile::McapFile(const std::filesystem::path& file) : ChunkedFile(file) {
+  if (!begins_with(kMcapMagic)) {
+    fail("{}: expected an MCAP file, which begins with \\x89MCAP0", name().string());
   }
-}
-
-std::string McapFile::place_text(std::uint64_t byte) const {
-  return fmt::format("{}: byte {}", name_.string(), byte);
-}
-
-std::string McapFile::describe(const MessagePlace& place) const {
-  if (!place.chunked) return fmt::format("byte {}", place.offset);
-  return fmt::format("byte {} of the chunk at byte {}", place.offset, place.block);
-}
-
-std::string McapFile::read_bytes(std::uint64_t at, std::uint64_t size) const {
-  if (size > 2 * kMostMessageBytes) {
-    fail("{}: expected at most {} bytes, found {}", place_text(at), 2 * kMostMessageBytes, size);
-  }
-  if (at > file_.size() || size > file_.size() - at) {
-    fail("{}: expected {} more bytes, the file has {}", place_text(at), size, file_.size());
-  }
-  std::string bytes(size, '\0');
-  if (file_.read_at(at, bytes.data(), size) < size) {
-    fail("{}: expected {} more bytes", place_text(at), size);
-  }
-  return bytes;
 }
 
 bool McapFile::next_record(std::uint64_t& at, Record& record) {
-  const std::uint64_t left = file_.size() - at;
+  const std::uint64_t left = size() - at;
   if (left < kMcapRecordHead) {
-    cut_off_ = fmt::format("ends at byte {}, before the end of its data", file_.size());
+    cut_off_ = fmt::format("ends at byte {}, before the end of its data", size());
     return false;
   }
   const std::string head = read_bytes(at, kMcapRecordHead);
@@ -62,7 +37,7 @@ bool McapFile::next_record(std::uint64_t& at, Record& record) {
   record.at = at + kMcapRecordHead;
   if (record.kind == McapRecord::kDataEnd || record.kind == McapRecord::kFooter) return false;
   if (record.size > left - kMcapRecordHead) {
-    cut_off_ = fmt::format("ends at byte {}, in the record at byte {}", file_.size(), at);
+    cut_off_ = fmt::format("ends at byte {}, in the record at byte {}", size(), at);
     return false;
   }
   at = record.at + record.size;
@@ -134,7 +109,7 @@ void McapFile::take_chunk(const Record& record, const Take& take) {
   const std::string_view records(*chunk);
   for (std::uint64_t at = 0; at < records.size();) {
     MessagePlace place{.block = record.at, .offset = at, .chunked = true};
-    const auto where = [&] { return fmt::format("{}: {}", name_.string(), describe(place)); };
+    const auto where = [&] { return fmt::format("{}: {}", name().string(), describe(place)); };
     if (records.size() - at < kMcapRecordHead) fail("{}: expected a record", where());
     McapFieldReader in(records.substr(at), "");
     const auto kind = static_cast<McapRecord>(in.get<std::uint8_t>());
@@ -166,16 +141,6 @@ void McapFile::read_metadata(const Record& record) {
   }
 }
 
-std::shared_ptr<const std::string> McapFile::chunk_at(std::uint64_t at) const {
-  const std::lock_guard lock(mutex_);
-  if (latest_ == nullptr || latest_at_ != at) {
-    latest_.reset();
-    latest_ = std::make_shared<const std::string>(unpack_chunk(at));
-    latest_at_ = at;
-  }
-  return latest_;
-}
-
 std::string McapFile::unpack_chunk(std::uint64_t at) const {
   const std::string head = read_bytes(at - sizeof(std::uint64_t), sizeof(std::uint64_t));
   const auto size = McapFieldReader(head, place_text(at)).get<std::uint64_t>();
@@ -200,16 +165,6 @@ std::string McapFile::unpack_chunk(std::uint64_t at) const {
     fail("{}: the chunk is damaged: its checksum differs", place_text(at));
   }
   return records;
-}
-
-std::string McapFile::read(const MessagePlace& place) const {
-  if (!place.chunked) return read_bytes(place.offset, place.size);
-  const std::shared_ptr<const std::string> chunk = chunk_at(place.block);
-  if (place.offset > chunk->size() || place.size > chunk->size() - place.offset) {
-    fail("{}: expected {} bytes at byte {} of the chunk", place_text(place.block), place.size,
-         place.offset);
-  }
-  return chunk->substr(place.offset, place.size);
 }
 
 }  // namespace vinebench::harness

@@ -3,25 +3,21 @@
 #pragma once
 
 #include <map>
-#include <memory>
-#include <mutex>
 
-#include "core/files/input_file.h"
-#include "harness/datasets/ros2/bag/bag_file.h"
+#include "harness/datasets/ros2/bag/chunked_file.h"
 #include "harness/datasets/ros2/mcap/mcap_fields.h"
 
 namespace vinebench::harness {
 
 /// An MCAP file, read from its beginning without the index, which a recording that was interrupted
-/// lacks and a broken file may have wrong. Chunks may be compressed by Zstandard. Checksums of
+/// lacks and a broken file may have wrong. Chunks may be compressed by
+/// Zstandard or LZ4. Checksums of
 /// chunks are compared where there are any.
-class McapFile : public BagFile {
+class McapFile : public ChunkedFile {
  public:
   explicit McapFile(const std::filesystem::path& file);
 
   void scan(const std::function<void(const BagMessage&)>& take) override;
-  std::string read(const MessagePlace& place) const override;
-  std::string describe(const MessagePlace& place) const override;
   std::string cut_off() const override { return cut_off_; }
   std::int64_t start() const override { return start_; }
 
@@ -38,8 +34,6 @@ class McapFile : public BagFile {
     std::uint64_t size = 0;
   };
 
-  std::string place_text(std::uint64_t byte) const;
-  std::string read_bytes(std::uint64_t at, std::uint64_t size) const;
   /// False at the end of the data; sets cut_off_.
   bool next_record(std::uint64_t& at, Record& record);
   void take_record(const Record& record, const Take& take);
@@ -50,19 +44,13 @@ class McapFile : public BagFile {
                     const Take& take);
   void take_chunk(const Record& record, const Take& take);
   void read_metadata(const Record& record);
-  /// The records of the chunk whose fields are at that byte; of the latest one once only.
-  std::shared_ptr<const std::string> chunk_at(std::uint64_t at) const;
-  std::string unpack_chunk(std::uint64_t at) const;
+  /// Of the chunk whose fields are at that byte.
+  std::string unpack_chunk(std::uint64_t at) const override;
 
-  std::filesystem::path name_;
-  InputFile file_;
   std::map<std::uint16_t, std::string> schemas_;
   std::map<std::uint16_t, Channel> channels_;
   std::string cut_off_;
   std::int64_t start_ = 0;
-  mutable std::mutex mutex_;  ///< of the following
-  mutable std::uint64_t latest_at_ = 0;
-  mutable std::shared_ptr<const std::string> latest_;
 };
 
 }  // namespace vinebench::harness
