@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/frame.h"
-#include "core/geometry/pair_calibration.h"
 #include "core/geometry/pose.h"
+#include "core/geometry/rig_calibration.h"
 #include "core/trajectory.h"
 #include "core/util/stage_timer.h"
 
@@ -106,9 +106,9 @@ struct Estimate {
   std::vector<RejectedTag>
       rejected_tags;  ///< of these; only while there is a pose to gate them with
   std::optional<LoopClosure> loop_closure;
-  /// Of each stereo pair in use: by what its calibration was found to be off at this frame, and
-  /// corrected from here on. Empty if nothing was found.
-  std::vector<PairCalibration> calibration;
+  /// By what the rig's calibration was found to be off at this frame, and corrected from here on.
+  /// Empty if nothing was found.
+  RigCalibration calibration;
 };
 
 /// The final result of a SLAM system, after all corrections.

@@ -3,11 +3,13 @@
 #include "slam/pipeline.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/util/error.h"
 #include "slam/frame/measurements.h"
 #include "slam/loop/loop_correction.h"
 #include "slam/tags/tag_sightings.h"
+#include "slam/tags/tag_times.h"
 #include "slam/tracking/keyframe_selector.h"
 
 namespace vinebench::slam {
@@ -63,9 +65,7 @@ Estimate Pipeline::process(const std::shared_ptr<FrameFeatures>& frame) {
   join_due_mapping();
   correct_stereo(*frame);
   TrackedFrame tracked = locate(frame);
-  for (TagSighting& tag : frame->tags) {
-    bring_to_stamp(frame->velocity, loop_closer_.gates().cameras(), tag);
-  }
+  bring_tags_to_stamp(*frame);
   Estimate estimate = report_of(tracked, rig_.rig, status(tracked));
   gate_tags(tracked, estimate);
   if (wants_new_keyframe(tracked)) map_keyframe(tracked, estimate);
@@ -74,6 +74,13 @@ Estimate Pipeline::process(const std::shared_ptr<FrameFeatures>& frame) {
   record_pose(tracked, estimate);
   supporting_.keep(tracked);
   return estimate;
+}
+
+void Pipeline::bring_tags_to_stamp(FrameFeatures& frame) const {
+  for (TagSighting& tag : frame.tags) {
+    tag.late += rig_.tag_time(tag.camera);
+    bring_to_stamp(frame.velocity, rig_.tag_cameras, tag);
+  }
 }
 
 void Pipeline::join_due_mapping() {
@@ -373,7 +380,7 @@ void Pipeline::believe_gravity() {
   if (map_.gravity()) tracker_.believe_gravity(map_.gravity()->gravity);
 }
 
-/// Makes good an error of the pairs' calibration, in the map and from here on.
+/// Makes good an error of the rig's calibration, in the map and from here on.
 void Pipeline::calibrate(Estimate& estimate) {
   const auto found = calibration_.after_keyframe(map_, rig_, mapper_.adjustment_options(), times_);
   if (!found) return;
@@ -384,9 +391,13 @@ void Pipeline::calibrate(Estimate& estimate) {
   estimate.calibration = *found;
 }
 
-void Pipeline::use_calibration(const std::vector<PairCalibration>& pairs) {
-  rig_ = rig_.with_calibration(pairs);
-  map_.calibration() = pairs;
+void Pipeline::use_calibration(const RigCalibration& found) {
+  const EstimatorRig before = std::exchange(rig_, rig_.with_calibration(found));
+  map_.calibration() = found;
+  for (const int camera : rig_.rig.tag_cameras) {
+    const double later = rig_.tag_time(camera) - before.tag_time(camera);
+    take_tags_later(camera, later, rig_.tag_cameras, map_);
+  }
 }
 
 }  // namespace vinebench::slam

@@ -55,6 +55,7 @@ class Pipeline {
   void join_due_mapping();
   void correct_stereo(FrameFeatures& frame) const;
   TrackedFrame locate(const std::shared_ptr<FrameFeatures>& frame);
+  void bring_tags_to_stamp(FrameFeatures& frame) const;
   void gate_tags(TrackedFrame& tracked, Estimate& estimate);
   static void release_images(FrameFeatures& frame);
   void record_tags(const TrackedFrame& tracked);
@@ -79,7 +80,7 @@ class Pipeline {
   void take_calibration(Estimate& estimate);
   void believe_gravity();
   void calibrate(Estimate& estimate);
-  void use_calibration(const std::vector<PairCalibration>& pairs);
+  void use_calibration(const RigCalibration& found);
   Matrix6d covariance(const TrackedFrame& tracked, bool keyframe) const;
   TrackingStatus status(const TrackedFrame& tracked) const;
 

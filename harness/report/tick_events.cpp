@@ -130,10 +130,10 @@ void TickEvents::add_rejections() {
 }
 
 void TickEvents::add_calibration() {
-  const std::vector<PairCalibration>& pairs = tick_->estimate.calibration;
-  if (pairs.empty()) return;
+  const RigCalibration& calibration = tick_->estimate.calibration;
+  if (calibration.empty()) return;
   Json found = Json::array();
-  for (const PairCalibration& pair : pairs) {
+  for (const PairCalibration& pair : calibration.pairs) {
     const Eigen::Vector3d& p = pair.T_nominal_camera.translation;
     const Eigen::Vector3d turn = log_so3(pair.T_nominal_camera.rotation) * 180 / std::numbers::pi;
     const Eigen::Vector3d eye = pair.right_turn * 180 / std::numbers::pi;
@@ -149,7 +149,7 @@ void TickEvents::add_calibration() {
                      {"right_turn_deg", {eye.x(), eye.y(), eye.z()}},
                      {"right_ahead", pair.right_ahead}});
   }
-  add("calibrated", {{"pairs", found}});
+  add("calibrated", {{"pairs", found}, {"tag_times_s", calibration.tag_times}});
 }
 
 Json TickEvents::describe(const TagKey& tag, std::optional<double> distance) const {

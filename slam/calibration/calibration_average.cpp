@@ -11,7 +11,7 @@ namespace vinebench::slam {
 namespace {
 
 /// Of more pairs the numbers of all are wrong together: there were too many sets of causes.
-constexpr Eigen::Index kMostPairsApart = 2;
+constexpr std::size_t kMostPairsApart = 2;
 
 /// Sets of causes that are less likely change nothing.
 constexpr double kLeastWeight = 1e-9;
@@ -19,34 +19,40 @@ constexpr double kLeastWeight = 1e-9;
 /// Numbers that differ from the rig file together.
 using Cause = std::vector<Eigen::Index>;
 
-/// What may be wrong with a rig of so many unknowns: a pair's mounting, its lenses and so on. Of
-/// times and baselines a drive shows by how much the pairs differ from each other, seldom which of
-/// them it is: they are wrong for all pairs or for none.
-std::vector<Cause> possible_causes(Eigen::Index unknowns) {
-  const auto of_all_pairs = [unknowns](Eigen::Index first, Eigen::Index count) {
+/// What may be wrong with a rig of so many pairs: a pair's mounting, its lenses, its clock and so
+/// on, and the clocks of the cameras for tags, whose times are the other numbers. Of baselines a
+/// drive shows by how much the pairs differ from each other, seldom which of them it is: they are
+/// wrong for all pairs or for none.
+std::vector<Cause> possible_causes(std::size_t pairs, Eigen::Index unknowns) {
+  const Eigen::Index of_pairs = kPairUnknowns * static_cast<Eigen::Index>(pairs);
+  const auto of_all_pairs = [of_pairs](Eigen::Index first, Eigen::Index count) {
     Cause cause;
-    for (Eigen::Index pair = 0; pair < unknowns; pair += kPairUnknowns) {
+    for (Eigen::Index pair = 0; pair < of_pairs; pair += kPairUnknowns) {
       for (Eigen::Index i = first; i < first + count; ++i) cause.push_back(pair + i);
     }
     return cause;
   };
-  std::vector<Cause> causes{of_all_pairs(PairNumber::kBaseline, 1),
-                            of_all_pairs(PairNumber::kTime, 1)};
+  std::vector<Cause> causes{of_all_pairs(PairNumber::kBaseline, 1)};
   struct Range {
     Eigen::Index first, count;
   };
   for (const auto& [first, count] :
-       {Range{PairNumber::kPlace, 6}, Range{PairNumber::kDisparityOffset, 1},
-        Range{PairNumber::kDisparitySlope, 1}, Range{PairNumber::kFocal, 1},
-        Range{PairNumber::kReadout, 1}, Range{PairNumber::kPrincipalPoint, 6}}) {
-    if (unknowns > kMostPairsApart * kPairUnknowns) {
+       {Range{PairNumber::kTime, 1}, Range{PairNumber::kPlace, 6},
+        Range{PairNumber::kDisparityOffset, 1}, Range{PairNumber::kDisparitySlope, 1},
+        Range{PairNumber::kFocal, 1}, Range{PairNumber::kReadout, 1},
+        Range{PairNumber::kPrincipalPoint, 6}}) {
+    if (pairs > kMostPairsApart) {
       causes.push_back(of_all_pairs(first, count));
       continue;
     }
-    for (Eigen::Index pair = 0; pair < unknowns; pair += kPairUnknowns) {
+    for (Eigen::Index pair = 0; pair < of_pairs; pair += kPairUnknowns) {
       Cause& cause = causes.emplace_back();
       for (Eigen::Index i = 0; i < count; ++i) cause.push_back(pair + first + i);
     }
+  }
+  if (unknowns > of_pairs) {
+    Cause& times = causes.emplace_back();
+    for (Eigen::Index i = of_pairs; i < unknowns; ++i) times.push_back(i);
   }
   return causes;
 }
@@ -140,9 +146,10 @@ class Evidence {
 
 }  // namespace
 
-CalibrationAverage average(const CalibrationBelief& now, const CalibrationBelief& prior) {
+CalibrationAverage average(const CalibrationBelief& now, const CalibrationBelief& prior,
+                           std::size_t pairs) {
   const Eigen::Index size = now.information_vector.size();
-  const std::vector<Cause> causes = possible_causes(size);
+  const std::vector<Cause> causes = possible_causes(pairs, size);
   std::vector<double> logarithms = Evidence(now, prior, causes).logarithms();
   const std::size_t sets = logarithms.size();
   for (std::size_t set = 1; set < sets; ++set) {

@@ -17,8 +17,9 @@ struct CalibrationAverage {
 /// The mean over all sets of causes that may be at work, by their evidence (Hoeting et al.,
 /// "Bayesian model averaging: a tutorial", 1999), where every second rig file is right, and in a
 /// wrong one each cause is at work or not with equal chances. `prior` is the file's accuracy, `now`
-/// that and what was seen; both have full rank. What a set of causes explains is weighed against
-/// what its vagueness promised in vain, so that nothing is a matter of a threshold.
-CalibrationAverage average(const CalibrationBelief& now, const CalibrationBelief& prior);
+/// that and what was seen, both of so many pairs and of full rank. What a set of causes explains is
+/// weighed against what its vagueness promised in vain, so that nothing is a matter of a threshold.
+CalibrationAverage average(const CalibrationBelief& now, const CalibrationBelief& prior,
+                           std::size_t pairs);
 
 }  // namespace vinebench::slam

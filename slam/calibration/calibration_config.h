@@ -22,6 +22,7 @@ struct CalibrationConfig {
   double tag_size = 0.001;               ///< share, of the sides of tags
   double tag_camera_position = 0.002;    ///< m, of the cameras that see tags
   double tag_camera_rotation_deg = 0.1;  ///< degrees, likewise
+  double tag_camera_time = 0.005;        ///< s, likewise
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -38,6 +39,7 @@ struct CalibrationConfig {
     archive("tag_size", tag_size, Range::positive());
     archive("tag_camera_position", tag_camera_position, Range::positive());
     archive("tag_camera_rotation_deg", tag_camera_rotation_deg, Range::positive());
+    archive("tag_camera_time", tag_camera_time, Range::positive());
   }
 };
 

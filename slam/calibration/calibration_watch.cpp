@@ -48,23 +48,31 @@ AdjustmentWindow keyframes_between(std::size_t begin, std::size_t end) {
   return window;
 }
 
+CalibrationBelief nothing_of(const EstimatorRig& rig) {
+  return CalibrationBelief::nothing(rig.rig.pairs.size(), rig.rig.tag_cameras.size());
+}
+
 /// The rig file's accuracy.
 CalibrationBelief belief_of(const CalibrationConfig& accuracy, double disparity_sigma,
                             const EstimatorRig& rig) {
-  Eigen::Matrix<double, kPairUnknowns, 1> sigma;
-  sigma << Eigen::Vector3d::Constant(accuracy.position),
+  Eigen::Matrix<double, kPairUnknowns, 1> pair;
+  pair << Eigen::Vector3d::Constant(accuracy.position),
       Eigen::Vector3d::Constant(accuracy.rotation_deg * std::numbers::pi / 180), disparity_sigma,
       accuracy.disparity_slope, accuracy.focal, accuracy.baseline, accuracy.time, accuracy.readout,
       Eigen::Vector2d::Constant(accuracy.principal_point),
       Eigen::Vector3d::Constant(accuracy.right_turn_deg * std::numbers::pi / 180),
       accuracy.right_ahead;
-  if (rig.rig.pairs.size() == 1) {
+  const auto pairs = static_cast<Eigen::Index>(rig.rig.pairs.size());
+  const auto tag_cameras = static_cast<Eigen::Index>(rig.rig.tag_cameras.size());
+  Eigen::VectorXd sigma(pairs * kPairUnknowns + tag_cameras);
+  sigma << pair.replicate(pairs, 1),
+      Eigen::VectorXd::Constant(tag_cameras, accuracy.tag_camera_time);
+  if (pairs == 1) {
     sigma *= kExact;
     sigma[PairNumber::kDisparityOffset] = disparity_sigma;
   }
-  CalibrationBelief belief = CalibrationBelief::nothing(rig.rig.pairs.size());
-  belief.information.diagonal() = sigma.cwiseAbs2().cwiseInverse().replicate(
-      static_cast<Eigen::Index>(rig.rig.pairs.size()), 1);
+  CalibrationBelief belief = nothing_of(rig);
+  belief.information.diagonal() = sigma.cwiseAbs2().cwiseInverse();
   return belief;
 }
 
@@ -103,9 +111,10 @@ double unlikeliness(const CalibrationBelief& belief, const Eigen::VectorXd& cali
 CalibrationWatch::CalibrationWatch(const CalibrationConfig& accuracy, double disparity_sigma,
                                    const EstimatorRig& rig)
     : accuracy_(accuracy),
+      pairs_(rig.rig.pairs.size()),
       prior_(belief_of(accuracy, disparity_sigma, rig)),
-      parts_(CalibrationBelief::nothing(rig.rig.pairs.size())),
-      average_(average(prior_, prior_)),
+      parts_(nothing_of(rig)),
+      average_(average(prior_, prior_, pairs_)),
       drift_(Eigen::MatrixXd::Zero(6, prior_.information.cols())) {}
 
 bool CalibrationWatch::due(const Map& map) const {
@@ -124,8 +133,8 @@ void CalibrationWatch::feel(const Map& map, const EstimatorRig& rig,
   keep_drift(few->calibration(), kFew);
 }
 
-std::optional<std::vector<PairCalibration>> CalibrationWatch::look(
-    const Map& map, const EstimatorRig& rig, const AdjustmentOptions& options) {
+std::optional<RigCalibration> CalibrationWatch::look(const Map& map, const EstimatorRig& rig,
+                                                     const AdjustmentOptions& options) {
   const auto part = begin_look(map, rig, options);
   part->solve();
   return finish_look(part->calibration(), rig);
@@ -138,24 +147,24 @@ std::unique_ptr<AdjustmentJob> CalibrationWatch::begin_look(const Map& map, cons
   return job(kPart, map, rig, options);
 }
 
-std::optional<std::vector<PairCalibration>> CalibrationWatch::finish_look(
-    const CalibrationMarginal& found, const EstimatorRig& rig) {
+std::optional<RigCalibration> CalibrationWatch::finish_look(const CalibrationMarginal& found,
+                                                            const EstimatorRig& rig) {
   const CalibrationBelief part = found.belief + prior_ * -1;
   if (!part.information.allFinite() || !part.information_vector.allFinite()) return std::nullopt;
   keep_drift(found, kPart);
   add(part);
   const CalibrationBelief now = known();
-  average_ = average(now, prior_);
-  if (rig.calibration.size() == 1) return look_at_one_pair(now, rig);
+  average_ = average(now, prior_, pairs_);
+  if (pairs_ == 1) return look_at_one_pair(now, rig);
   const Eigen::VectorXd& better = average_.mean;
   const double gain = unlikeliness(now, to_vector(rig.calibration)) - unlikeliness(now, better);
   if (gain < chi_squared_at(kThousandth, static_cast<double>(better.size()))) return std::nullopt;
   replaced_ = true;
-  return from_vector(better);
+  return from_vector(better, pairs_);
 }
 
-std::optional<std::vector<PairCalibration>> CalibrationWatch::look_at_one_pair(
-    const CalibrationBelief& now, const EstimatorRig& rig) {
+std::optional<RigCalibration> CalibrationWatch::look_at_one_pair(const CalibrationBelief& now,
+                                                                 const EstimatorRig& rig) {
   if (replaced_) return std::nullopt;
   Eigen::VectorXd better = Eigen::VectorXd::Zero(now.information_vector.size());
   better[PairNumber::kDisparityOffset] =
@@ -163,17 +172,17 @@ std::optional<std::vector<PairCalibration>> CalibrationWatch::look_at_one_pair(
       now.information(PairNumber::kDisparityOffset, PairNumber::kDisparityOffset);
   const double gain = unlikeliness(now, to_vector(rig.calibration)) - unlikeliness(now, better);
   const double change =
-      better[PairNumber::kDisparityOffset] - rig.calibration.front().disparity_offset;
+      better[PairNumber::kDisparityOffset] - rig.calibration.pairs.front().disparity_offset;
   if (std::abs(change) < kLeastOfOnePair || gain < chi_squared_at(kThousandth, 1)) {
     return std::nullopt;
   }
   replaced_ = true;
-  return from_vector(better);
+  return from_vector(better, pairs_);
 }
 
-std::optional<std::vector<PairCalibration>> CalibrationWatch::latest() const {
-  if (!replaced_ || prior_.information.rows() == kPairUnknowns) return std::nullopt;
-  return from_vector(average_.mean);
+std::optional<RigCalibration> CalibrationWatch::latest() const {
+  if (!replaced_ || pairs_ == 1) return std::nullopt;
+  return from_vector(average_.mean, pairs_);
 }
 
 std::unique_ptr<AdjustmentJob> CalibrationWatch::job(std::size_t keyframes, const Map& map,

@@ -12,17 +12,18 @@
 
 namespace vinebench::slam {
 
-/// Watches by what the pairs' calibrations are off, as the map itself shows it.
+/// Watches by what the rig's calibration is off, as the map itself shows it.
 ///
 /// A camera that looks a little to the side of where the rig file has it measures all disparities
 /// wrong by the same number of pixels; then what is near and what is far tell of different scales.
 /// A pair that is mounted otherwise, or triggered at another time, sees the body move otherwise
 /// than the other pairs do, and than a tag camera sees it move past a tag, which also is a measure
-/// of length (TagMeasures). So each dozen of keyframes is adjusted by itself with PairCalibration
-/// as further unknowns. What it says of them, while all its poses and landmarks are unknown too, is
-/// added up over the drive, beside the rig file's own accuracy, so that what the motion does not
-/// show stays where the file has it. A calibration is replaced where the likelihood ratio of what
-/// is known then is beyond chance.
+/// of length (TagMeasures); and where a tag camera has a time of its own, what it sees of a tag is
+/// ahead or behind as the body speeds up or turns. So each dozen of keyframes is adjusted by itself
+/// with PairCalibration and the tag cameras' times as further unknowns. What it says of them, while
+/// all its poses and landmarks are unknown too, is added up over the drive, beside the rig file's
+/// own accuracy, so that what the motion does not show stays where the file has it. A calibration
+/// is replaced where the likelihood ratio of what is known then is beyond chance.
 ///
 /// How much the dozens differ from each other tells how far their information is to be trusted:
 /// errors that are no property of the cameras (leaves in the wind, noise of other kinds) make them
@@ -50,17 +51,17 @@ class CalibrationWatch {
 
   /// Looks at the latest keyframes. The calibrations, where they are now known to
   /// differ from the rig's; otherwise none. The map is not touched.
-  std::optional<std::vector<PairCalibration>> look(const Map& map, const EstimatorRig& rig,
-                                                   const AdjustmentOptions& options);
+  std::optional<RigCalibration> look(const Map& map, const EstimatorRig& rig,
+                                     const AdjustmentOptions& options);
 
   /// look() in two steps, between which the first one's job is to be solved, on any thread.
   std::unique_ptr<AdjustmentJob> begin_look(const Map& map, const EstimatorRig& rig,
                                             const AdjustmentOptions& options);
-  std::optional<std::vector<PairCalibration>> finish_look(const CalibrationMarginal& found,
-                                                          const EstimatorRig& rig);
+  std::optional<RigCalibration> finish_look(const CalibrationMarginal& found,
+                                            const EstimatorRig& rig);
 
   /// The calibrations as they are known now, if they were replaced once.
-  std::optional<std::vector<PairCalibration>> latest() const;
+  std::optional<RigCalibration> latest() const;
 
   /// What is known of the calibrations now.
   CalibrationBelief known() const;
@@ -78,12 +79,13 @@ class CalibrationWatch {
   std::unique_ptr<AdjustmentJob> job(std::size_t keyframes, const Map& map, const EstimatorRig& rig,
                                      const AdjustmentOptions& options) const;
   void keep_drift(const CalibrationMarginal& marginal, std::size_t keyframes);
-  std::optional<std::vector<PairCalibration>> look_at_one_pair(const CalibrationBelief& now,
-                                                               const EstimatorRig& rig);
+  std::optional<RigCalibration> look_at_one_pair(const CalibrationBelief& now,
+                                                 const EstimatorRig& rig);
   void add(const CalibrationBelief& part);
   double spread() const;
 
   CalibrationConfig accuracy_;
+  std::size_t pairs_;
   CalibrationBelief prior_;
   CalibrationBelief parts_;                    ///< sum of what the dozens say
   std::optional<CalibrationBelief> stranger_;  ///< the last one, if it contradicts the others

@@ -6,34 +6,46 @@
 
 namespace vinebench::slam {
 
-Eigen::VectorXd to_vector(const std::vector<PairCalibration>& pairs) {
-  Eigen::VectorXd unknowns(kPairUnknowns * static_cast<Eigen::Index>(pairs.size()));
+namespace {
+
+Eigen::Index count_numbers(std::size_t pairs, std::size_t tag_cameras) {
+  return kPairUnknowns * static_cast<Eigen::Index>(pairs) + static_cast<Eigen::Index>(tag_cameras);
+}
+
+}  // namespace
+
+Eigen::VectorXd to_vector(const RigCalibration& rig) {
+  Eigen::VectorXd unknowns(count_numbers(rig.pairs.size(), rig.tag_times.size()));
   Eigen::Index at = 0;
-  for (const PairCalibration& pair : pairs) {
+  for (const PairCalibration& pair : rig.pairs) {
     unknowns.segment<kPairUnknowns>(at) << pair.T_nominal_camera.translation,
         log_so3(pair.T_nominal_camera.rotation), pair.disparity_offset, pair.disparity_slope,
         pair.focal, pair.baseline, pair.time, pair.readout, pair.principal_point, pair.right_turn,
         pair.right_ahead;
     at += kPairUnknowns;
   }
+  for (const double time : rig.tag_times) unknowns[at++] = time;
   return unknowns;
 }
 
-std::vector<PairCalibration> from_vector(const Eigen::VectorXd& unknowns) {
-  std::vector<PairCalibration> pairs;
-  for (Eigen::Index at = 0; at < unknowns.size(); at += kPairUnknowns) {
+RigCalibration from_vector(const Eigen::VectorXd& unknowns, std::size_t pairs) {
+  RigCalibration rig;
+  Eigen::Index at = 0;
+  for (; rig.pairs.size() < pairs; at += kPairUnknowns) {
     const auto numbers = unknowns.segment<kPairUnknowns>(at);
-    pairs.push_back({step_of(numbers.head<6>()), numbers[PairNumber::kDisparityOffset],
-                     numbers[PairNumber::kDisparitySlope], numbers[PairNumber::kFocal],
-                     numbers[PairNumber::kBaseline], numbers[PairNumber::kTime],
-                     numbers[PairNumber::kReadout], numbers.segment<2>(PairNumber::kPrincipalPoint),
-                     numbers.segment<3>(PairNumber::kRightTurn), numbers[PairNumber::kRightAhead]});
+    rig.pairs.push_back(
+        {step_of(numbers.head<6>()), numbers[PairNumber::kDisparityOffset],
+         numbers[PairNumber::kDisparitySlope], numbers[PairNumber::kFocal],
+         numbers[PairNumber::kBaseline], numbers[PairNumber::kTime], numbers[PairNumber::kReadout],
+         numbers.segment<2>(PairNumber::kPrincipalPoint),
+         numbers.segment<3>(PairNumber::kRightTurn), numbers[PairNumber::kRightAhead]});
   }
-  return pairs;
+  rig.tag_times.assign(unknowns.begin() + at, unknowns.end());
+  return rig;
 }
 
-CalibrationBelief CalibrationBelief::nothing(std::size_t pairs) {
-  const Eigen::Index n = kPairUnknowns * static_cast<Eigen::Index>(pairs);
+CalibrationBelief CalibrationBelief::nothing(std::size_t pairs, std::size_t tag_cameras) {
+  const Eigen::Index n = count_numbers(pairs, tag_cameras);
   return {Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
 }
 

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/geometry/pair_calibration.h"
+#include "core/geometry/rig_calibration.h"
 
 namespace vinebench::slam {
 
@@ -31,17 +31,18 @@ struct PairNumber {
   };
 };
 
-/// The calibrations of all pairs as one vector and back; kPairUnknowns numbers each.
-Eigen::VectorXd to_vector(const std::vector<PairCalibration>& pairs);
-std::vector<PairCalibration> from_vector(const Eigen::VectorXd& unknowns);
+/// A rig's calibration as one vector and back: kPairUnknowns numbers of each pair, then the times
+/// of the cameras for tags.
+Eigen::VectorXd to_vector(const RigCalibration& rig);
+RigCalibration from_vector(const Eigen::VectorXd& unknowns, std::size_t pairs);
 
-/// What is known of the calibrations of all pairs: a Gaussian over to_vector(), in information form
-/// so that what several parts of a drive say adds up, and says nothing where it is zero.
+/// What is known of a rig's calibration: a Gaussian over to_vector(), in information form so that
+/// what several parts of a drive say adds up, and says nothing where it is zero.
 struct CalibrationBelief {
   Eigen::MatrixXd information;         ///< inverse covariance
   Eigen::VectorXd information_vector;  ///< information times mean
 
-  static CalibrationBelief nothing(std::size_t pairs);
+  static CalibrationBelief nothing(std::size_t pairs, std::size_t tag_cameras = 0);
 
   /// Both need an information of full rank.
   Eigen::VectorXd mean() const;
@@ -55,7 +56,7 @@ struct CalibrationBelief {
   }
 };
 
-/// What an adjustment says of the calibrations, and what these do to its last pose.
+/// What an adjustment says of the calibration, and what that does to its last pose.
 struct CalibrationMarginal {
   CalibrationBelief belief;
   /// Step of the last keyframe's pose, against the first one's, for a calibration's number that is

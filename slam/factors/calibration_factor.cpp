@@ -19,6 +19,9 @@ CalibrationFactor::CalibrationFactor(std::vector<Pose> T_body_nominal,
     mutable_parameter_block_sizes()->push_back(7);
     mutable_parameter_block_sizes()->push_back(kLensUnknowns);
   }
+  for (Eigen::Index at = begin_of_times(); at < mean_.size(); ++at) {
+    mutable_parameter_block_sizes()->push_back(1);
+  }
 }
 
 bool CalibrationFactor::Evaluate(double const* const* parameters, double* residuals,
@@ -31,6 +34,8 @@ bool CalibrationFactor::Evaluate(double const* const* parameters, double* residu
         log_so3(off.rotation),
         Eigen::Map<const Eigen::Matrix<double, kLensUnknowns, 1>>(parameters[2 * v + 1]);
   }
+  double const* const* times = parameters + 2 * T_body_nominal_.size();
+  for (Eigen::Index at = begin_of_times(); at < mean_.size(); ++at) unknowns[at] = **times++;
   Eigen::Map<Eigen::VectorXd>(residuals, mean_.size()) = root_ * (unknowns - mean_);
   if (jacobians == nullptr) return true;
   for (std::size_t v = 0; v < T_body_nominal_.size(); ++v) {
@@ -52,6 +57,10 @@ bool CalibrationFactor::Evaluate(double const* const* parameters, double* residu
           jacobians[2 * v + 1], mean_.size(), kLensUnknowns);
       J = root_.middleCols<kLensUnknowns>(at + 6);
     }
+  }
+  double** by_time = jacobians + 2 * T_body_nominal_.size();
+  for (Eigen::Index at = begin_of_times(); at < mean_.size(); ++at, ++by_time) {
+    if (*by_time != nullptr) Eigen::Map<Eigen::VectorXd>(*by_time, mean_.size()) = root_.col(at);
   }
   return true;
 }

@@ -8,9 +8,9 @@
 
 namespace vinebench::slam {
 
-/// Holds the pairs' calibrations where a belief has them: parameters are, of each pair, the left
-/// camera's T_body_cam (7, as PoseManifold has it) and the other numbers (6); residuals are
-/// standard deviations.
+/// Holds a rig's calibration where a belief has it: parameters are, of each pair, the left camera's
+/// T_body_cam (7, as PoseManifold has it) and the other numbers (12), then the time of each camera
+/// for tags (1); residuals are standard deviations.
 class CalibrationFactor : public ceres::CostFunction {
  public:
   /// `T_body_nominal`: the left cameras as the rig file has them.
@@ -20,6 +20,11 @@ class CalibrationFactor : public ceres::CostFunction {
                 double** jacobians) const override;
 
  private:
+  /// Where the times of the cameras for tags begin in to_vector().
+  Eigen::Index begin_of_times() const {
+    return kPairUnknowns * static_cast<Eigen::Index>(T_body_nominal_.size());
+  }
+
   std::vector<Pose> T_body_nominal_;
   Eigen::MatrixXd root_;  ///< of the information: root' root
   Eigen::VectorXd mean_;

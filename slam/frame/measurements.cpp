@@ -22,26 +22,34 @@ PixelMeasurement measure(const StereoView& view, int feature, const MeasurementN
   return m;
 }
 
-Pose view_pose(const FrameFeatures& frame, std::size_t view, const Pose& T_map_body) {
-  const double late = frame.views[view].late;
+Pose row_pose(const FrameFeatures& frame, std::size_t view, double row, const Pose& T_map_body,
+              const EstimatorRig& rig) {
+  const double late = frame.views[view].late + rig.left_cameras[view].time_of(row);
   return late == 0 ? T_map_body : T_map_body * step_of(frame.velocity * late);
 }
 
-std::vector<Pose> view_poses(const FrameFeatures& frame, const Pose& T_map_body) {
+Pose view_pose(const FrameFeatures& frame, std::size_t view, const Pose& T_map_body,
+               const EstimatorRig& rig) {
+  return row_pose(frame, view, 0.5 * rig.left_cameras[view].lens.height, T_map_body, rig);
+}
+
+std::vector<Pose> view_poses(const FrameFeatures& frame, const Pose& T_map_body,
+                             const EstimatorRig& rig) {
   std::vector<Pose> poses;
   for (std::size_t v = 0; v < frame.views.size(); ++v) {
-    poses.push_back(view_pose(frame, v, T_map_body));
+    poses.push_back(view_pose(frame, v, T_map_body, rig));
   }
   return poses;
 }
 
-Eigen::Vector3d stereo_point(const StereoView& view, int feature, const PinholeCamera& lens,
-                             const Pose& T_map_body, const Pose& T_body_cam) {
+Eigen::Vector3d stereo_point(const FrameFeatures& frame, std::size_t view, int feature,
+                             const Pose& T_map_body, const EstimatorRig& rig) {
   const auto f = static_cast<std::size_t>(feature);
-  const Keypoint& keypoint = view.features.keypoints[f];
-  const Eigen::Vector3d ray = lens.unproject({keypoint.x, keypoint.y});
-  const Eigen::Vector3d p_cam = ray * static_cast<double>(view.stereo[f].depth);
-  return T_map_body * (T_body_cam * p_cam);
+  const Keypoint& keypoint = frame.views[view].features.keypoints[f];
+  const Eigen::Vector3d ray = rig.left_cameras[view].lens.unproject({keypoint.x, keypoint.y});
+  const Eigen::Vector3d p_cam = ray * static_cast<double>(frame.views[view].stereo[f].depth);
+  const Pose T_map_then = row_pose(frame, view, keypoint.y, T_map_body, rig);
+  return T_map_then * (rig.T_body_cams[view] * p_cam);
 }
 
 void correct_depths(const StereoCameraModel& camera, double max_depth_baselines, StereoView& view) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "slam/camera/estimator_rig.h"
 #include "slam/camera/measurement_noise.h"
 #include "slam/camera/stereo_camera.h"
 #include "slam/factors/reprojection.h"
@@ -12,14 +13,20 @@ namespace vinebench::slam {
 /// The measurement that a feature is: its pixel, its stereo match where it has one, its noise.
 PixelMeasurement measure(const StereoView& view, int feature, const MeasurementNoise& noise);
 
-/// The body's pose when a view was taken, by the frame's velocity.
-Pose view_pose(const FrameFeatures& frame, std::size_t view, const Pose& T_map_body);
+/// The body's pose when a row of a view's image was exposed, by the image's own stamp, the pair's
+/// times as they were found, and the frame's velocity.
+Pose row_pose(const FrameFeatures& frame, std::size_t view, double row, const Pose& T_map_body,
+              const EstimatorRig& rig);
+/// Of the row in the middle.
+Pose view_pose(const FrameFeatures& frame, std::size_t view, const Pose& T_map_body,
+               const EstimatorRig& rig);
 /// Of each view.
-std::vector<Pose> view_poses(const FrameFeatures& frame, const Pose& T_map_body);
+std::vector<Pose> view_poses(const FrameFeatures& frame, const Pose& T_map_body,
+                             const EstimatorRig& rig);
 
 /// Where the feature's stereo depth puts it in the map. The feature must have a depth.
-Eigen::Vector3d stereo_point(const StereoView& view, int feature, const PinholeCamera& lens,
-                             const Pose& T_map_body, const Pose& T_body_cam);
+Eigen::Vector3d stereo_point(const FrameFeatures& frame, std::size_t view, int feature,
+                             const Pose& T_map_body, const EstimatorRig& rig);
 
 /// Depths of a view as the camera's disparity offset makes them, none beyond so many baselines;
 /// unchanged where there is no offset.

@@ -9,7 +9,6 @@
 #include <set>
 #include <vector>
 
-#include "core/geometry/pair_calibration.h"
 #include "core/geometry/pose.h"
 #include "core/slam_system.h"
 #include "core/time.h"
@@ -101,9 +100,9 @@ class Map {
   std::vector<MapTag>& tags() { return tags_; }
   const std::vector<MapTag>& tags() const { return tags_; }
 
-  /// What self-calibration found of each view when the map was made; empty for nothing.
-  std::vector<PairCalibration>& calibration() { return calibration_; }
-  const std::vector<PairCalibration>& calibration() const { return calibration_; }
+  /// What self-calibration found of the rig when the map was made; empty for nothing.
+  RigCalibration& calibration() { return calibration_; }
+  const RigCalibration& calibration() const { return calibration_; }
   const MapTag* find_tag(const std::string& family, int id) const;
   /// Whether a tag holds the map: it is fixed, or the only registered one, whose survey says no
   /// more than where the map lies in the world.
@@ -152,7 +151,7 @@ class Map {
   std::vector<Keyframe> keyframes_;
   std::vector<Landmark> landmarks_;
   std::vector<MapTag> tags_;
-  std::vector<PairCalibration> calibration_;
+  RigCalibration calibration_;
   std::optional<MapGravity> gravity_;
   std::optional<Pose> T_map_world_;
 };

@@ -15,7 +15,7 @@ namespace vinebench::slam {
 namespace {
 
 constexpr std::string_view kMagic("vinemap\0", 8);
-constexpr std::uint32_t kVersion = 8;
+constexpr std::uint32_t kVersion = 9;
 constexpr std::uint32_t kOldestVersion = 3;  // without inertial states
 constexpr std::size_t kHeaderSize = 20;      // magic, version, size of the content
 constexpr std::size_t kChecksumSize = 8;
@@ -34,6 +34,12 @@ struct StoredKeyframe {
   std::vector<PatchList> patches;
   std::optional<OdometryLink> link;
   std::optional<InertialState> inertial;
+};
+
+/// RigCalibration::tag_times of a camera, by index into Rig::cameras.
+struct TagTime {
+  int camera = 0;
+  double time = 0;
 };
 
 }  // namespace
@@ -71,6 +77,10 @@ void fields(Archive& archive, PairCalibration& pair) {
   archive(pair.T_nominal_camera, pair.disparity_offset, pair.disparity_slope, pair.focal,
           pair.baseline, pair.time, pair.readout);
   if (archive.version() >= 7) archive(pair.principal_point, pair.right_turn, pair.right_ahead);
+}
+template <class Archive>
+void fields(Archive& archive, TagTime& of) {
+  archive(of.camera, of.time);
 }
 template <class Archive>
 void fields(Archive& archive, Patch& patch) {
@@ -250,16 +260,46 @@ void add(StoredKeyframe keyframe, const EstimatorRig& rig, Map& map, const Binar
 }
 
 /// Before version 6 there were disparity offsets alone.
-std::vector<PairCalibration> read_calibration(BinaryReader& reader) {
-  std::vector<PairCalibration> calibration;
+std::vector<PairCalibration> read_pairs(BinaryReader& reader) {
+  std::vector<PairCalibration> pairs;
   if (reader.version() >= 6) {
-    reader(calibration);
-    return calibration;
+    reader(pairs);
+    return pairs;
   }
   std::vector<double> offsets;
   reader(offsets);
-  for (const double offset : offsets) calibration.push_back({{}, offset});
-  return calibration;
+  for (const double offset : offsets) pairs.push_back({{}, offset});
+  return pairs;
+}
+
+/// Of the cameras in use now: when the map was made, others may have been. Before version 9 there
+/// were none.
+std::vector<double> read_tag_times(BinaryReader& reader, const EstimatorRig& rig) {
+  std::vector<TagTime> read;
+  if (reader.version() >= 9) reader(read);
+  std::vector<double> times;
+  for (const int camera : rig.rig.tag_cameras) {
+    const auto found = std::ranges::find(read, camera, &TagTime::camera);
+    times.push_back(found == read.end() ? 0 : found->time);
+  }
+  return times;
+}
+
+void check(const RigCalibration& calibration, const StereoRig& rig, const BinaryReader& reader) {
+  reader.expect(calibration.empty() || calibration.pairs.size() == rig.pairs.size(),
+                "calibrations of no pair");
+  for (const PairCalibration& pair : calibration.pairs) {
+    const bool finite = std::isfinite(pair.disparity_offset) &&
+                        std::isfinite(pair.disparity_slope) && std::isfinite(pair.time) &&
+                        std::isfinite(pair.readout) && pair.principal_point.allFinite() &&
+                        pair.right_turn.allFinite() && std::isfinite(pair.right_ahead);
+    reader.expect(
+        finite && pair.focal > -1 && pair.focal < 1 && pair.baseline > -1 && pair.baseline < 1,
+        "a pair's calibration");
+  }
+  for (const double time : calibration.tag_times) {
+    reader.expect(std::isfinite(time), "a camera's time");
+  }
 }
 
 Map read_content(BinaryReader& reader, const EstimatorRig& rig, const std::string& where) {
@@ -272,21 +312,13 @@ Map read_content(BinaryReader& reader, const EstimatorRig& rig, const std::strin
   std::vector<Landmark> landmarks;
   std::vector<StoredKeyframe> keyframes;
   reader(level_scale);
-  std::vector<PairCalibration> calibration = read_calibration(reader);
+  RigCalibration calibration;
+  calibration.pairs = read_pairs(reader);
   reader(tags, landmarks, keyframes);
+  calibration.tag_times = read_tag_times(reader, rig);
   reader.expect(reader.at_end(), "it goes on after its end");
   reader.expect(std::isfinite(level_scale) && level_scale > 1, "the pyramid's scale");
-  reader.expect(calibration.empty() || calibration.size() == rig.left_cameras.size(),
-                "calibrations of no pair");
-  for (const PairCalibration& pair : calibration) {
-    const bool finite = std::isfinite(pair.disparity_offset) &&
-                        std::isfinite(pair.disparity_slope) && std::isfinite(pair.time) &&
-                        std::isfinite(pair.readout) && pair.principal_point.allFinite() &&
-                        pair.right_turn.allFinite() && std::isfinite(pair.right_ahead);
-    reader.expect(
-        finite && pair.focal > -1 && pair.focal < 1 && pair.baseline > -1 && pair.baseline < 1,
-        "a pair's calibration");
-  }
+  check(calibration, rig.rig, reader);
   Map map(level_scale);
   map.calibration() = std::move(calibration);
   for (const MapTag& tag : tags)
@@ -310,17 +342,26 @@ Map read_content(BinaryReader& reader, const EstimatorRig& rig, const std::strin
   return map;
 }
 
+std::vector<TagTime> tag_times(const RigCalibration& calibration, const EstimatorRig& rig) {
+  std::vector<TagTime> times;
+  for (std::size_t t = 0; t < calibration.tag_times.size(); ++t) {
+    times.push_back({rig.rig.tag_cameras[t], calibration.tag_times[t]});
+  }
+  return times;
+}
+
 }  // namespace
 
 std::string format_map(const Map& map, const EstimatorRig& rig) {
   std::vector<int> moved_to;
   const std::vector<Landmark> landmarks = living_landmarks(map, moved_to);
   BinaryWriter content(kVersion);
-  content(rig_fingerprint(rig), map.level_scale(), map.calibration(), map.tags(), landmarks,
+  content(rig_fingerprint(rig), map.level_scale(), map.calibration().pairs, map.tags(), landmarks,
           static_cast<std::uint32_t>(map.keyframes().size()));
   for (const Keyframe& keyframe : map.keyframes()) {
     content(stored(keyframe, *map.keyframes().back().frame, moved_to));
   }
+  content(tag_times(map.calibration(), rig));
   BinaryWriter header;
   header(kVersion, static_cast<std::uint64_t>(content.bytes().size()));
   std::string bytes = std::string(kMagic) + header.take() + content.take();

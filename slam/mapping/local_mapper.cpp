@@ -33,9 +33,8 @@ int LocalMapper::insert(const TrackedFrame& tracked, const EstimatorRig& rig, Ma
     for (std::size_t f = 0; f < view.features.size(); ++f) {
       int landmark = map.keyframe(id).landmarks[v][f];
       if (landmark < 0 && f < view.detected() && view.stereo[f].depth > 0) {
-        const Eigen::Vector3d p_map = stereo_point(
-            view, static_cast<int>(f), rig.left_cameras[v].lens,
-            view_pose(*tracked.frame, v, tracked.motion.T_map_body), rig.T_body_cams[v]);
+        const Eigen::Vector3d p_map =
+            stereo_point(*tracked.frame, v, static_cast<int>(f), tracked.motion.T_map_body, rig);
         landmark = map.add_landmark(p_map, {id, static_cast<int>(v), static_cast<int>(f)});
         if (settings_.refinement) place(tracked.frame->views[v], f);
       }
@@ -107,7 +106,7 @@ void LocalMapper::fuse_into(const std::vector<int>& landmarks, int keyframe_id,
   const Keyframe& keyframe = map.keyframe(keyframe_id);
   const Pose T_map_body = keyframe.T_map_body;
   for (std::size_t v = 0; v < rig.left_cameras.size(); ++v) {
-    const Pose T_body_map = view_pose(*keyframe.frame, v, T_map_body).inverse();
+    const Pose T_body_map = view_pose(*keyframe.frame, v, T_map_body, rig).inverse();
     for (const int id : landmarks) {
       const Landmark& landmark = map.landmark(id);
       if (landmark.removed) continue;

@@ -15,6 +15,7 @@ const double kMinParallax = 1.0 - std::cos(1.0 * 3.14159265358979 / 180.0);
 /// Features of one view in want of a landmark, with their rays in the map frame.
 struct Candidate {
   int feature;
+  Eigen::Vector3d origin;
   Eigen::Vector3d direction;
   PixelMeasurement measurement;
 };
@@ -22,15 +23,16 @@ struct Candidate {
 std::vector<Candidate> candidates(const Keyframe& keyframe, std::size_t v,
                                   const EstimatorRig& rig) {
   const StereoView& view = keyframe.frame->views[v];
-  const Pose T_map_body = view_pose(*keyframe.frame, v, keyframe.T_map_body);
-  const Eigen::Quaterniond R_map_cam = T_map_body.rotation * rig.T_body_cams[v].rotation;
   std::vector<Candidate> result;
   for (std::size_t f = 0; f < view.detected(); ++f) {
     if (keyframe.landmarks[v][f] >= 0 || view.stereo[f].depth > 0) continue;
     PixelMeasurement m = measure(view, static_cast<int>(f), rig.noise);
-    if (m.late != 0) m.velocity = keyframe.frame->velocity;
-    result.push_back({static_cast<int>(f),
-                      (R_map_cam * rig.left_cameras[v].lens.unproject(m.pixel)).normalized(), m});
+    m.velocity = keyframe.frame->velocity;
+    const Pose T_map_cam =
+        row_pose(*keyframe.frame, v, m.pixel.y(), keyframe.T_map_body, rig) * rig.T_body_cams[v];
+    const Eigen::Vector3d ray = rig.left_cameras[v].lens.unproject(m.pixel);
+    result.push_back(
+        {static_cast<int>(f), T_map_cam.translation, (T_map_cam.rotation * ray).normalized(), m});
   }
   return result;
 }
@@ -54,8 +56,10 @@ std::optional<Eigen::Vector3d> intersect_rays(const Eigen::Vector3d& p_a,
 std::vector<EpipolarMatch> match_epipolar(const Keyframe& a, const Keyframe& b, int view,
                                           const EstimatorRig& rig, int max_hamming) {
   const auto v = static_cast<std::size_t>(view);
-  const Eigen::Vector3d p_a = view_pose(*a.frame, v, a.T_map_body) * rig.T_body_cams[v].translation;
-  const Eigen::Vector3d p_b = view_pose(*b.frame, v, b.T_map_body) * rig.T_body_cams[v].translation;
+  const Eigen::Vector3d p_a =
+      view_pose(*a.frame, v, a.T_map_body, rig) * rig.T_body_cams[v].translation;
+  const Eigen::Vector3d p_b =
+      view_pose(*b.frame, v, b.T_map_body, rig) * rig.T_body_cams[v].translation;
   std::vector<EpipolarMatch> matches;
   if ((p_a - p_b).norm() < 0.02) return matches;
   const std::vector<Candidate> of_b = candidates(b, v, rig);
@@ -73,7 +77,8 @@ std::vector<EpipolarMatch> match_epipolar(const Keyframe& a, const Keyframe& b, 
       const int distance = hamming_distance(
           wanted, b.frame->views[v].features.descriptors[static_cast<std::size_t>(other.feature)]);
       if (distance >= best) continue;
-      const auto p_map = intersect_rays(p_a, candidate.direction, p_b, other.direction);
+      const auto p_map =
+          intersect_rays(candidate.origin, candidate.direction, other.origin, other.direction);
       if (!p_map) continue;
       const Reprojection in_a(rig.left_cameras[v], candidate.measurement);
       const Reprojection in_b(rig.left_cameras[v], other.measurement);

@@ -12,7 +12,7 @@ class Refiner {
  public:
   Refiner(const Map& map, const Pose& T_map_body, const EstimatorRig& rig,
           const RefinementConfig& config, FrameFeatures& frame)
-      : projector_(map, view_poses(frame, T_map_body), rig),
+      : projector_(map, view_poses(frame, T_map_body, rig), rig),
         noise_(rig.noise),
         config_(config),
         frame_(frame) {}

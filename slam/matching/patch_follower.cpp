@@ -49,12 +49,12 @@ class Follower {
   Follower(const Map& map, const Pose& T_map_body, const EstimatorRig& rig,
            const FollowSettings& settings, FrameFeatures& frame, int view)
       : map_(map),
-        T_body_map_(view_pose(frame, static_cast<std::size_t>(view), T_map_body).inverse()),
+        T_body_map_(view_pose(frame, static_cast<std::size_t>(view), T_map_body, rig).inverse()),
         rig_(rig),
         settings_(settings),
         frame_(frame),
         v_(view),
-        projector_(map, view_poses(frame, T_map_body), rig) {}
+        projector_(map, view_poses(frame, T_map_body, rig), rig) {}
 
   void follow(const std::vector<int>& landmarks, std::vector<int>& associations) {
     const std::vector<Candidate> wanted = candidates(landmarks, associations);

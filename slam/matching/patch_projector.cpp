@@ -59,7 +59,8 @@ const PatchProjector::Step& PatchProjector::step(int keyframe, int v) {
   const auto view = static_cast<std::size_t>(v);
   const Pose& T_body_cam = rig_.T_body_cams[view];
   const Keyframe& then = map_.keyframe(keyframe);
-  const Pose T_then_map = (view_pose(*then.frame, view, then.T_map_body) * T_body_cam).inverse();
+  const Pose T_then_map =
+      (view_pose(*then.frame, view, then.T_map_body, rig_) * T_body_cam).inverse();
   const Pose T_now_then = (T_map_bodies_[view] * T_body_cam).inverse() * T_then_map.inverse();
   const Eigen::Matrix3d K = calibration(rig_.left_cameras[static_cast<std::size_t>(v)].lens);
   step = Step{K * T_now_then.rotation.toRotationMatrix() * K.inverse(), K * T_now_then.translation,

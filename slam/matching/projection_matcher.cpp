@@ -80,7 +80,7 @@ int match_by_projection(const Map& map, const std::vector<int>& landmarks,
                         const ProjectionSearch& search, Associations& associations) {
   int added = 0;
   for (std::size_t v = 0; v < frame.views.size(); ++v) {
-    const Pose T_body_map = view_pose(frame, v, T_map_body).inverse();
+    const Pose T_body_map = view_pose(frame, v, T_map_body, rig).inverse();
     const StereoView& view = frame.views[v];
     std::vector<int>& taken = associations[v];
     std::vector<char> matched(map.landmarks().size(), 0);

@@ -60,9 +60,11 @@ class AdjustmentJob::Impl {
         landmarks_(rig_, options.min_keyframes, calibration_.get()),
         gravity_(options.inertial, options.global),
         tags_(rig_.tag_cameras, options.tag_corner_sigma, options.global),
-        tag_measures_(rig_.tag_cameras, options.tag_measures.value_or(TagAccuracy{})),
         problem_(map, window) {
     if (calibration_) calibration_->add_to(problem_, map);
+    if (calibration_ && options.tag_measures) {
+      tag_measures_.emplace(rig_, *options.tag_measures, *calibration_);
+    }
     for (FactorSource* source : sources()) source->add_to(problem_, map);
   }
 
@@ -86,8 +88,8 @@ class AdjustmentJob::Impl {
   }
   std::vector<FactorSource*> sources() {
     std::vector<FactorSource*> sources{&landmarks_, &odometry_, &gravity_};
-    if (options_.tag_measures) {
-      sources.push_back(&tag_measures_);
+    if (tag_measures_) {
+      sources.push_back(&*tag_measures_);
     } else if (options_.tags) {
       sources.push_back(&tags_);
     }
@@ -101,7 +103,7 @@ class AdjustmentJob::Impl {
   OdometryFactors odometry_;
   GravityFactors gravity_;
   TagFactors tags_;
-  TagMeasures tag_measures_;
+  std::optional<TagMeasures> tag_measures_;
   ProblemBuilder problem_;  // last: it must go before what it points to
 };
 

@@ -21,7 +21,7 @@ struct AdjustmentOptions {
   bool tags = true;                         ///< tags that keyframes saw take part
   int min_keyframes = 1;                    ///< landmarks that fewer see are left out
   std::optional<InertialNoise> inertial{};  ///< where an inertial unit feels gravity
-  /// Where the pairs' calibrations are unknown: what is believed of them beforehand.
+  /// Where the rig's calibration is unknown: what is believed of it beforehand.
   std::optional<CalibrationBelief> calibration;
   /// Where tags measure lengths beside that, and take part in no other way.
   std::optional<TagAccuracy> tag_measures{};
@@ -44,7 +44,7 @@ class AdjustmentJob {
   double solve();
   void apply(Map& map) const;
 
-  /// What is known of the pairs' calibrations after solve(), where these are unknown
+  /// What is known of the rig's calibration after solve(), where that is unknown
   /// (AdjustmentOptions::calibration): that belief and the factors' own information.
   CalibrationMarginal calibration() const;
 

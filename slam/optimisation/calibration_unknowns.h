@@ -11,19 +11,21 @@
 
 namespace vinebench::slam {
 
-/// The pairs' calibrations as unknowns of an adjustment, and what is believed of them beforehand.
+/// A rig's calibration as unknowns of an adjustment, and what is believed of it beforehand.
 class CalibrationUnknowns : public FactorSource {
  public:
-  /// Begins with the rig's calibrations. The belief must have full rank.
+  /// Begins with the rig's calibration. The belief must have full rank.
   CalibrationUnknowns(const EstimatorRig& rig, const CalibrationBelief& belief);
 
   void add_to(ProblemBuilder& problem, const Map& map) override;
 
-  /// Blocks of a pair: T_body_cam of the left camera (7), and the rest of its calibration (6).
+  /// Blocks of a pair: T_body_cam of the left camera (7), and the rest of its calibration (12).
   double* camera(std::size_t view) { return cameras_[view].data(); }
   double* lens(std::size_t view) { return lenses_[view].data(); }
+  /// Block of a camera for tags, by index among those in use: its time (1).
+  double* tag_time(std::size_t tag_camera) { return &tag_times_[tag_camera]; }
 
-  std::vector<PairCalibration> found() const;
+  RigCalibration found() const;
 
   /// What the adjustment, once solved, says of them with all else unknown too: the belief
   /// beforehand and the factors' own information, which is the Schur complement of all other
@@ -37,6 +39,7 @@ class CalibrationUnknowns : public FactorSource {
   CalibrationFactor factor_;
   std::vector<PoseBlock> cameras_;
   std::vector<Lens> lenses_;
+  std::vector<double> tag_times_;
 };
 
 }  // namespace vinebench::slam

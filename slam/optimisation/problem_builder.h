@@ -28,7 +28,8 @@ class ProblemBuilder {
     kPoses = 3,
     kTags = 4,
     kCameras = 5,
-    kLenses = 6
+    kLenses = 6,
+    kTagTimes = 7
   };
 
   ProblemBuilder(const Map& map, const AdjustmentWindow& window);

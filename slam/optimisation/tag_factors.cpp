@@ -88,21 +88,22 @@ void TagFactors::write_back(Map& map) const {
   if (used_.back()) map.world() = from_block(blocks_.back().data());
 }
 
-TagMeasures::TagMeasures(const TagCameras& cameras, const TagAccuracy& accuracy)
-    : cameras_(cameras),
+TagMeasures::TagMeasures(const EstimatorRig& rig, const TagAccuracy& accuracy,
+                         CalibrationUnknowns& calibration)
+    : rig_(rig),
       accuracy_(accuracy),
+      calibration_(calibration),
       huber_(std::sqrt(kChiSquared2)),
-      camera_blocks_(cameras.cameras.size(), nullptr) {}
+      camera_blocks_(rig.tag_cameras.cameras.size(), nullptr) {}
 
 void TagMeasures::add_to(ProblemBuilder& problem, const Map& map) {
-  std::map<std::pair<std::size_t, std::size_t>, Visit> visits;  // by tag of the map and camera
+  std::map<std::pair<std::size_t, int>, Visit> visits;  // by tag of the map and camera
   const auto collect = [&](int id) {
     for (const TagSighting& sighting : map.keyframe(id).frame->tags) {
       const MapTag* tag = map.find_tag(sighting.family, sighting.id);
       if (tag == nullptr) continue;
-      visits[{static_cast<std::size_t>(tag - map.tags().data()),
-              static_cast<std::size_t>(sighting.camera)}]
-          .emplace_back(id, &sighting);
+      visits[{static_cast<std::size_t>(tag - map.tags().data()), sighting.camera}].emplace_back(
+          id, &sighting);
     }
   };
   std::ranges::for_each(problem.window().moved, collect);
@@ -110,18 +111,19 @@ void TagMeasures::add_to(ProblemBuilder& problem, const Map& map) {
   std::erase_if(visits, [](const auto& v) { return v.second.size() < kFewestSightings; });
   if (visits.empty()) return;
   // Nothing moves any more once it is handed out.
-  blocks_.reserve(7 + 7 * cameras_.cameras.size() + (7 + TagErrors::kNumbers) * visits.size());
+  blocks_.reserve(7 + 7 * camera_blocks_.size() + (7 + TagErrors::kNumbers) * visits.size());
   origin_ = take_pose(Pose{});
   problem.add_pose(origin_, ProblemBuilder::Group::kTagMeasures);
   problem.hold(origin_);
   for (const auto& [seen, visit] : visits) {
-    add_visit(map.tags()[seen.first], seen.second, visit, problem);
+    add_visit(map.tags()[seen.first], seen.second, visit, map, problem);
   }
 }
 
-void TagMeasures::add_visit(const MapTag& tag, std::size_t camera_index, const Visit& visit,
+void TagMeasures::add_visit(const MapTag& tag, int camera, const Visit& visit, const Map& map,
                             ProblemBuilder& problem) {
-  double* camera = camera_block(camera_index, problem);
+  double* mounting = camera_block(camera, problem);
+  double* time = calibration_.tag_time(rig_.tag_camera(camera));
   double* place = take_pose(tag.T_map_tag);
   problem.add_pose(place, ProblemBuilder::Group::kTagMeasures);
   double* errors = blocks_.data() + blocks_.size();
@@ -136,19 +138,20 @@ void TagMeasures::add_visit(const MapTag& tag, std::size_t camera_index, const V
   for (const auto& [keyframe, sighting] : visit) {
     const double sigma = corner_sigma(*sighting, accuracy_.corners);
     for (std::size_t c = 0; c < corners.size(); ++c) {
-      factors_.emplace_back(cameras_.undistorted[camera_index],
-                            ideal_corner(*sighting, c, cameras_), sigma, corners[c],
-                            static_cast<int>(c));
+      factors_.emplace_back(rig_.tag_cameras.undistorted[static_cast<std::size_t>(camera)],
+                            ideal_corner(*sighting, c, rig_.tag_cameras), sigma, corners[c],
+                            static_cast<int>(c), map.keyframe(keyframe).frame->velocity,
+                            rig_.tag_time(camera));
       problem.add_factor(factors_.back(), &huber_,
-                         {problem.pose_of(keyframe), place, camera, errors});
+                         {problem.pose_of(keyframe), place, mounting, time, errors});
     }
   }
 }
 
-double* TagMeasures::camera_block(std::size_t camera, ProblemBuilder& problem) {
-  double*& block = camera_blocks_[camera];
+double* TagMeasures::camera_block(int camera, ProblemBuilder& problem) {
+  double*& block = camera_blocks_[static_cast<std::size_t>(camera)];
   if (block != nullptr) return block;
-  const Pose& T_body_cam = cameras_.cameras[camera].T_body_cam;
+  const Pose& T_body_cam = rig_.tag_cameras.cameras[static_cast<std::size_t>(camera)].T_body_cam;
   block = take_pose(T_body_cam);
   problem.add_pose(block, ProblemBuilder::Group::kTagMeasures);
   mountings_.emplace_back(

@@ -8,11 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "slam/camera/estimator_rig.h"
 #include "slam/camera/measurement_noise.h"
 #include "slam/camera/tag_cameras.h"
 #include "slam/factors/relative_pose_factor.h"
 #include "slam/factors/tag_corner_factor.h"
 #include "slam/factors/tag_measure_factor.h"
+#include "slam/optimisation/calibration_unknowns.h"
 #include "slam/optimisation/problem_builder.h"
 
 namespace vinebench::slam {
@@ -50,24 +52,27 @@ class TagFactors : public FactorSource {
 /// Tags as measures of length where calibrations are unknown: the way past a tag, in lengths of its
 /// sides, is that of the map only if the pairs' baselines are right. Of each tag that keyframes of
 /// the window saw often enough the place is an unknown, and what its image may be off by each time
-/// (TagErrors); so are the mountings of the cameras that saw it. Surveys take no part.
+/// (TagErrors); so are the mountings of the cameras that saw it, beside their times, which belong
+/// to the calibration. Surveys take no part.
 class TagMeasures : public FactorSource {
  public:
-  /// The cameras must outlive it.
-  TagMeasures(const TagCameras& cameras, const TagAccuracy& accuracy);
+  /// Rig and calibration must outlive it.
+  TagMeasures(const EstimatorRig& rig, const TagAccuracy& accuracy,
+              CalibrationUnknowns& calibration);
 
   void add_to(ProblemBuilder& problem, const Map& map) override;
 
  private:
   /// Sightings of one tag by one camera, with their keyframes.
   using Visit = std::vector<std::pair<int, const TagSighting*>>;
-  void add_visit(const MapTag& tag, std::size_t camera_index, const Visit& visit,
+  void add_visit(const MapTag& tag, int camera, const Visit& visit, const Map& map,
                  ProblemBuilder& problem);
-  double* camera_block(std::size_t camera, ProblemBuilder& problem);
+  double* camera_block(int camera, ProblemBuilder& problem);
   double* take_pose(const Pose& pose);
 
-  const TagCameras& cameras_;
+  const EstimatorRig& rig_;
   TagAccuracy accuracy_;
+  CalibrationUnknowns& calibration_;
   ceres::HuberLoss huber_;
   std::vector<double> blocks_;          ///< of all unknowns, one behind the other
   std::vector<double*> camera_blocks_;  ///< by camera; null where it has none

@@ -21,8 +21,10 @@ bool is_accuracy_told(const CalibrationConfig& told, double disparity_sigma) {
 SelfCalibration::SelfCalibration(const SelfCalibrationSettings& settings, const EstimatorRig& rig)
     : settings_(settings), watch_(settings.accuracy, settings.disparity_sigma, rig) {}
 
-std::optional<std::vector<PairCalibration>> SelfCalibration::after_keyframe(
-    const Map& map, const EstimatorRig& rig, const AdjustmentOptions& options, StageTimes& times) {
+std::optional<RigCalibration> SelfCalibration::after_keyframe(const Map& map,
+                                                              const EstimatorRig& rig,
+                                                              const AdjustmentOptions& options,
+                                                              StageTimes& times) {
   if (!settings_.enabled) return std::nullopt;
   if (settings_.accuracy_told && watch_.may_feel(map)) {
     const ScopedTimer timer(times, "calibration");
@@ -50,14 +52,14 @@ void SelfCalibration::finish(const EstimatorRig& rig) {
   if (look_.busy()) watch_.finish_look(look_.take(), rig);
 }
 
-std::optional<std::vector<PairCalibration>> SelfCalibration::ended_look(const EstimatorRig& rig) {
+std::optional<RigCalibration> SelfCalibration::ended_look(const EstimatorRig& rig) {
   const auto found = watch_.finish_look(look_.take(), rig);
   know_error(rig, found);
   return found;
 }
 
 void SelfCalibration::know_error(const EstimatorRig& rig,
-                                 const std::optional<std::vector<PairCalibration>>& found) {
+                                 const std::optional<RigCalibration>& found) {
   error_ = watch_.error(found ? rig.with_calibration(*found) : rig);
 }
 

@@ -36,25 +36,22 @@ class SelfCalibration {
 
   /// After each keyframe. The calibrations to go on with, where a look that ended found others than
   /// the rig's; error() is of these. Times what it does as "calibration".
-  std::optional<std::vector<PairCalibration>> after_keyframe(const Map& map,
-                                                             const EstimatorRig& rig,
-                                                             const AdjustmentOptions& options,
-                                                             StageTimes& times);
+  std::optional<RigCalibration> after_keyframe(const Map& map, const EstimatorRig& rig,
+                                               const AdjustmentOptions& options, StageTimes& times);
 
   /// Waits for a look that is under way.
   void finish(const EstimatorRig& rig);
 
   /// The calibrations as they are known now, if they were replaced once.
-  std::optional<std::vector<PairCalibration>> latest() const { return watch_.latest(); }
+  std::optional<RigCalibration> latest() const { return watch_.latest(); }
 
   /// As CalibrationWatch has them; error() is empty before the first look.
   const Eigen::MatrixXd& error() const { return error_; }
   const Eigen::MatrixXd& drift() const { return watch_.drift(); }
 
  private:
-  std::optional<std::vector<PairCalibration>> ended_look(const EstimatorRig& rig);
-  void know_error(const EstimatorRig& rig,
-                  const std::optional<std::vector<PairCalibration>>& found);
+  std::optional<RigCalibration> ended_look(const EstimatorRig& rig);
+  void know_error(const EstimatorRig& rig, const std::optional<RigCalibration>& found);
 
   SelfCalibrationSettings settings_;
   CalibrationWatch watch_;

@@ -102,7 +102,7 @@ std::pair<std::vector<PairCalibration>, double> drive_miscalibrated(const SlamCo
   for (std::int64_t i = 0; i < 90; ++i) {
     truth.push_back(driving(i, 0.04));
     const Estimate estimate = pipeline.process(aisle.frame(i, truth.back()));
-    if (!estimate.calibration.empty()) found = estimate.calibration;
+    if (!estimate.calibration.empty()) found = estimate.calibration.pairs;
   }
   return {found, worst_error(pipeline.finish().trajectory, truth)};
 }

@@ -152,7 +152,7 @@ TEST(EventsTest, ACalibrationIsLogged) {
                                    pair.time = 0.125;
                                    pair.principal_point.x() = 0.5;
                                    pair.right_turn.z() = std::numbers::pi;
-                                   estimate.calibration = {pair};
+                                   estimate.calibration = {{pair}, {0.25}};
                                  }
                                }),
                                "calibrated");
@@ -161,6 +161,7 @@ TEST(EventsTest, ACalibrationIsLogged) {
   const Json& pair = found[0]["pairs"][0];
   EXPECT_EQ(pair["disparity_offset_px"], 0.25);
   EXPECT_EQ(pair["time_s"], 0.125);
+  EXPECT_EQ(found[0]["tag_times_s"], Json({0.25}));
   EXPECT_EQ(pair["principal_point_px"], Json({0.5, 0}));
   EXPECT_EQ(pair["right_turn_deg"], Json({0, 0, 180}));
   EXPECT_EQ(pair["position_m"], Json({0.5, 0, 0}));

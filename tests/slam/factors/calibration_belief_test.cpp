@@ -7,9 +7,10 @@
 namespace vinebench::slam {
 namespace {
 
-TEST(CalibrationBeliefTest, VectorsAndPairsAreTheSame) {
-  const Eigen::VectorXd unknowns = Eigen::VectorXd::LinSpaced(36, -0.01, 0.02);
-  const std::vector<PairCalibration> pairs = from_vector(unknowns);
+TEST(CalibrationBeliefTest, VectorsAndCalibrationsAreTheSame) {
+  const Eigen::VectorXd unknowns = Eigen::VectorXd::LinSpaced(38, -0.01, 0.02);
+  const RigCalibration rig = from_vector(unknowns, 2);
+  const std::vector<PairCalibration>& pairs = rig.pairs;
   ASSERT_EQ(pairs.size(), 2u);
   EXPECT_EQ(pairs[1].disparity_offset, unknowns[24]);
   EXPECT_EQ(pairs[1].readout, unknowns[29]);
@@ -17,7 +18,8 @@ TEST(CalibrationBeliefTest, VectorsAndPairsAreTheSame) {
   EXPECT_EQ(pairs[1].right_turn, unknowns.segment<3>(32));
   EXPECT_EQ(pairs[1].right_ahead, unknowns[35]);
   EXPECT_EQ(pairs[0].T_nominal_camera.translation, unknowns.head<3>());
-  EXPECT_LT((to_vector(pairs) - unknowns).norm(), 1e-15);
+  EXPECT_EQ(rig.tag_times, (std::vector<double>{unknowns[36], unknowns[37]}));
+  EXPECT_LT((to_vector(rig) - unknowns).norm(), 1e-15);
 }
 
 // Two measurements of 1 and 3 with standard deviations of 1 and 1 / sqrt(3): the mean is

@@ -61,8 +61,9 @@ AisleMap small_map(const SyntheticAisle& aisle) {
   grey.grey.fill(77);
   patches[0].add(1, grey);
   made.map.tags().push_back({"tag36h11", 0, 0.161, T_world_tag, true});
-  made.map.calibration() = {{}, {{exp_so3({0, 0.01, 0}), {0.005, 0, 0}}, 0.25}};
-  made.map.calibration()[1].right_turn.y() = 0.002;
+  made.map.calibration().pairs = {{}, {{exp_so3({0, 0.01, 0}), {0.005, 0, 0}}, 0.25}};
+  made.map.calibration().pairs[1].right_turn.y() = 0.002;
+  made.map.calibration().tag_times = {0.003};
   made.map.remove_landmark(made.map.keyframe(0).landmarks[0][2]);
   return made;
 }
@@ -120,12 +121,12 @@ TEST_F(MapFileTest, EverythingComesBack) {
   EXPECT_THAT(found, testing::Contains(3));
   ASSERT_EQ(map.tags().size(), 1u);
   EXPECT_TRUE(map.tags()[0].fixed);
-  ASSERT_EQ(map.calibration().size(), 2u);
-  EXPECT_EQ(map.calibration()[0].disparity_offset, 0);
-  EXPECT_EQ(map.calibration()[1].disparity_offset, 0.25);
-  EXPECT_EQ(map.calibration()[1].right_turn.y(), 0.002);
-  EXPECT_EQ(map.calibration()[1].T_nominal_camera.translation, Eigen::Vector3d(0.005, 0, 0));
-  EXPECT_NEAR(angle_of(map.calibration()[1].T_nominal_camera.rotation), 0.01, 1e-12);
+  ASSERT_EQ(map.calibration().pairs.size(), 2u);
+  EXPECT_EQ(map.calibration().pairs[0].disparity_offset, 0);
+  EXPECT_EQ(map.calibration().pairs[1].disparity_offset, 0.25);
+  EXPECT_EQ(map.calibration().pairs[1].right_turn.y(), 0.002);
+  EXPECT_EQ(map.calibration().pairs[1].T_nominal_camera.translation, Eigen::Vector3d(0.005, 0, 0));
+  EXPECT_NEAR(angle_of(map.calibration().pairs[1].T_nominal_camera.rotation), 0.01, 1e-12);
 }
 
 TEST_F(MapFileTest, LandmarksKeepAllButTheirNumbers) {
@@ -196,7 +197,7 @@ TEST_F(MapFileTest, AnotherVersionIsSaidSo) {
   std::string other = bytes_;
   other[8] = 1;  // version, low byte
   EXPECT_THAT(error_of(sealed(other)),
-              AllOf(HasSubstr("version 1"), HasSubstr("expected version 3 to 8")));
+              AllOf(HasSubstr("version 1"), HasSubstr("expected version 3 to 9")));
 }
 
 std::string rig_bytes(const EstimatorRig& rig, std::uint32_t version) {
@@ -218,9 +219,35 @@ std::string with_contents(std::string bytes, std::uint32_t version) {
 constexpr std::size_t kVelocity = 6 * sizeof(double);
 constexpr std::size_t kLate = sizeof(std::uint32_t) + 2 * sizeof(double);
 
-/// Without what came with version 8, of a map of one keyframe; the checksum is behind it.
+/// Without the times of cameras for tags, which version 9 has at the end, of a map that knows of
+/// `times`; the checksum is behind them.
+std::string of_version_8(std::string bytes, std::size_t times) {
+  const std::size_t end = sizeof(std::uint32_t) + times * (sizeof(std::int32_t) + sizeof(double));
+  return bytes.erase(bytes.size() - 8 - end, end);
+}
+
+/// Also without what came with version 8, of a map of one keyframe and of no times.
 std::string of_version_7(std::string bytes) {
+  bytes = of_version_8(std::move(bytes), 0);
   return bytes.erase(bytes.size() - 8 - kLate, kLate);
+}
+
+TEST_F(MapFileTest, MapsOfVersion8AreRead) {
+  const Map map = parse_map(with_contents(of_version_8(bytes_, 1), 8), made_.rig, "older.map");
+  EXPECT_EQ(map.calibration().pairs.size(), 2u);
+  EXPECT_EQ(map.calibration().tag_times, std::vector<double>{0});
+}
+
+// Of a camera that is not in use any more there is no time, and another has its own.
+TEST_F(MapFileTest, TimesBelongToTheirCameras) {
+  StereoRig fewer = made_.rig.rig;
+  fewer.tag_cameras = {0, 4};
+  const EstimatorRig rig(fewer, OrbConfig{});
+  EXPECT_EQ(parse_map(bytes_, rig, "row.map").calibration().tag_times,
+            (std::vector<double>{0, 0.003}));
+  Map unknown = made_.map;
+  unknown.calibration().tag_times = {std::nan("")};
+  EXPECT_THAT(error_of(format_map(unknown, made_.rig)), HasSubstr("a camera's time"));
 }
 
 // Until version 7 all images were of their frame's stamp.
@@ -247,8 +274,8 @@ TEST_F(MapFileTest, WhenViewsWereTakenIsKept) {
 TEST_F(MapFileTest, CalibrationsOfVersion6AreRead) {
   AisleMap one(aisle_, {Pose{}});
   const std::size_t without = format_map(one.map, one.rig).size();
-  one.map.calibration() = {{}, {{exp_so3({0, 0.01, 0}), {0.005, 0, 0}}, 0.25}};
-  one.map.calibration()[1].readout = 0.02;
+  one.map.calibration().pairs = {{}, {{exp_so3({0, 0.01, 0}), {0.005, 0, 0}}, 0.25}};
+  one.map.calibration().pairs[1].readout = 0.02;
   std::string older = of_version_7(format_map(one.map, one.rig));
   const std::size_t pair = (older.size() + kLate - without) / 2, missing = 6 * sizeof(double);
   const std::size_t at =
@@ -256,10 +283,10 @@ TEST_F(MapFileTest, CalibrationsOfVersion6AreRead) {
   older.erase(at + 2 * pair - missing, missing);
   older.erase(at + pair - missing, missing);
   const Map map = parse_map(with_contents(older, 6), one.rig, "older.map");
-  ASSERT_EQ(map.calibration().size(), 2u);
-  EXPECT_EQ(map.calibration()[1].disparity_offset, 0.25);
-  EXPECT_EQ(map.calibration()[1].readout, 0.02);
-  EXPECT_EQ(map.calibration()[1].right_ahead, 0);
+  ASSERT_EQ(map.calibration().pairs.size(), 2u);
+  EXPECT_EQ(map.calibration().pairs[1].disparity_offset, 0.25);
+  EXPECT_EQ(map.calibration().pairs[1].readout, 0.02);
+  EXPECT_EQ(map.calibration().pairs[1].right_ahead, 0);
 }
 
 // Until version 5 there was one number a pair, its disparity offset.
@@ -273,9 +300,9 @@ TEST_F(MapFileTest, DisparityOffsetsOfVersion5AreRead) {
   const std::size_t at = 20 + rig_bytes(one.rig, 5).size() + sizeof(double);
   older.replace(at, none.take().size(), offsets.take());
   const Map map = parse_map(with_contents(older, 5), one.rig, "older.map");
-  ASSERT_EQ(map.calibration().size(), 2u);
-  EXPECT_EQ(map.calibration()[1].disparity_offset, 0.25);
-  EXPECT_EQ(map.calibration()[1].T_nominal_camera.translation, Eigen::Vector3d(0, 0, 0));
+  ASSERT_EQ(map.calibration().pairs.size(), 2u);
+  EXPECT_EQ(map.calibration().pairs[1].disparity_offset, 0.25);
+  EXPECT_EQ(map.calibration().pairs[1].T_nominal_camera.translation, Eigen::Vector3d(0, 0, 0));
 }
 
 // Versions 3 and 4 lack the lens models of the rig, with which the content begins. Version 3 also

@@ -53,7 +53,7 @@ TEST_F(MappingSchedulerTest, AJobKeepsTheCamerasThatItWasMadeWith) {
   alone->solve();
   alone->apply(undisturbed);
   const auto beside = job();
-  known_.rig = known_.rig.with_calibration({{{}, 0.5}, {{}, 0.5}});
+  known_.rig = known_.rig.with_calibration({{{{}, 0.5}, {{}, 0.5}}, {}});
   beside->solve();
   beside->apply(known_.map);
   EXPECT_EQ(known_.map.keyframe(2).T_map_body.translation,

@@ -14,7 +14,7 @@
 namespace vinebench::slam {
 namespace {
 
-using Found = std::optional<std::vector<PairCalibration>>;
+using Found = std::optional<RigCalibration>;
 
 /// A drive with a back pair whose disparities are 0.5 px too small.
 class SelfCalibrationTest : public testing::Test {
@@ -95,13 +95,13 @@ TEST_F(SelfCalibrationTest, BesideTrackingItFindsTheSameLater) {
       continue;
     }
     ASSERT_TRUE(later);
-    EXPECT_EQ((*later)[1].disparity_offset, (*first)[1].disparity_offset);
+    EXPECT_EQ(later->pairs[1].disparity_offset, first->pairs[1].disparity_offset);
     EXPECT_EQ(beside.error(), at_once.error());
   }
   ASSERT_TRUE(first);
   // As CalibrationWatchTest has it for the same offset.
-  EXPECT_NEAR((*first)[1].disparity_offset, -0.5, 0.1);
-  EXPECT_EQ((*at_once.latest())[1].disparity_offset, (*first)[1].disparity_offset);
+  EXPECT_NEAR(first->pairs[1].disparity_offset, -0.5, 0.1);
+  EXPECT_EQ(at_once.latest()->pairs[1].disparity_offset, first->pairs[1].disparity_offset);
 }
 
 }  // namespace
