@@ -81,6 +81,7 @@ Recording open_recording(const fs::path& named, const RecordingOptions& options)
     recording.name = fs::weakly_canonical(named).parent_path().filename().string();
   }
   if (recording.frames.empty()) fail("{}: has no images", folder.string());
+  delay_images(recording);
   if (!options.groundtruth.empty()) {
     recording.truth = read_groundtruth(options.groundtruth, recording);
   }

@@ -6,6 +6,8 @@
 using namespace vinebench;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  return fuzz::fuzz_file(data, size, "camchain.yaml",
-                         [](const std::filesystem::path& file) { harness::load_rig_for(file, 5); });
+  return fuzz::fuzz_file(data, size, "camchain.yaml", [](const std::filesystem::path& file) {
+    harness::Recording recording;
+    harness::set_rig(file, 5, recording);
+  });
 }

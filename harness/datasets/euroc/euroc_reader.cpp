@@ -76,22 +76,22 @@ Rig rig_of_sensors(const fs::path& sensors, const std::vector<fs::path>& folders
   return rig;
 }
 
-Rig read_rig(const fs::path& folder, const std::vector<fs::path>& cameras,
-             const RecordingOptions& options) {
-  if (!options.rig.empty()) return load_rig_for(options.rig, cameras.size());
+void read_rig(const fs::path& folder, const std::vector<fs::path>& cameras,
+              const RecordingOptions& options, Recording& recording) {
+  if (!options.rig.empty()) return set_rig(options.rig, cameras.size(), recording);
   const fs::path ours = folder / "rig.yaml";
-  if (is_present(ours)) return load_rig_for(ours, cameras.size());
+  if (is_present(ours)) return set_rig(ours, cameras.size(), recording);
   if (cameras.size() < 2) {
     fail("{}: expected a cam1 beside cam0: a stereo pair", sensor_folder(folder).string());
   }
   if (const fs::path chain = folder / kKalibrChain; is_present(chain)) {
-    Rig rig = load_rig_for(chain, cameras.size());
+    set_rig(chain, cameras.size(), recording);
     if (const fs::path imu = folder / kKalibrNoise; is_present(imu)) {
-      rig.imu = SensorFile(imu).imu_noise();
+      recording.rig.imu = SensorFile(imu).imu_noise();
     }
-    return rig;
+    return;
   }
-  return rig_of_sensors(sensor_folder(folder), cameras);
+  recording.rig = rig_of_sensors(sensor_folder(folder), cameras);
 }
 
 void read_imu(const fs::path& folder, Recording& recording) {
@@ -160,7 +160,7 @@ Recording read_euroc(const fs::path& named, const RecordingOptions& options) {
   if (cameras.empty()) fail("{}: expected the folders cam0 and cam1", sensors.string());
   Recording recording;
   recording.format = "EuRoC/ASL";
-  recording.rig = read_rig(folder, cameras, options);
+  read_rig(folder, cameras, options, recording);
   recording.T_body_left = recording.rig.cameras.front().T_body_cam;
   cameras.resize(recording.rig.cameras.size());
   const bool frames_are_listed = is_present(folder / kFrameList);

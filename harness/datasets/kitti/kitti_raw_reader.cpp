@@ -142,7 +142,11 @@ Recording read_kitti_raw(const fs::path& drive, const RecordingOptions& options)
   set_frames(drive, *left, recording);
   const Day day = read_day(drive, *left, options.rig.empty(), recording);
   const double rate = recording.rig.rate_hz;
-  recording.rig = options.rig.empty() ? rig_of_day(day, rate) : load_rig_for(options.rig, 2);
+  if (options.rig.empty()) {
+    recording.rig = rig_of_day(day, rate);
+  } else {
+    set_rig(options.rig, 2, recording);
+  }
   recording.rig.rate_hz = rate;
   const Pose& T_body_left = recording.rig.cameras.front().T_body_cam;
   recording.T_body_left = T_body_left;

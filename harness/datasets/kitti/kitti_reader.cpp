@@ -189,12 +189,17 @@ Recording read_kitti(const fs::path& folder, const RecordingOptions& options) {
   Recording recording;
   recording.format = "KITTI odometry";
   const fs::path rig = options.rig.empty() ? ours(folder / "rig.yaml") : options.rig;
-  recording.rig = rig.empty() ? read_rig(folder, *layout) : load_rig_for(rig, kCameras);
+  if (rig.empty()) {
+    recording.rig = read_rig(folder, *layout);
+  } else {
+    set_rig(rig, kCameras, recording);
+  }
   recording.T_body_left =
       rig.empty() ? first_camera_mount() : recording.rig.cameras.front().T_body_cam;
   recording.settings = ours(folder / "slam.yaml");
   recording.frames = read_frames(folder, *layout);
   read_times(folder, recording);
+  delay_images(recording);  // the poses are those of the frames
   if (rig.empty()) set_sizes(recording);
   const fs::path poses = find_poses(folder);
   if (options.groundtruth.empty() && !poses.empty()) {

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/config/yaml.h"
 #include "core/util/error.h"
 #include "harness/datasets/reading/sensor_file.h"
@@ -15,9 +17,10 @@ bool is_kalibr_chain(const std::filesystem::path& file) {
   return tree.IsMap() && tree["cam0"].IsDefined();
 }
 
-Rig load_kalibr_chain(const std::filesystem::path& file) {
+KalibrChain load_kalibr_chain(const std::filesystem::path& file) {
   const SensorFile chain(file);
-  Rig rig;
+  KalibrChain result;
+  Rig& rig = result.rig;
   rig.name = "Kalibr";
   rig.rate_hz = 0;
   // The reference is the inertial unit where the first camera has its place on it.
@@ -39,12 +42,16 @@ Rig load_kalibr_chain(const std::filesystem::path& file) {
       part->fault(fmt::format("{}: expected T_cam_imu or T_cn_cnm1", name));
     }
     rig.cameras.push_back({name, part->camera(), T_cam_reference.inverse()});
+    result.image_delays.push_back(from_seconds(part->seconds("timeshift_cam_imu").value_or(0)));
   }
   if (rig.cameras.size() < 2) {
     fail("{}: expected a cam1 beside cam0: a stereo pair", file.string());
   }
+  if (std::ranges::count(result.image_delays, 0) == std::ssize(rig.cameras)) {
+    result.image_delays.clear();
+  }
   pair_in_order(rig);
-  return rig;
+  return result;
 }
 
 void pair_in_order(Rig& rig) {

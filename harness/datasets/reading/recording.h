@@ -36,6 +36,9 @@ struct Recording {
   std::string name;
   std::string format;  ///< human-readable: "EuRoC/ASL", "KITTI odometry"
   Rig rig;
+  /// ns, of each camera: how much later its images are taken, by the clock of the inertial unit,
+  /// than they are stamped; empty for none. open_recording() ends with delay_images().
+  std::vector<Stamp> image_delays{};
   Pose T_body_left;                           ///< the camera of a ground truth in KITTI format
   std::vector<RecordedFrame> frames;          ///< in ascending order of their stamps
   std::shared_ptr<const ImageStore> store{};  ///< of the images; null if they are files
@@ -48,13 +51,16 @@ struct Recording {
 
 /// Files that replace those of the recording.
 struct RecordingOptions {
-  std::filesystem::path rig;          ///< for load_rig_for(); camera i is the recording's camera i
+  std::filesystem::path rig;          ///< for set_rig(); camera i is the recording's camera i
   std::filesystem::path groundtruth;  ///< TUM, KITTI (12 numbers a line) or EuRoC (csv)
   std::vector<std::string> topics{};  ///< of a bag's images, in the order of cameras
 };
 
-/// A rig from its file, ours or a camera chain of Kalibr, for a recording with that many cameras;
-/// it may use fewer. A chain has no rate. Throws Error.
-Rig load_rig_for(const std::filesystem::path& file, std::size_t cameras);
+/// Gives a recording with that many cameras the rig of a file, ours or a camera chain of Kalibr,
+/// which may use fewer. A chain has delays of images and no rate. Throws Error.
+void set_rig(const std::filesystem::path& file, std::size_t cameras, Recording& recording);
+
+/// Stamps frames and images as their delays say, which are none then.
+void delay_images(Recording& recording);
 
 }  // namespace vinebench::harness

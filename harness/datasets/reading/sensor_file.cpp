@@ -20,6 +20,7 @@ std::string without_directive(std::string text) {
 }
 
 constexpr double kHighestRate = 1e6;      // Hz
+constexpr double kLongestTime = 10;       // s
 constexpr double kMountTolerance = 1e-3;  // of an entry of R R^T
 
 }  // namespace
@@ -175,6 +176,17 @@ std::optional<double> SensorFile::positive(const std::string& key) const {
   const YAML::Node node = root_[key];
   if (!node.IsDefined() || !YAML::convert<double>::decode(node, value)) return {};
   if (!(value > 0 && std::isfinite(value))) return {};
+  return value;
+}
+
+std::optional<double> SensorFile::seconds(const std::string& key) const {
+  const YAML::Node node = root_[key];
+  if (!node.IsDefined()) return std::nullopt;
+  double value = 0;
+  if (!YAML::convert<double>::decode(node, value) || !(std::abs(value) < kLongestTime)) {
+    fault(node, fmt::format("{}: expected seconds, less than {}, found '{}'", key, kLongestTime,
+                            node.IsScalar() ? node.Scalar() : ""));
+  }
   return value;
 }
 

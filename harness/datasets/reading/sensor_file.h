@@ -33,6 +33,8 @@ class SensorFile {
   std::optional<Pose> transform(const std::string& key) const;
   PinholeCamera camera() const;  ///< with any lens of LensModel, by the names of sensor_lens()
   std::optional<double> rate_hz() const;
+  /// A time of less than ten seconds; none if it is absent.
+  std::optional<double> seconds(const std::string& key) const;
   /// Noise of an inertial unit; none unless all four numbers are there and above 0.
   std::optional<ImuNoise> imu_noise() const;
 

@@ -105,10 +105,10 @@ Recording read_bag(const fs::path& bag, const RecordingOptions& options) {
     mounted = read_bag_rig(contents, chosen);
     mounted.rig.rate_hz = 0;  // set by the frames
   } else {
-    Rig given = load_rig_for(rig, chosen.cameras.size());
-    order_by_rig(given, chosen.cameras);
+    set_rig(rig, chosen.cameras.size(), recording);
+    order_by_rig(recording.rig, chosen.cameras);
     mounted = place_frames(contents, chosen);
-    mounted.rig = std::move(given);
+    mounted.rig = recording.rig;
     mounted.T_body_reference = mounted.rig.cameras.front().T_body_cam;
   }
   recording.rig = mounted.rig;

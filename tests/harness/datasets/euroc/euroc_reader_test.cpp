@@ -72,6 +72,20 @@ TEST_F(EurocReaderTest, ACalibrationOfKalibrIsRead) {
   EXPECT_FALSE(recording.truth.empty());
 }
 
+// By the unit's clock the images are taken 20 ms later: each frame has four readings more before
+// it.
+TEST_F(EurocReaderTest, KalibrsShiftStampsImagesByTheUnitsClock) {
+  const std::string shift = "  timeshift_cam_imu: 0.02\n";
+  test::write_text(root_ / "dso/camchain.yaml", test::kalibr_camera("cam0", 0) + shift +
+                                                    test::kalibr_camera("cam1", -0.1) + shift);
+  const std::vector<Sample> samples = test::play_all(root_);
+  ASSERT_EQ(samples.size(), 5u);
+  EXPECT_EQ(samples[0].frame.stamp, test::kFirstStamp + 20'000'000);
+  EXPECT_EQ(samples[0].frame.imu.size(), 5u);
+  EXPECT_TRUE(samples[0].frame.image_stamps.empty());
+  EXPECT_LT((samples[1].truth.T_world_body.translation - Eigen::Vector3d(0.07, 2, 3)).norm(), 1e-6);
+}
+
 TEST_F(EurocReaderTest, TheUnitsFileSaysItsNoise) {
   EXPECT_FALSE(open_recording(root_).rig.imu);  // there is none
   const std::string lines =

@@ -27,7 +27,8 @@ class KalibrChainTest : public testing::Test {
 TEST_F(KalibrChainTest, TheBodyIsTheInertialUnit) {
   const auto file = write(test::kalibr_camera("cam0", 0) + test::kalibr_camera("cam1", -0.1));
   EXPECT_TRUE(is_kalibr_chain(file));
-  const Rig rig = load_kalibr_chain(file);
+  const auto [rig, delays] = load_kalibr_chain(file);
+  EXPECT_TRUE(delays.empty());
   ASSERT_EQ(rig.cameras.size(), 2u);
   EXPECT_EQ(rig.cameras[1].name, "cam1");
   EXPECT_EQ(rig.cameras[1].model.width, test::kWidth);
@@ -47,13 +48,24 @@ TEST_F(KalibrChainTest, WithoutAUnitTheOthersFollowTheFirst) {
       "  distortion_model: radtan\n  intrinsics: [20, 20, 15, 11]\n  resolution: [32, 24]\n";
   const std::string next =
       "  T_cn_cnm1: [[1, 0, 0, -0.1], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]\n";
-  const Rig rig = load_kalibr_chain(
-      write("cam0:\n" + lens + "cam1:\n" + lens + next + "cam2:\n" + lens + next));
+  const Rig rig =
+      load_kalibr_chain(write("cam0:\n" + lens + "cam1:\n" + lens + next + "cam2:\n" + lens + next))
+          .rig;
   ASSERT_EQ(rig.cameras.size(), 3u);
   EXPECT_LT(rig.cameras[0].T_body_cam.translation.norm(), 1e-12);
   EXPECT_LT((rig.cameras[2].T_body_cam.translation - Eigen::Vector3d(0, -0.2, 0)).norm(), 1e-12);
   EXPECT_THAT(rig.tag_cameras, testing::ElementsAre(2));
   EXPECT_EQ(rig.stereo_pairs.size(), 1u);
+}
+
+// The unit's clock is what Kalibr's shift makes of the camera's.
+TEST_F(KalibrChainTest, ShiftsAreDelaysOfImages) {
+  const std::string first = test::kalibr_camera("cam0", 0);
+  const std::string second = test::kalibr_camera("cam1", -0.1);
+  const std::string shift = "  timeshift_cam_imu: ";
+  EXPECT_THAT(load_kalibr_chain(write(first + second + shift + "-0.0021\n")).image_delays,
+              testing::ElementsAre(0, -2'100'000));
+  EXPECT_TRUE(load_kalibr_chain(write(first + shift + "0.0\n" + second)).image_delays.empty());
 }
 
 TEST_F(KalibrChainTest, WhatCannotBeUsedIsAnErrorWithItsLine) {
@@ -76,6 +88,10 @@ TEST_F(KalibrChainTest, WhatCannotBeUsedIsAnErrorWithItsLine) {
               HasSubstr("camera_model: expected pinhole or ds, found 'omni'"));
   EXPECT_THAT(error(first + replaced(second, "0.002, 0]", "0.002]")),
               HasSubstr("distortion_coeffs: expected k1, k2, k3, k4"));
+  for (const char* shift : {"10.5", ".nan", "late", "[0]"}) {
+    EXPECT_THAT(error(first + "  timeshift_cam_imu: " + shift + "\n" + second),
+                HasSubstr("camchain.yaml:14: timeshift_cam_imu: expected seconds, less than 10"));
+  }
   EXPECT_THAT(error("cam0: [1]\n"), HasSubstr("camchain.yaml:1: cam0: expected a map of keys"));
 }
 
