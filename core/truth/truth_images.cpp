@@ -41,7 +41,20 @@ std::vector<double> rays(int size, double focal, double centre) {
   return at;
 }
 
-/// The position in b of the point seen by a pixel of a.
+/// A row of a's points in camera b's frame, directions for sky, and their places in b's image.
+/// Coordinates apart, so that the compiler takes several pixels at once.
+struct Row {
+  using Numbers = std::vector<double>;
+
+  explicit Row(std::size_t width)
+      : near(width), reach(width), x(width), y(width), z(width), u(width), v(width) {}
+  Numbers near;     ///< 0 for sky, else 1
+  Numbers reach;    ///< depth in a, m; of sky 1
+  Numbers x, y, z;  ///< m
+  Numbers u, v;     ///< px; of what is behind the camera they mean nothing
+};
+
+/// The positions in b of the points seen by a's pixels.
 class Warp {
  public:
   Warp(const TruthView& a, const TruthView& b) : a_(a), b_(b) {
@@ -50,58 +63,84 @@ class Warp {
     const Pose T_b_a = b.T_world_cam.inverse() * a.T_world_cam;
     R_b_a_ = T_b_a.rotation.toRotationMatrix();
     t_b_a_ = T_b_a.translation;
+    R_b_world_ = b.T_world_cam.rotation.conjugate().toRotationMatrix();
   }
 
-  /// Point in camera b's frame; for sky, the direction.
-  Eigen::Vector3d point(int x, int y) const {
-    const double depth = a_.image.depth.at<float>(y, x);
-    const Eigen::Vector3d ray =
-        R_b_a_.col(0) * a_columns_[static_cast<std::size_t>(x)] +
-        (R_b_a_.col(1) * a_rows_[static_cast<std::size_t>(y)] + R_b_a_.col(2));
-    if (depth == 0) return ray;
-    const Eigen::Vector3d p = depth * ray + t_b_a_;
-    return a_.image.motion.empty() ? p : Eigen::Vector3d(p + motion(x, y));
+  void place(int y, Row& row) const {
+    const std::size_t width = a_columns_.size();
+    const auto* depth = a_.image.depth.ptr<float>(y);
+    for (std::size_t x = 0; x < width; ++x) {
+      row.near[x] = depth[x] != 0 ? 1 : 0;
+      row.reach[x] = static_cast<double>(depth[x]) + (1 - row.near[x]);
+    }
+    const Eigen::Vector3d begin =
+        R_b_a_.col(1) * a_rows_[static_cast<std::size_t>(y)] + R_b_a_.col(2);
+    for (int axis = 0; axis < 3; ++axis) {
+      double* const at = (axis == 0 ? row.x : axis == 1 ? row.y : row.z).data();
+      const double across = R_b_a_(axis, 0);
+      const double ahead = begin[axis];
+      const double moved = t_b_a_[axis];
+      for (std::size_t x = 0; x < width; ++x) {
+        at[x] = row.reach[x] * (across * a_columns_[x] + ahead) + row.near[x] * moved;
+      }
+    }
+    if (!a_.image.motion.empty()) move(y, row);
+    const PinholeCamera& to = b_.camera;
+    for (std::size_t x = 0; x < width; ++x) {
+      row.u[x] = to.fx * (row.x[x] / row.z[x]) + to.cx;
+      row.v[x] = to.fy * (row.y[x] / row.z[x]) + to.cy;
+    }
   }
 
-  bool is_sky(int x, int y) const { return a_.image.depth.at<float>(y, x) == 0; }
-
-  /// Whether the point, or the sky, is visible in b at a position of its image.
-  bool shows(const Eigen::Vector2d& place, const Eigen::Vector3d& point, bool sky) const {
-    if (!b_.camera.contains(place)) return false;
+  /// Whether the point of a row, or the sky, is visible in b.
+  bool shows(const Row& row, std::size_t i) const {
+    if (!b_.camera.contains({row.u[i], row.v[i]})) return false;
     // The nearest pixel; positions begin at -0.5.
-    const int x = std::min(static_cast<int>(place.x() + 0.5), b_.camera.width - 1);
-    const int y = std::min(static_cast<int>(place.y() + 0.5), b_.camera.height - 1);
-    const double seen = b_.image.depth.at<float>(y, x);
+    const int x = std::min(static_cast<int>(row.u[i] + 0.5), b_.camera.width - 1);
+    const int y = std::min(static_cast<int>(row.v[i] + 0.5), b_.camera.height - 1);
+    const double seen = b_.image.depth.ptr<float>(y)[x];
+    const bool sky = row.near[i] == 0;
     if (sky || seen == 0) return sky && seen == 0;
-    return agrees(x, y, seen, point);
+    return agrees(x, y, seen, {row.x[i], row.y[i], row.z[i]});
   }
 
  private:
-  /// By the wind, in camera b's frame.
-  Eigen::Vector3d motion(int x, int y) const {
-    const auto& m = a_.image.motion.at<cv::Vec3f>(y, x);
-    return b_.T_world_cam.rotation.conjugate() * Eigen::Vector3d(m[0], m[1], m[2]);
+  /// By the wind or with the rover. Most points stand still.
+  void move(int y, Row& row) const {
+    const auto* motion = a_.image.motion.ptr<cv::Vec3f>(y);
+    for (std::size_t x = 0; x < row.x.size(); ++x) {
+      const cv::Vec3f& m = motion[x];
+      if (row.near[x] == 0 || (m[0] == 0 && m[1] == 0 && m[2] == 0)) continue;
+      const Eigen::Vector3d moved = R_b_world_ * Eigen::Vector3d(m[0], m[1], m[2]);
+      row.x[x] += moved.x();
+      row.y[x] += moved.y();
+      row.z[x] += moved.z();
+    }
   }
 
   /// The plane seen at pixel (x, y) is n . p = n . (seen * ray); a ray of z = 1 meets it at the
   /// depth n . (seen * ray) / n . ray'.
   bool agrees(int x, int y, double seen, const Eigen::Vector3d& point) const {
-    const auto& normal = b_.image.normals.at<cv::Vec3f>(y, x);
+    const cv::Vec3f& normal = b_.image.normals.ptr<cv::Vec3f>(y)[x];
     const Eigen::Vector3d n(normal[0], normal[1], normal[2]);
     const double facing = n.x() * b_columns_[static_cast<std::size_t>(x)] +
                           n.y() * b_rows_[static_cast<std::size_t>(y)] + n.z();
-    const double expected = seen * facing * point.z() / n.dot(point);
-    const double off = std::abs(point.z() - expected) - kShare * seen - kResolution * seen * seen;
-    if (!(off > 0)) return off <= 0;  // nearly all, and NaN
+    // Both sides times n . ray' * z: divisions are for the few that do not agree at once.
+    const double along = n.dot(point);
+    const double off = std::abs(point.z() * (along - seen * facing));
+    const double usual = seen * (kShare + kResolution * seen);
+    if (!(std::abs(along) > 0)) return false;
+    if (off <= usual * std::abs(along)) return true;
     const double slope = seen * Eigen::Vector2d(n.x() / b_.camera.fx, n.y() / b_.camera.fy).norm() /
                          std::abs(facing);
-    return off <= std::min(kSlopeShare * slope, kMostBySlope * seen);
+    return off / std::abs(along) - usual <= std::min(kSlopeShare * slope, kMostBySlope * seen);
   }
 
   const TruthView& a_;
   const TruthView& b_;
   Eigen::Matrix3d R_b_a_;
   Eigen::Vector3d t_b_a_;
+  Eigen::Matrix3d R_b_world_;
   std::vector<double> a_columns_ = rays(a_.camera.width, a_.camera.fx, a_.camera.cx);
   std::vector<double> a_rows_ = rays(a_.camera.height, a_.camera.fy, a_.camera.cy);
   std::vector<double> b_columns_ = rays(b_.camera.width, b_.camera.fx, b_.camera.cx);
@@ -124,12 +163,6 @@ void check_rectified(const TruthView& left, const TruthView& right) {
   }
 }
 
-/// PinholeCamera::project() of a camera without distortion, inlined: it is called for each pixel.
-Eigen::Vector2d ideal(const PinholeCamera& camera, const Eigen::Vector3d& point) {
-  return {camera.fx * (point.x() / point.z()) + camera.cx,
-          camera.fy * (point.y() / point.z()) + camera.cy};
-}
-
 }  // namespace
 
 FlowTruth optical_flow(const TruthView& a, const TruthView& b) {
@@ -137,17 +170,17 @@ FlowTruth optical_flow(const TruthView& a, const TruthView& b) {
   const cv::Size size(a.camera.width, a.camera.height);
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   FlowTruth truth{cv::Mat(size, CV_32FC2), cv::Mat(size, CV_8UC1)};
+  Row row(static_cast<std::size_t>(size.width));
   for (int y = 0; y < size.height; ++y) {
+    warp.place(y, row);
     auto* flow = truth.flow.ptr<cv::Vec2f>(y);
     auto* visible = truth.visible.ptr<std::uint8_t>(y);
-    for (int x = 0; x < size.width; ++x) {
-      const Eigen::Vector3d point = warp.point(x, y);
-      const bool ahead = point.z() > kNearest;
-      const Eigen::Vector2d place = ahead ? ideal(b.camera, point) : Eigen::Vector2d::Zero();
-      flow[x] =
-          ahead ? cv::Vec2f(static_cast<float>(place.x() - x), static_cast<float>(place.y() - y))
-                : cv::Vec2f(kNone, kNone);
-      visible[x] = ahead && warp.shows(place, point, warp.is_sky(x, y)) ? 255 : 0;
+    for (std::size_t x = 0; x < row.z.size(); ++x) {
+      const bool ahead = row.z[x] > kNearest;
+      flow[x] = ahead ? cv::Vec2f(static_cast<float>(row.u[x] - static_cast<double>(x)),
+                                  static_cast<float>(row.v[x] - y))
+                      : cv::Vec2f(kNone, kNone);
+      visible[x] = ahead && warp.shows(row, x) ? 255 : 0;
     }
   }
   return truth;

@@ -12,16 +12,18 @@
 namespace vinebench::harness {
 namespace {
 
-constexpr std::size_t kBlock = std::size_t{1} << 18;  // bytes with codes of their own
+constexpr std::size_t kBlock = std::size_t{1} << 20;  // bytes with codes of their own
 constexpr std::size_t kStep = 4;                      // bytes from one look for a run to the next
+constexpr std::size_t kSample = 4;                    // of so many steps one is counted
 constexpr int kEnd = 256;                             // symbols of RFC 1951, 3.2.5
 constexpr int kLongest = 285;
 constexpr int kSymbols = 286;
 constexpr std::size_t kLongestRun = 258;
 constexpr int kMostBits = 13;  // of a code: four fit into a word of 64 bits beside 7 old ones
 
-std::uint32_t load(const std::uint8_t* p) {
-  std::uint32_t word = 0;
+template <class Word>
+Word load(const std::uint8_t* p) {
+  Word word = 0;
   std::memcpy(&word, p, sizeof(word));
   return word;
 }
@@ -33,12 +35,17 @@ void scan(std::span<const std::uint8_t> bytes, const Literals& literals, const R
   const std::uint8_t* const data = bytes.data();
   std::size_t i = 0;
   while (i + kStep <= bytes.size()) {
-    if (i == 0 || load(data + i) != load(data + i - 1)) {
+    if (i == 0 || i + 8 > bytes.size() ||
+        load<std::uint64_t>(data + i) != load<std::uint64_t>(data + i - 1)) {
       literals(data + i, kStep);
       i += kStep;
       continue;
     }
-    std::size_t length = kStep;
+    std::size_t length = 8;
+    const std::uint64_t eight = data[i] * 0x0101010101010101U;
+    while (i + length + 8 <= bytes.size() && load<std::uint64_t>(data + i + length) == eight) {
+      length += 8;
+    }
     while (i + length < bytes.size() && data[i + length] == data[i - 1]) ++length;
     i += length;
     for (; length >= kLongestRun; length -= kLongestRun) run();
@@ -114,7 +121,7 @@ class BitWriter {
  public:
   explicit BitWriter(char* to) : to_(to) {}
   /// At most 57 bits with those that wait.
-  void put(std::uint64_t bits, int count) {
+  void put(std::uint64_t bits, unsigned count) {
     word_ |= bits << count_;
     count_ += count;
   }
@@ -124,7 +131,7 @@ class BitWriter {
     word_ >>= count_ / 8 * 8;
     count_ %= 8;
   }
-  void put_now(std::uint64_t bits, int count) {
+  void put_now(std::uint64_t bits, unsigned count) {
     put(bits, count);
     flush();
   }
@@ -136,7 +143,7 @@ class BitWriter {
  private:
   char* to_;
   std::uint64_t word_ = 0;
-  int count_ = 0;
+  unsigned count_ = 0;
 };
 
 /// The lengths of the codes, each in four bits, and one distance: that of the byte before.
@@ -151,32 +158,61 @@ void put_header(const Lengths& lengths, bool last, BitWriter& writer) {
   writer.put_now(reversed(1, 4), 4);
 }
 
-void put_block(std::span<const std::uint8_t> bytes, bool last, BitWriter& writer) {
+/// How often about each symbol occurs; no less than once if it does.
+Counts count_symbols(std::span<const std::uint8_t> bytes) {
   Counts counts{};
+  std::array<std::uint8_t, 256> occurs{};
   // Four tables, so that equal neighbours do not wait for each other.
   std::array<std::array<std::uint32_t, 256>, kStep> tables{};
+  std::size_t step = 0;
   scan(
       bytes,
       [&](const std::uint8_t* p, std::size_t n) {
+        for (std::size_t i = 0; i < n; ++i) occurs[p[i]] = 1;
+        if (step++ % kSample != 0) return;
         for (std::size_t i = 0; i < n; ++i) ++tables[i][p[i]];
       },
       [&] { ++counts[kLongest]; });
-  for (const auto& table : tables) {
-    for (std::size_t value = 0; value < table.size(); ++value) counts[value] += table[value];
+  for (std::size_t value = 0; value < occurs.size(); ++value) {
+    for (const auto& table : tables) counts[value] += table[value];
+    counts[value] = std::max<std::uint32_t>(counts[value] * kSample, occurs[value]);
   }
   counts[kEnd] = 1;
   counts[kLongest] += 1;  // a code has at least two symbols
-  const Lengths lengths = code_lengths(counts);
+  return counts;
+}
+
+/// The codes of two bytes at once, the first one lowest, above five bits with their length. Valid
+/// until the thread's next call.
+std::span<const std::uint32_t> codes_of_pairs(const std::array<std::uint32_t, kSymbols>& codes,
+                                              const Lengths& lengths) {
+  thread_local std::vector<std::uint32_t> pairs(1 << 16);
+  for (std::size_t second = 0; second < 256; ++second) {
+    for (std::size_t first = 0; first < 256; ++first) {
+      const std::uint32_t both = codes[first] | codes[second] << lengths[first];
+      const auto length = static_cast<std::uint32_t>(lengths[first] + lengths[second]);
+      pairs[second << 8 | first] = both << 5 | length;
+    }
+  }
+  return pairs;
+}
+
+void put_block(std::span<const std::uint8_t> bytes, bool last, BitWriter& to) {
+  const Lengths lengths = code_lengths(count_symbols(bytes));
   const auto codes = codes_of(lengths);
+  const std::uint32_t* const pairs = codes_of_pairs(codes, lengths).data();
+  BitWriter writer = to;  // stays in registers: `to` might be what is written through its pointer
   put_header(lengths, last, writer);
-  const auto put = [&](std::uint8_t value) { writer.put(codes[value], lengths[value]); };
   scan(
       bytes,
       [&](const std::uint8_t* p, std::size_t n) {
         if (n == kStep) {
-          for (std::size_t i = 0; i < kStep; ++i) put(p[i]);
+          const auto four = load<std::uint32_t>(p);
+          for (const std::uint32_t pair : {pairs[four & 0xffff], pairs[four >> 16]}) {
+            writer.put(pair >> 5, pair & 31);
+          }
         } else {
-          for (std::size_t i = 0; i < n; ++i) put(p[i]);
+          for (std::size_t i = 0; i < n; ++i) writer.put(codes[p[i]], lengths[p[i]]);
         }
         writer.flush();
       },
@@ -185,6 +221,7 @@ void put_block(std::span<const std::uint8_t> bytes, bool last, BitWriter& writer
         writer.put_now(0, 1);
       });
   writer.put_now(codes[kEnd], lengths[kEnd]);
+  to = writer;
 }
 
 }  // namespace

@@ -4,10 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <opencv2/core.hpp>
 #include <utility>
 
 #include "core/files/files.h"
 #include "core/truth/body_flow.h"
+#include "core/truth/labels.h"
 #include "core/util/error.h"
 #include "harness/datasets/files/image_codec.h"
 #include "harness/datasets/format/image_writer.h"
@@ -20,10 +22,13 @@ FlowTruth flow_between(const DatasetFrame& a, const DatasetFrame& b, std::size_t
                        const Pose& T_body_cam) {
   TruthView from = a.truth.views.at(camera);
   const TruthView& to = b.truth.views.at(camera);
-  from.image.motion = from.image.motion.clone();  // a copy
-  const Pose T_cam_body = T_body_cam.inverse();
-  move_rover(from.camera, from.T_world_cam, from.T_world_cam * T_cam_body,
-             to.T_world_cam * T_cam_body, from.image.labels, from.image.depth, from.image.motion);
+  const cv::Mat rover = from.image.labels == static_cast<int>(Label::kRover);
+  if (cv::countNonZero(rover) > 0) {
+    from.image.motion = from.image.motion.clone();  // the frame's own stays as it is
+    const Pose T_cam_body = T_body_cam.inverse();
+    move_body(from.camera, from.T_world_cam, from.T_world_cam * T_cam_body,
+              to.T_world_cam * T_cam_body, rover, from.image.depth, from.image.motion);
+  }
   return optical_flow(from, to);
 }
 
