@@ -142,8 +142,9 @@ void LocalMapper::triangulate(int keyframe, const EstimatorRig& rig, Map& map) c
 void LocalMapper::triangulate_between(int newer, int older, int view, const EstimatorRig& rig,
                                       Map& map) const {
   const auto v = static_cast<std::size_t>(view);
-  const std::vector<EpipolarMatch> matches = match_epipolar(
-      map.keyframe(newer), map.keyframe(older), view, rig, settings_.max_hamming * 3 / 4);
+  const std::vector<EpipolarMatch> matches =
+      match_epipolar(map.keyframe(newer), map.keyframe(older), view, rig,
+                     {settings_.max_hamming * 3 / 4, settings_.second_best, settings_.min_depth});
   for (const EpipolarMatch& match : matches) {
     if (map.keyframe(newer).landmarks[v][static_cast<std::size_t>(match.feature_a)] >= 0 ||
         map.keyframe(older).landmarks[v][static_cast<std::size_t>(match.feature_b)] >= 0) {

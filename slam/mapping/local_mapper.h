@@ -18,6 +18,8 @@ struct LocalMapperSettings {
   MappingConfig mapping;
   bool refinement = true;          ///< features are placed on their landmark's patch
   int max_hamming = 64;            ///< bits
+  double second_best = 0.85;       ///< of new landmarks: see EpipolarSearch
+  double min_depth = 0.15;         ///< m, likewise
   double tag_corner_sigma = 0.15;  ///< px, by which a tag's corner is off besides its noise
   std::optional<InertialNoise> inertial{};  ///< of a unit that takes part
 };

@@ -23,9 +23,19 @@ struct EpipolarMatch {
   Eigen::Vector3d p_map;
 };
 
+struct EpipolarSearch {
+  int max_hamming = 48;       ///< bits
+  double second_best = 0.85;  ///< the best must be below this share of what is alike elsewhere
+  double min_depth = 0.15;    ///< m; nothing is nearer
+};
+
 /// Pairs of features of one view of two keyframes that have neither landmark nor stereo depth, look
-/// alike, and whose rays meet at a point that both see where it is (95 % chi-square).
+/// more alike than any other on the epipolar line, and whose rays meet at a point that both see
+/// where it is (95 % chi-square).
+///
+/// Whatever is on that line meets somewhere, mostly near the cameras, where a wrong landmark counts
+/// most: weights go with its depth^-2.
 std::vector<EpipolarMatch> match_epipolar(const Keyframe& a, const Keyframe& b, int view,
-                                          const EstimatorRig& rig, int max_hamming);
+                                          const EstimatorRig& rig, const EpipolarSearch& search);
 
 }  // namespace vinebench::slam

@@ -12,6 +12,8 @@ namespace {
 using test::AisleMap;
 using test::SyntheticAisle;
 
+constexpr EpipolarSearch kSearch{.max_hamming = 50};
+
 TEST(TriangulationTest, RaysMeetWhereTheyCross) {
   const Eigen::Vector3d point(0.3, -0.2, 2.0);
   const Eigen::Vector3d a(0, 0, 0);
@@ -62,7 +64,7 @@ TEST(TriangulationTest, EpipolarMatchesAreTheSamePointInItsPlace) {
   const Keyframe a = keyframe(aisle, 0, Pose{});
   const Keyframe b = keyframe(aisle, 1, Pose{exp_so3({0, 0, 0.05}), {0.25, 0.02, 0}});
   for (int view = 0; view < 2; ++view) {
-    const auto matches = match_epipolar(a, b, view, rig, 50);
+    const auto matches = match_epipolar(a, b, view, rig, kSearch);
     const auto v = static_cast<std::size_t>(view);
     EXPECT_GT(matches.size(), 40u);
     for (const EpipolarMatch& match : matches) {
@@ -82,15 +84,15 @@ TEST(TriangulationTest, WhatHasALandmarkOrADepthIsLeftAlone) {
   const EstimatorRig rig(aisle.rig, OrbConfig{});
   Keyframe a = keyframe(aisle, 0, Pose{});
   const Keyframe b = keyframe(aisle, 1, Pose{Eigen::Quaterniond::Identity(), {0.25, 0, 0}});
-  const auto matches = match_epipolar(a, b, 0, rig, 50);
+  const auto matches = match_epipolar(a, b, 0, rig, kSearch);
   ASSERT_GT(matches.size(), 10u);
   const int taken = matches[3].feature_a;
   a.landmarks[0][static_cast<std::size_t>(taken)] = 12;
-  const auto fewer = match_epipolar(a, b, 0, rig, 50);
+  const auto fewer = match_epipolar(a, b, 0, rig, kSearch);
   EXPECT_EQ(fewer.size(), matches.size() - 1);
   for (const EpipolarMatch& match : fewer) EXPECT_NE(match.feature_a, taken);
   a.frame = aisle.frame(0, Pose{});  // every feature with its depth
-  EXPECT_TRUE(match_epipolar(a, b, 0, rig, 50).empty());
+  EXPECT_TRUE(match_epipolar(a, b, 0, rig, kSearch).empty());
 }
 
 TEST(TriangulationTest, FeaturesThatLookDifferentOrWithoutABaselineAreNotMatched) {
@@ -100,11 +102,11 @@ TEST(TriangulationTest, FeaturesThatLookDifferentOrWithoutABaselineAreNotMatched
   const Keyframe a = keyframe(aisle, 0, Pose{});
   EXPECT_TRUE(match_epipolar(a,
                              keyframe(other, 1, Pose{Eigen::Quaterniond::Identity(), {0.25, 0, 0}}),
-                             0, rig, 50)
+                             0, rig, kSearch)
                   .empty());
   EXPECT_TRUE(match_epipolar(a,
                              keyframe(aisle, 1, Pose{Eigen::Quaterniond::Identity(), {0.01, 0, 0}}),
-                             0, rig, 50)
+                             0, rig, kSearch)
                   .empty());
 }
 
