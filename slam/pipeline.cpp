@@ -38,7 +38,8 @@ Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
       tracker_({config.tracking, config.dead_reckoning, config.refinement, config.stereo,
                 inertial_noise(config.inertial, rig.imu), config.wheels}),
       mapper_({config.mapping, config.refinement.enabled, config.tracking.max_hamming,
-               config.tracking.second_best, config.stereo.min_depth, config.loop.corner_sigma,
+               config.tracking.second_best, config.stereo.min_depth,
+               config.stereo.far_depth_baselines, config.loop.corner_sigma,
                inertial_noise(config.inertial, rig.imu)}),
       scheduler_(config.mapping, one_thread),
       loop_closer_({config.loop, config.tags.size, config.mapping.global_iterations,
@@ -94,6 +95,7 @@ void Pipeline::join_due_mapping() {
 void Pipeline::correct_stereo(FrameFeatures& frame) const {
   for (std::size_t v = 0; v < frame.views.size(); ++v) {
     correct_depths(rig_.left_cameras[v], config_.stereo.max_depth_baselines, frame.views[v]);
+    reach_farther(rig_.left_cameras[v], config_.stereo, frame.views[v]);
   }
 }
 
@@ -208,9 +210,7 @@ TrackedFrame Pipeline::initialise(const std::shared_ptr<FrameFeatures>& frame) {
   tracked.frame = frame;
   tracked.associations = no_associations(*frame);
   for (std::size_t v = 0; v < frame->views.size(); ++v) {
-    StereoView& view = frame->views[v];
-    reach_farther(view.features, rig_.left_cameras[v].lens, rig_.left_cameras[v].baseline,
-                  config_.stereo, view.stereo);
+    const StereoView& view = frame->views[v];
     const int points = count_with_depth(view.stereo);
     tracked.motion.matches_per_view.push_back(points);
     tracked.motion.inliers_per_view.push_back(points);

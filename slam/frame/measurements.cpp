@@ -5,6 +5,17 @@
 #include <cmath>
 
 namespace vinebench::slam {
+namespace {
+
+/// m along the optical axis, of a match that may have none; not above 0 without a match.
+double far_depth(const StereoCameraModel& camera, const StereoView& view, std::size_t feature) {
+  const float x_right = view.stereo[feature].x_right;
+  if (x_right < 0) return -1;
+  const Keypoint& keypoint = view.features.keypoints[feature];
+  return camera.depth_of({keypoint.x, keypoint.y}, static_cast<double>(keypoint.x - x_right));
+}
+
+}  // namespace
 
 PixelMeasurement measure(const StereoView& view, int feature, const MeasurementNoise& noise) {
   const auto f = static_cast<std::size_t>(feature);
@@ -43,13 +54,22 @@ std::vector<Pose> view_poses(const FrameFeatures& frame, const Pose& T_map_body,
 }
 
 Eigen::Vector3d stereo_point(const FrameFeatures& frame, std::size_t view, int feature,
-                             const Pose& T_map_body, const EstimatorRig& rig) {
+                             double depth, const Pose& T_map_body, const EstimatorRig& rig) {
   const auto f = static_cast<std::size_t>(feature);
   const Keypoint& keypoint = frame.views[view].features.keypoints[f];
   const Eigen::Vector3d ray = rig.left_cameras[view].lens.unproject({keypoint.x, keypoint.y});
-  const Eigen::Vector3d p_cam = ray * static_cast<double>(frame.views[view].stereo[f].depth);
+  const Eigen::Vector3d p_cam = ray * depth;
   const Pose T_map_then = row_pose(frame, view, keypoint.y, T_map_body, rig);
   return T_map_then * (rig.T_body_cams[view] * p_cam);
+}
+
+std::optional<double> first_depth(const StereoCameraModel& camera, double far_depth_baselines,
+                                  const StereoView& view, std::size_t feature) {
+  const StereoMatch& match = view.stereo[feature];
+  if (match.depth > 0) return static_cast<double>(match.depth);
+  const double depth = far_depth(camera, view, feature);
+  if (depth > 0 && depth < far_depth_baselines * camera.baseline) return depth;
+  return std::nullopt;
 }
 
 void correct_depths(const StereoCameraModel& camera, double max_depth_baselines, StereoView& view) {
@@ -62,6 +82,15 @@ void correct_depths(const StereoCameraModel& camera, double max_depth_baselines,
         camera.depth_of({keypoint.x, keypoint.y}, static_cast<double>(keypoint.x - match.x_right));
     const bool near = depth > 0 && depth < max_depth_baselines * camera.baseline;
     match.depth = near ? static_cast<float>(depth) : -1.0F;
+  }
+}
+
+void reach_farther(const StereoCameraModel& camera, const StereoConfig& config, StereoView& view) {
+  if (count_with_depth(view.stereo) >= config.few_near) return;
+  for (std::size_t f = 0; f < view.stereo.size(); ++f) {
+    if (const auto depth = first_depth(camera, config.far_depth_baselines, view, f)) {
+      view.stereo[f].depth = static_cast<float>(*depth);
+    }
   }
 }
 

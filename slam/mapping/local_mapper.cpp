@@ -32,9 +32,13 @@ int LocalMapper::insert(const TrackedFrame& tracked, const EstimatorRig& rig, Ma
     const StereoView& view = tracked.frame->views[v];
     for (std::size_t f = 0; f < view.features.size(); ++f) {
       int landmark = map.keyframe(id).landmarks[v][f];
-      if (landmark < 0 && f < view.detected() && view.stereo[f].depth > 0) {
-        const Eigen::Vector3d p_map =
-            stereo_point(*tracked.frame, v, static_cast<int>(f), tracked.motion.T_map_body, rig);
+      const auto depth =
+          landmark < 0 && f < view.detected()
+              ? first_depth(rig.left_cameras[v], settings_.far_depth_baselines, view, f)
+              : std::nullopt;
+      if (depth) {
+        const Eigen::Vector3d p_map = stereo_point(*tracked.frame, v, static_cast<int>(f), *depth,
+                                                   tracked.motion.T_map_body, rig);
         landmark = map.add_landmark(p_map, {id, static_cast<int>(v), static_cast<int>(f)});
         if (settings_.refinement) place(tracked.frame->views[v], f);
       }

@@ -16,11 +16,12 @@ namespace vinebench::slam {
 /// What LocalMapper is set by.
 struct LocalMapperSettings {
   MappingConfig mapping;
-  bool refinement = true;          ///< features are placed on their landmark's patch
-  int max_hamming = 64;            ///< bits
-  double second_best = 0.85;       ///< of new landmarks: see EpipolarSearch
-  double min_depth = 0.15;         ///< m, likewise
-  double tag_corner_sigma = 0.15;  ///< px, by which a tag's corner is off besides its noise
+  bool refinement = true;            ///< features are placed on their landmark's patch
+  int max_hamming = 64;              ///< bits
+  double second_best = 0.85;         ///< of new landmarks: see EpipolarSearch
+  double min_depth = 0.15;           ///< m, likewise
+  double far_depth_baselines = 150;  ///< see StereoConfig
+  double tag_corner_sigma = 0.15;    ///< px, by which a tag's corner is off besides its noise
   std::optional<InertialNoise> inertial{};  ///< of a unit that takes part
 };
 
@@ -30,7 +31,7 @@ class LocalMapper {
   explicit LocalMapper(const LocalMapperSettings& settings) : settings_(settings) {}
 
   /// Makes the frame a keyframe: its tracked landmarks are tied, its other features with a stereo
-  /// depth become landmarks. Returns its id.
+  /// match that is not too far away become landmarks. Returns its id.
   int insert(const TrackedFrame& tracked, const EstimatorRig& rig, Map& map) const;
 
   /// Drops landmarks that too few keyframes saw, finds new ones between the keyframe and its

@@ -130,17 +130,4 @@ bool is_dirty(const std::vector<StereoMatch>& matches, const std::vector<StereoM
          found * kChanceShare > looser.size();
 }
 
-void reach_farther(const Features& left, const PinholeCamera& camera, double baseline,
-                   const StereoConfig& config, std::vector<StereoMatch>& matches) {
-  if (count_with_depth(matches) >= config.few) return;
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    if (matches[i].depth > 0 || matches[i].x_right < 0) continue;
-    const float disparity = left.keypoints[i].x - matches[i].x_right;
-    const double depth = camera.fx * baseline / static_cast<double>(disparity);
-    if (depth < config.far_depth_baselines * baseline) {
-      matches[i].depth = static_cast<float>(depth);
-    }
-  }
-}
-
 }  // namespace vinebench::slam

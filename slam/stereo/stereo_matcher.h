@@ -24,13 +24,15 @@ inline std::vector<std::string> yaml_names(StereoSearch) {
 
 struct StereoConfig {
   StereoSearch search = StereoSearch::kWindows;  ///< in the right image itself, or its features
-  double max_depth_baselines = 40;  ///< farther depths are not used (paper, Sect. III-A)
-  /// Where a map begins and fewer than this are near enough, on a road say, those beyond take part
-  /// too, up to far_depth_baselines.
-  int few = 200;
-  double far_depth_baselines = 150;  ///< likewise, of points far away
-  double min_depth = 0.15;           ///< m; nothing is nearer
-  double uniqueness = 1.15;          ///< the next best place must differ by this factor more
+  double max_depth_baselines = 40;  ///< farther depths are no measurements (paper, Sect. III-A)
+  /// Features between the two limits begin landmarks too: they say little of the way but much of
+  /// the heading, for longest. How far away they are is measured only where fewer than this are
+  /// nearer, as all far disparities share the calibration's error.
+  int few_near = 100;
+  double far_depth_baselines = 150;
+  int few = 200;             ///< where fewer agree, dirt on a lens may be why
+  double min_depth = 0.15;   ///< m; nothing is nearer
+  double uniqueness = 1.15;  ///< the next best place must differ by this factor more
   /// Mean difference of the aligned windows, as a share of their contrast, that is still a match.
   /// Windows that show two depths, a stem before the ground, differ more: they would be biased
   /// towards the nearer one.
@@ -50,6 +52,7 @@ struct StereoConfig {
     archive("search", search);
     archive("max_depth_baselines", max_depth_baselines, Range::positive());
     archive("few", few, Range::non_negative());
+    archive("few_near", few_near, Range::non_negative());
     archive("far_depth_baselines", far_depth_baselines, Range::positive());
     archive("min_depth", min_depth, Range::positive());
     archive("uniqueness", uniqueness, Range::between(1, 10));
@@ -93,12 +96,5 @@ std::vector<StereoMatch> match_stereo(const Extraction& left, const Extraction& 
 /// (`matches`), where those within the dirty_residual are that many more (`looser`).
 bool is_dirty(const std::vector<StereoMatch>& matches, const std::vector<StereoMatch>& looser,
               const StereoConfig& config);
-
-/// Gives matches beyond the limit their depth where fewer than StereoConfig::few lie within it.
-/// They say little of the way but much of the heading, and are found again wherever the next frame
-/// looks, while what is near has left its place by more than a search without a known velocity
-/// reaches.
-void reach_farther(const Features& left, const PinholeCamera& camera, double baseline,
-                   const StereoConfig& config, std::vector<StereoMatch>& matches);
 
 }  // namespace vinebench::slam

@@ -41,7 +41,8 @@ TEST(MeasurementsTest, StereoPutsAPointWhereItIs) {
     ASSERT_GT(view.features.size(), 5u);
     for (std::size_t f = 0; f < view.features.size(); ++f) {
       const auto& truth = aisle.point(aisle.point_of(view.features.descriptors[f]));
-      const Eigen::Vector3d point = stereo_point(*frame, k, static_cast<int>(f), body, rig);
+      const double depth = first_depth(rig.left_cameras[k], 40, view, f).value();
+      const Eigen::Vector3d point = stereo_point(*frame, k, static_cast<int>(f), depth, body, rig);
       EXPECT_LT((point - truth).norm(), 1e-6);  // floats: 1e-7 of up to 4.8 m
     }
   }
@@ -81,10 +82,11 @@ TEST(MeasurementsTest, StereoKnowsWhenARowWasExposed) {
   for (std::size_t f = 0; f < view.features.size(); ++f) {
     const auto& truth = aisle.point(aisle.point_of(view.features.descriptors[f]));
     const int feature = static_cast<int>(f);
-    EXPECT_LT((stereo_point(*frame, 1, feature, body, told) - truth).norm(), 2e-6);
+    const auto depth = static_cast<double>(view.stereo[f].depth);
+    EXPECT_LT((stereo_point(*frame, 1, feature, depth, body, told) - truth).norm(), 2e-6);
     const EstimatorRig untold(aisle.rig, OrbConfig{});
-    worst_untold =
-        std::max(worst_untold, (stereo_point(*frame, 1, feature, body, untold) - truth).norm());
+    worst_untold = std::max(worst_untold,
+                            (stereo_point(*frame, 1, feature, depth, body, untold) - truth).norm());
   }
   EXPECT_GT(worst_untold, 0.01);  // m
 }
@@ -109,6 +111,45 @@ TEST(MeasurementsTest, CorrectsDepthsByTheDisparityOffset) {
               1e-6);
   EXPECT_EQ(corrected.stereo[5].x_right, view.stereo[5].x_right);
   EXPECT_EQ(corrected.stereo[3].depth, -1);
+}
+
+/// A lens of 100 px and a baseline of 0.1 m: a disparity of 1 px is 10 m, or 100 baselines.
+class FarDepthTest : public testing::Test {
+ protected:
+  FarDepthTest() {
+    camera_.lens = {.width = 640, .height = 480, .fx = 100, .fy = 100, .cx = 320, .cy = 240};
+    camera_.baseline = 0.1;
+    view_.features.keypoints.resize(4);
+    for (Keypoint& keypoint : view_.features.keypoints) keypoint.x = 50;
+    view_.stereo.resize(4);
+    view_.stereo[0] = {.x_right = 40, .depth = 1};  // near
+    view_.stereo[1].x_right = 49;                   // 100 baselines
+    view_.stereo[2].x_right = 49.5F;                // 200 baselines: beyond the farther limit too
+  }                                                 // no match at all: the fourth
+
+  StereoCameraModel camera_;
+  StereoView view_;
+};
+
+TEST_F(FarDepthTest, LandmarksBeginFartherThanDepthsAreMeasured) {
+  EXPECT_EQ(first_depth(camera_, 150, view_, 0), 1);
+  EXPECT_NEAR(first_depth(camera_, 150, view_, 1).value(), 10, 1e-12);
+  EXPECT_FALSE(first_depth(camera_, 150, view_, 2));
+  EXPECT_FALSE(first_depth(camera_, 150, view_, 3));
+  EXPECT_FALSE(measure(view_, 1, MeasurementNoise{.level_scales = {1}}).right_x);
+}
+
+TEST_F(FarDepthTest, TheyAreMeasuredToTooWhereLittleIsNear) {
+  StereoConfig config;
+  config.few_near = 1;
+  reach_farther(camera_, config, view_);
+  EXPECT_EQ(view_.stereo[1].depth, -1);  // one near point is enough
+  config.few_near = 2;
+  reach_farther(camera_, config, view_);
+  EXPECT_FLOAT_EQ(view_.stereo[0].depth, 1);
+  EXPECT_FLOAT_EQ(view_.stereo[1].depth, 10);
+  EXPECT_EQ(view_.stereo[2].depth, -1);
+  EXPECT_EQ(view_.stereo[3].depth, -1);
 }
 
 }  // namespace

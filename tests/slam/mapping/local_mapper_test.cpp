@@ -81,7 +81,9 @@ class LocalMapperTest : public testing::Test {
 TEST_F(LocalMapperTest, FeaturesWithADepthBecomeLandmarks) {
   const LocalMapper mapper(settings_);
   TrackedFrame frame = tracked(ahead(0.3));
-  frame.frame->views[0].stereo[5].depth = 0;
+  frame.frame->views[0].stereo[5] = {};
+  // Too far away to be measured, yet found in the right image.
+  frame.frame->views[0].stereo[6].depth = -1;
   EXPECT_EQ(mapper.insert(frame, rig_, map_), 0);
   EXPECT_EQ(alive(), features(*frame.frame) - 1);
   EXPECT_EQ(map_.keyframe(0).landmarks[0][5], -1);

@@ -261,28 +261,5 @@ TEST(StereoMatcherTest, ImpossiblePairsAreErrors) {
               testing::ThrowsMessage<Error>(testing::HasSubstr("of the same size")));
 }
 
-// A lens of 100 px and a baseline of 0.1 m: a disparity of 1 px is 10 m, or 100 baselines.
-TEST(ReachFartherTest, GivesWhatLiesBeyondADepthWhereLittleIsNear) {
-  const PinholeCamera camera{
-      .width = 640, .height = 480, .fx = 100, .fy = 100, .cx = 320, .cy = 240};
-  Features left;
-  left.keypoints.resize(4);
-  std::vector<StereoMatch> matches(4);
-  for (Keypoint& keypoint : left.keypoints) keypoint.x = 50;
-  matches[0] = {.x_right = 40, .depth = 1};  // near
-  matches[1].x_right = 49;                   // 100 baselines
-  matches[2].x_right = 49.5F;                // 200 baselines: beyond the farther limit too
-  StereoConfig config;                       // no match at all: the fourth
-  config.few = 1;
-  reach_farther(left, camera, 0.1, config, matches);
-  EXPECT_EQ(matches[1].depth, -1);  // one near point is enough
-  config.few = 2;
-  reach_farther(left, camera, 0.1, config, matches);
-  EXPECT_FLOAT_EQ(matches[0].depth, 1);
-  EXPECT_FLOAT_EQ(matches[1].depth, 10);
-  EXPECT_EQ(matches[2].depth, -1);
-  EXPECT_EQ(matches[3].depth, -1);
-}
-
 }  // namespace
 }  // namespace vinebench::slam
