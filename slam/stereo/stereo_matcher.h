@@ -25,11 +25,12 @@ inline std::vector<std::string> yaml_names(StereoSearch) {
 struct StereoConfig {
   StereoSearch search = StereoSearch::kWindows;  ///< in the right image itself, or its features
   double max_depth_baselines = 40;  ///< farther depths are no measurements (paper, Sect. III-A)
-  /// Features between the two limits begin landmarks too: they say little of the way but much of
-  /// the heading, for longest. How far away they are is measured only where fewer than this are
-  /// nearer, as all far disparities share the calibration's error.
-  int few_near = 100;
+  /// Features up to here begin landmarks too: those say little of the way but much of the heading,
+  /// and for longest.
   double far_depth_baselines = 150;
+  /// Where fewer are within max_depth_baselines, those beyond measure their depth too: nothing else
+  /// tells how far the body moves. Elsewhere not, as the calibration's error is common to them.
+  int few_near = 100;
   int few = 200;             ///< where fewer agree, dirt on a lens may be why
   double min_depth = 0.15;   ///< m; nothing is nearer
   double uniqueness = 1.15;  ///< the next best place must differ by this factor more
