@@ -8,7 +8,8 @@ namespace vinebench::slam {
 namespace {
 
 /// m along the optical axis, of a match that may have none; not above 0 without a match.
-double far_depth(const StereoCameraModel& camera, const StereoView& view, std::size_t feature) {
+double depth_by_disparity(const StereoCameraModel& camera, const StereoView& view,
+                          std::size_t feature) {
   const float x_right = view.stereo[feature].x_right;
   if (x_right < 0) return -1;
   const Keypoint& keypoint = view.features.keypoints[feature];
@@ -67,7 +68,7 @@ std::optional<double> first_depth(const StereoCameraModel& camera, double far_de
                                   const StereoView& view, std::size_t feature) {
   const StereoMatch& match = view.stereo[feature];
   if (match.depth > 0) return static_cast<double>(match.depth);
-  const double depth = far_depth(camera, view, feature);
+  const double depth = depth_by_disparity(camera, view, feature);
   if (depth > 0 && depth < far_depth_baselines * camera.baseline) return depth;
   return std::nullopt;
 }
@@ -77,9 +78,7 @@ void correct_depths(const StereoCameraModel& camera, double max_depth_baselines,
   for (std::size_t f = 0; f < view.stereo.size(); ++f) {
     StereoMatch& match = view.stereo[f];
     if (match.x_right < 0) continue;
-    const Keypoint& keypoint = view.features.keypoints[f];
-    const double depth =
-        camera.depth_of({keypoint.x, keypoint.y}, static_cast<double>(keypoint.x - match.x_right));
+    const double depth = depth_by_disparity(camera, view, f);
     const bool near = depth > 0 && depth < max_depth_baselines * camera.baseline;
     match.depth = near ? static_cast<float>(depth) : -1.0F;
   }

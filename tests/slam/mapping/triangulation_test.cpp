@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
+
 #include "tests/support/aisle_map.h"
 
 namespace vinebench::slam {
@@ -93,6 +96,61 @@ TEST(TriangulationTest, WhatHasALandmarkOrADepthIsLeftAlone) {
   for (const EpipolarMatch& match : fewer) EXPECT_NE(match.feature_a, taken);
   a.frame = aisle.frame(0, Pose{});  // every feature with its depth
   EXPECT_TRUE(match_epipolar(a, b, 0, rig, kSearch).empty());
+}
+
+// Straight ahead all epipolar lines go through the principal point. A feature on the line that
+// looks exactly the same elsewhere leaves no choice; at the same corner, found on another level, it
+// does.
+TEST(TriangulationTest, WhatLooksTheSameElsewhereOnTheLineIsNotMatched) {
+  const SyntheticAisle aisle(0, 1, 1500);
+  const EstimatorRig rig(aisle.rig, OrbConfig{});
+  const Keyframe a = keyframe(aisle, 0, Pose{});
+  const Keyframe b = keyframe(aisle, 1, Pose{Eigen::Quaterniond::Identity(), {0.25, 0, 0}});
+  const auto matches = match_epipolar(a, b, 0, rig, kSearch);
+  ASSERT_GT(matches.size(), 10u);
+  const EpipolarMatch& match = matches[3];
+  const auto is_found_beside = [&](float stretch) {
+    Keyframe crowded = b;
+    auto frame = std::make_shared<FrameFeatures>(*b.frame);
+    StereoView& view = frame->views[0];
+    const auto f = static_cast<std::size_t>(match.feature_b);
+    const auto cx = static_cast<float>(rig.left_cameras[0].lens.cx);
+    const auto cy = static_cast<float>(rig.left_cameras[0].lens.cy);
+    Keypoint twin = view.features.keypoints[f];
+    twin.x = cx + stretch * (twin.x - cx);
+    twin.y = cy + stretch * (twin.y - cy);
+    view.features.keypoints.push_back(twin);
+    view.features.descriptors.push_back(view.features.descriptors[f]);
+    view.stereo.push_back({});
+    crowded.landmarks[0].push_back(-1);
+    crowded.frame = frame;
+    const auto found = match_epipolar(a, crowded, 0, rig, kSearch);
+    return std::ranges::any_of(
+        found, [&](const EpipolarMatch& m) { return m.feature_a == match.feature_a; });
+  };
+  EXPECT_TRUE(is_found_beside(1));
+  EXPECT_FALSE(is_found_beside(1.5));
+}
+
+TEST(TriangulationTest, NothingIsNearerThanItCanBe) {
+  const SyntheticAisle aisle(0, 1, 1500);
+  const EstimatorRig rig(aisle.rig, OrbConfig{});
+  const Keyframe a = keyframe(aisle, 0, Pose{});
+  const Keyframe b = keyframe(aisle, 1, Pose{Eigen::Quaterniond::Identity(), {0.25, 0, 0}});
+  const auto nearest_in_b = [&](const EpipolarSearch& search) {
+    double nearest = 1e9;
+    for (const EpipolarMatch& match : match_epipolar(a, b, 0, rig, search)) {
+      const Eigen::Vector3d in_b = b.T_map_body.inverse() * match.p_map;
+      nearest = std::min(nearest, (rig.left_cameras[0].T_cam_body * in_b).z());
+    }
+    return nearest;
+  };
+  const double nearest = nearest_in_b(kSearch);
+  ASSERT_LT(nearest, 4);  // m
+  EpipolarSearch farther = kSearch;
+  farther.min_depth = nearest + 0.1;
+  EXPECT_GE(nearest_in_b(farther), farther.min_depth);
+  EXPECT_LT(nearest_in_b(farther), 1e9);
 }
 
 TEST(TriangulationTest, FeaturesThatLookDifferentOrWithoutABaselineAreNotMatched) {
