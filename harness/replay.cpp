@@ -36,6 +36,7 @@ YamlDocument settings_of(const std::filesystem::path& file,
 Trial trial_of(const Recording& recording) {
   Trial trial;
   trial.name = recording.name;
+  trial.told_tags = recording.tags;
   return trial;
 }
 

@@ -19,7 +19,7 @@ namespace {
 /// The sinks of one run.
 struct Sinks {
   Sinks(const Trial& trial, const FrameSource& source, const RunOptions& options)
-      : recorder(source.rig(), trial.site.tags) {
+      : recorder(source.rig(), trial.site.tags, trial.told_tags) {
     if (!options.folder.empty()) {
       images.emplace(options.folder / "frames", source.rig(), source.size(), options.images);
       if (options.film) {

@@ -22,9 +22,10 @@ struct Consistency {
   int not_invertible = 0;  ///< frames with a pose that are left out because of their covariance
 };
 
-/// Of all frames with a pose and a covariance. Empty unless a registered tag was in view at the
-/// first pose: only then the map frame is aligned with the world. Empty too for a system that gives
-/// no covariance at all.
+/// Of all frames with a pose and a covariance. Where no tag is registered, the map's frame is the
+/// first pose's, and errors count from there. Empty where registered tags were not in view at the
+/// first pose, so that nothing says where the map's frame lies in the world, and for a system that
+/// gives no covariance at all.
 std::optional<Consistency> check_consistency(const RunRecord& record);
 
 /// Readable line on the frames that are left out because of their covariance; empty without any.

@@ -24,6 +24,8 @@ struct Trial {
   Expectations now;
   Expectations guard;
   Site site;
+  /// That the system under test is told of, where the world's are not known: of a recording.
+  std::vector<RegisteredTag> told_tags;
   std::optional<Eigen::Vector2d> route_end;  ///< m, world; end of the route, if there is one
   bool miscalibrated = false;                ///< the true rig differs from the nominal one
   std::vector<Discrepancy> discrepancies;    ///< what the system under test is told wrong

@@ -80,9 +80,11 @@ void take_poses(const Trajectory& trajectory, std::vector<Tick>& ticks) {
 
 }  // namespace
 
-RunRecorder::RunRecorder(Rig rig, std::vector<WorldTag> tags) {
+RunRecorder::RunRecorder(Rig rig, std::vector<WorldTag> tags,
+                         std::vector<RegisteredTag> told_tags) {
   record_.rig = std::move(rig);
   record_.tags = std::move(tags);
+  record_.told_tags = std::move(told_tags);
 }
 
 void RunRecorder::on_tick(const Sample& sample, const Estimate& estimate) {

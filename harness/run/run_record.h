@@ -32,7 +32,8 @@ struct Tick {
 /// A run, or its part up to an interruption: the only input of evaluation, log, plot and metrics.
 struct RunRecord {
   Rig rig;
-  std::vector<WorldTag> tags;  ///< of the world, in its order
+  std::vector<WorldTag> tags;              ///< of the world, in its order
+  std::vector<RegisteredTag> told_tags{};  ///< to the system, where those of the world are unknown
   std::vector<Tick> ticks;
   SlamSummary summary;
   std::optional<SlamFailure> failure{};  ///< of the system under test
@@ -58,7 +59,7 @@ std::vector<double> true_path_lengths(const RunRecord& record);
 /// first one with a pose are lost.
 class RunRecorder : public Sink {
  public:
-  RunRecorder(Rig rig, std::vector<WorldTag> tags);
+  RunRecorder(Rig rig, std::vector<WorldTag> tags, std::vector<RegisteredTag> told_tags = {});
   void on_tick(const Sample& sample, const Estimate& estimate) override;
   void on_failure(const SlamFailure& failure) override { record_.failure = failure; }
   void on_finish(const SlamSummary& summary) override;

@@ -72,14 +72,44 @@ TEST(ConsistencyTest, SaysSoWhereNoCovarianceCanBeInverted) {
   EXPECT_EQ(format_left_out(std::nullopt), "");
 }
 
-TEST(ConsistencyTest, NeedsARegisteredTagInTheFirstFrame) {
+TEST(ConsistencyTest, ARegisteredTagMustBeInTheFirstFrame) {
   RunRecord record = record_with({0.01, 0.01});
-  record.tags[0].registered = false;
-  EXPECT_FALSE(check_consistency(record));
-  record = record_with({0.01, 0.01});
   record.ticks[0].estimate.tags.clear();
   EXPECT_FALSE(check_consistency(record));
   EXPECT_FALSE(check_consistency(RunRecord{}));
+}
+
+TEST(ConsistencyTest, OfARecordingTheTagsThatWereToldAreRegistered) {
+  RunRecord record = record_with({0.01, 0.02});
+  const WorldTag tag = record.tags[0];
+  record.tags.clear();
+  record.told_tags.push_back({tag.family, tag.id, tag.size, tag.T_world_tag});
+  ASSERT_TRUE(check_consistency(record));
+  EXPECT_NEAR(check_consistency(record)->nees_mean, 2.5, 1e-9);  // (1 + 4) / 2
+  record.told_tags[0].id += 1;  // another one was told, which is not in view
+  EXPECT_FALSE(check_consistency(record));
+}
+
+TEST(ConsistencyTest, WithoutRegisteredTagsErrorsCountFromTheFirstPose) {
+  // Along a straight line, where offsets ahead subtract: 0, 1, 2 and 3 sigma more than at first.
+  const std::vector<double> offset{0.01, 0.02, 0.03, 0.04};
+  RunRecord record = record_with(offset);
+  record.tags[0].registered = false;
+  const Pose T_map_world{Eigen::Quaterniond(Eigen::AngleAxisd(1, Eigen::Vector3d::UnitZ())),
+                         {3, 2, 1}};
+  for (std::size_t i = 0; i < record.ticks.size(); ++i) {
+    Tick& tick = record.ticks[i];
+    tick.truth.T_world_body = {Eigen::Quaterniond::Identity(), {static_cast<double>(i), 0, 0}};
+    tick.estimate.T_map_body = T_map_world * tick.truth.T_world_body;
+    tick.estimate.T_map_body->translation +=
+        T_map_world.rotation * Eigen::Vector3d(-offset[i], 0, 0);
+  }
+  const auto found = check_consistency(record);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->frames, 3);  // the first says nothing
+  EXPECT_NEAR(found->nees_mean, 14.0 / 3, 1e-9);
+  record.ticks[0].truth.known = false;
+  EXPECT_FALSE(check_consistency(record));
 }
 
 }  // namespace
