@@ -15,11 +15,9 @@
 namespace vinebench::slam {
 namespace {
 
-/// What a pose by a tag is uncertain by besides its corners: the tag's print, the lens.
-Matrix6d by_tag_covariance() {
-  constexpr double kPosition = 1e-3;    // m
-  constexpr double kRotation = 1.5e-3;  // rad
-  return isotropic_covariance(kPosition, kRotation);
+/// Of the first pose where it is the map's origin: nothing but invertible.
+Matrix6d covariance_of_origin() {
+  return isotropic_covariance(1e-6, 1e-6);
 }
 
 /// Whether tags tell by their surveys how the map lies, and none of them exactly.
@@ -203,6 +201,16 @@ Matrix6d Pipeline::covariance(const TrackedFrame& tracked, bool keyframe) const 
          tracker_.dead_reckoning().covariance();
 }
 
+/// Of the body's pose by these tags: their surveys, their corners, and how their camera is mounted,
+/// if it was told how well that is known.
+Matrix6d Pipeline::covariance_by(const std::vector<TagSighting>& tags) const {
+  const Matrix6d by_corners = loop_closer_.gates().localisation_covariance(tags);
+  const CalibrationConfig& told = config_.calibration;
+  if (!is_accuracy_told(told, config_.stereo.calibration_sigma)) return by_corners;
+  return by_corners + isotropic_covariance(told.tag_camera_position,
+                                           told.tag_camera_rotation_deg * kRadiansPerDegree);
+}
+
 /// The first frame with enough stereo points is the map's first keyframe. A registered tag in it
 /// makes the map's frame the world's; without one the body is at the origin.
 TrackedFrame Pipeline::initialise(const std::shared_ptr<FrameFeatures>& frame) {
@@ -221,9 +229,7 @@ TrackedFrame Pipeline::initialise(const std::shared_ptr<FrameFeatures>& frame) {
     const std::optional<Pose> by_tag = loop_closer_.gates().world_pose(frame->tags);
     tracked.motion.T_map_body = by_tag.value_or(Pose{});
     tracker_.start(tracked.motion.T_map_body, frame->stamp);
-    Matrix6d covariance = by_tag_covariance();
-    if (by_tag) covariance += loop_closer_.gates().localisation_covariance(frame->tags);
-    uncertainty_.start(covariance);
+    uncertainty_.start(by_tag ? covariance_by(frame->tags) : covariance_of_origin());
   }
   return tracked;
 }
@@ -338,8 +344,7 @@ void Pipeline::close_loop(int keyframe, Estimate& estimate) {
   estimate.loop_closure = loop_closer_.close(keyframe, path_length_, rig_, map_, !is_live());
   if (is_live()) adjust_moved_map();
   believe_gravity();
-  const Matrix6d of_tags = by_tag_covariance() + loop_closer_.gates().localisation_covariance(
-                                                     map_.keyframe(keyframe).frame->tags);
+  const Matrix6d of_tags = covariance_by(map_.keyframe(keyframe).frame->tags);
   // Of one tag seen twice the survey's error is the same; another's is new.
   if (!estimate.loop_closure->covariance && several_surveys(map_)) {
     uncertainty_.measure(of_tags);

@@ -82,6 +82,7 @@ class Pipeline {
   void calibrate(Estimate& estimate);
   void use_calibration(const RigCalibration& found);
   Matrix6d covariance(const TrackedFrame& tracked, bool keyframe) const;
+  Matrix6d covariance_by(const std::vector<TagSighting>& tags) const;
   TrackingStatus status(const TrackedFrame& tracked) const;
 
   SlamConfig config_;

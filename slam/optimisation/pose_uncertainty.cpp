@@ -43,14 +43,16 @@ Matrix6d carry_covariance(const Matrix6d& of_a, const Pose& T_a_b) {
 }
 
 void PoseUncertainty::start(const Matrix6d& covariance) {
-  keyframe_ = covariance;
+  noise_ = covariance;
+  by_way_.setZero();
   by_calibration_.resize(6, 0);
   without_drift_ = 0;
 }
 
 void PoseUncertainty::keyframe(const Pose& T_last_now, const Matrix6d& information,
                                const Eigen::MatrixXd& drift) {
-  keyframe_ = at(T_last_now, information);
+  noise_ = noise_at(T_last_now, information);
+  by_way_ = by_way_at(T_last_now);
   if (by_calibration_.cols() != drift.cols()) by_calibration_.setZero(6, drift.cols());
   by_calibration_ = carried_step(T_last_now) * by_calibration_ + drift;
   if (drift.isZero()) {
@@ -62,14 +64,19 @@ void PoseUncertainty::keyframe(const Pose& T_last_now, const Matrix6d& informati
 }
 
 void PoseUncertainty::measure(const Matrix6d& covariance) {
-  const Matrix6d gain = keyframe_ * (keyframe_ + covariance).inverse();
-  keyframe_ -= gain * keyframe_;
-  by_calibration_ -= gain * by_calibration_;
+  const Matrix6d before = noise_ + by_way_ * by_way_.transpose();
+  const Matrix6d gain = before * (before + covariance).inverse();
+  const Matrix6d left = Matrix6d::Identity() - gain;
+  noise_ = left * noise_ * left.transpose() + gain * covariance * gain.transpose();
+  by_way_ = left * by_way_;
+  by_calibration_ = left * by_calibration_;
 }
 
 void PoseUncertainty::cross_gap(const Pose& T_last_now, const Matrix6d& covariance) {
-  keyframe_ = carry_covariance(keyframe_, T_last_now) + covariance;
-  by_calibration_ = carried_step(T_last_now) * by_calibration_;
+  const Matrix6d carried = carried_step(T_last_now);
+  noise_ = carry_covariance(noise_, T_last_now) + covariance;
+  by_way_ = carried * by_way_;
+  by_calibration_ = carried * by_calibration_;
 }
 
 Matrix6d PoseUncertainty::of_calibration(const Pose& T_last_now,
@@ -80,7 +87,25 @@ Matrix6d PoseUncertainty::of_calibration(const Pose& T_last_now,
 }
 
 Matrix6d PoseUncertainty::at(const Pose& T_last_now, const Matrix6d& information) const {
-  return carry_covariance(keyframe_, T_last_now) + inflated_inverse(information);
+  const ByWay by_way = by_way_at(T_last_now);
+  return noise_at(T_last_now, information) + by_way * by_way.transpose();
+}
+
+Matrix6d PoseUncertainty::noise_at(const Pose& T_last_now, const Matrix6d& information) const {
+  return carry_covariance(noise_, T_last_now) + inflated_inverse(information);
+}
+
+PoseUncertainty::ByWay PoseUncertainty::by_way_at(const Pose& T_last_now) const {
+  return carried_step(T_last_now) * by_way_ + of_way(T_last_now.translation);
+}
+
+PoseUncertainty::ByWay PoseUncertainty::of_way(const Eigen::Vector3d& way) {
+  ByWay steps = ByWay::Zero();
+  steps.col(0).head<3>() = kScale * way;
+  for (int axis = 0; axis < 3; ++axis) {
+    steps.block<1, 3>(3 + axis, 1 + 3 * axis) = kTurn * way.transpose();
+  }
+  return steps;
 }
 
 }  // namespace vinebench::slam

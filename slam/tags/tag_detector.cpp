@@ -64,15 +64,6 @@ constexpr double kPixelCentre = 0.5;
 /// A corner nearer than this to the image's edge is guessed, not seen.
 constexpr double kBorder = 5;  // px
 
-/// Least width of a module of the tag's border, px.
-double module_width(const std::array<Eigen::Vector2d, 4>& corners, int modules) {
-  double shortest = (corners[3] - corners[0]).norm();
-  for (std::size_t i = 0; i < 3; ++i) {
-    shortest = std::min(shortest, (corners[i + 1] - corners[i]).norm());
-  }
-  return shortest / modules;
-}
-
 /// One tag, found in two parts of the image that overlap.
 bool are_the_same(const TagSighting& a, const TagSighting& b) {
   constexpr double kApart = 2;  // px
@@ -131,8 +122,8 @@ struct TagDetector::Impl {
       result.corners[i] = {found.p[i][0] - kPixelCentre + part.x,
                            found.p[i][1] - kPixelCentre + part.y};
     }
-    const double module = module_width(result.corners, found.family->width_at_border);
-    result.corner_sigma = refine_tag_corners(grey, model, module, result.corners);
+    result.corner_sigma =
+        refine_tag_corners(grey, model, found.family->width_at_border, result.corners);
     const TagPose pose = estimate_tag_pose(result.corners, model, size_of(result.family, result.id),
                                            result.corner_sigma);
     if (!pose.square) return std::nullopt;

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tests/support/aisle_drive.h"
 
 namespace vinebench::slam {
@@ -211,6 +213,28 @@ class RoundTripTest : public testing::Test {
   std::size_t rejected_ = 0;
   SlamSummary summary_;
 };
+
+TEST_F(RoundTripTest, TheFirstPoseIsAsSureAsWhatPlacedIt) {
+  const auto covariance = [&](const SlamConfig& config, const std::vector<RegisteredTag>& tags) {
+    Pipeline pipeline(config, aisle_.rig, tags);
+    return pipeline.process(aisle_.frame_with_tag(0, round_trip(0), T_world_tag_)).covariance;
+  };
+  // The map's origin is where it is, to 1e-6 m and rad.
+  EXPECT_LT((covariance({}, {}) - 1e-12 * Matrix6d::Identity()).norm(), 1e-20);
+  // By a tag it is as sure as that one's corners, which are not exact.
+  const std::vector<RegisteredTag> tags{{"tag36h11", 0, 0.161, T_world_tag_}};
+  const Matrix6d by_corners = covariance({}, tags);
+  EXPECT_GT(by_corners.ldlt().vectorD().minCoeff(), 1e-12);
+  // What is told of the camera's mounting adds to it.
+  SlamConfig told;
+  told.calibration.position = 0.01;
+  told.calibration.tag_camera_position = 0.003;
+  told.calibration.tag_camera_rotation_deg = 0.2;
+  EXPECT_LT((covariance(told, tags) - by_corners -
+             isotropic_covariance(0.003, 0.2 * std::numbers::pi / 180))
+                .norm(),
+            1e-15);
+}
 
 TEST_F(RoundTripTest, ARegisteredTagSeenAgainClosesTheLoop) {
   Pipeline pipeline(SlamConfig{}, aisle_.rig, {{"tag36h11", 0, 0.161, T_world_tag_}});

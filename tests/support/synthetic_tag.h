@@ -40,6 +40,9 @@ class SyntheticTag {
     return {i == 0 || i == 3 ? -h : h, i < 2 ? h : -h, 0};
   }
 
+  /// Images are encoded by light to the power of 1 / gamma.
+  void encode(double gamma) { gamma_ = gamma; }
+
   cv::Mat render(const PinholeCamera& camera, const Pose& T_cam_tag, double sigma = 0) const {
     cv::Mat image(camera.height, camera.width, CV_8UC1, cv::Scalar(110));
     draw(image, camera, T_cam_tag);
@@ -68,13 +71,19 @@ class SyntheticTag {
                                       y - 0.5 + (s / kSamples + 0.5) / kSamples);
           sum += grey(T_tag_cam.rotation * camera.unproject(pixel), T_tag_cam.translation);
         }
-        image.at<std::uint8_t>(y, x) = cv::saturate_cast<std::uint8_t>(sum / (kSamples * kSamples));
+        image.at<std::uint8_t>(y, x) = code(sum / (kSamples * kSamples));
       }
     }
   }
 
  private:
-  /// Grey level where the ray meets the plane z = 0 of the tag frame.
+  /// Of light between 0 and 255.
+  std::uint8_t code(double light) const {
+    return cv::saturate_cast<std::uint8_t>(gamma_ == 1 ? light
+                                                       : 255 * std::pow(light / 255, 1 / gamma_));
+  }
+
+  /// Light where the ray meets the plane z = 0 of the tag frame.
   double grey(const Eigen::Vector3d& ray, const Eigen::Vector3d& camera) const {
     const double along = -camera.z() / ray.z();
     const double half = cells_.cols / 2.0;
@@ -85,6 +94,7 @@ class SyntheticTag {
   }
 
   double size_;
+  double gamma_ = 1;
   double cell_ = 0;
   cv::Mat cells_;
 };

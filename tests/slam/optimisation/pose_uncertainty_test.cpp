@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "slam/factors/reprojection.h"
 
 namespace vinebench::slam {
@@ -37,7 +39,8 @@ TEST(PoseUncertaintyTest, GrowsFromKeyframeToKeyframe) {
   const Matrix6d information = 1e6 * Matrix6d::Identity();
   const Matrix6d one = PoseUncertainty::kInflation * 1e-6 * Matrix6d::Identity();
   EXPECT_LT((uncertainty.at({}, information) - one).norm(), 1e-18);
-  uncertainty.keyframe(sample_step(), information, Eigen::MatrixXd::Zero(6, 0));
+  const Pose turn{exp_so3({0.1, -0.2, 0.5}), {0, 0, 0}};
+  uncertainty.keyframe(turn, information, Eigen::MatrixXd::Zero(6, 0));
   uncertainty.keyframe({}, information, Eigen::MatrixXd::Zero(6, 0));
   EXPECT_LT((uncertainty.at({}, Matrix6d::Zero()) - 2 * one).norm(), 1e-18);
   // A heading's error of variance v gives a point 2 m ahead the lateral variance 4 v.
@@ -46,6 +49,53 @@ TEST(PoseUncertaintyTest, GrowsFromKeyframeToKeyframe) {
   EXPECT_NEAR(ahead(1, 1), (1 + 4) * 2 * one(0, 0), 1e-18);
   uncertainty.start(one);
   EXPECT_LT((uncertainty.at({}, Matrix6d::Zero()) - one).norm(), 1e-18);
+}
+
+// Three steps of 1 m ahead, without noise: lengths are 3 m off by their share; a turn of k to the
+// left for each metre makes 3 k, and moves to the left by k and 2 k in the two steps after the
+// first. Up likewise, by the turn about the other axis. Back again, the turns and lengths cancel.
+TEST(PoseUncertaintyTest, ErrorsOfTheWayAddUpInALine) {
+  constexpr double kScale = PoseUncertainty::kScale;
+  constexpr double kTurn = PoseUncertainty::kTurn;
+  PoseUncertainty uncertainty;
+  uncertainty.start(Matrix6d::Zero());
+  const auto drive = [&](double way) {
+    const Pose step{Eigen::Quaterniond::Identity(), {way, 0, 0}};
+    uncertainty.keyframe(step, Matrix6d::Zero(), Eigen::MatrixXd::Zero(6, 0));
+  };
+  for (int i = 0; i < 3; ++i) drive(1);
+  const Matrix6d there = uncertainty.at({}, Matrix6d::Zero());
+  EXPECT_NEAR(there(0, 0), std::pow(3 * kScale, 2), 1e-15);
+  for (const int axis : {1, 2, 3, 4, 5}) {
+    EXPECT_NEAR(there(axis, axis), std::pow(3 * kTurn, 2), 1e-15) << axis;
+  }
+  EXPECT_NEAR(there(1, 5), std::pow(3 * kTurn, 2), 1e-15);
+  // A frame 2 m further on, where the turns are as much as after 5 m, and 2 times 3 k to the left.
+  const Pose further{Eigen::Quaterniond::Identity(), {2, 0, 0}};
+  const Matrix6d frame = uncertainty.at(further, Matrix6d::Zero());
+  EXPECT_NEAR(frame(0, 0), std::pow(5 * kScale, 2), 1e-15);
+  EXPECT_NEAR(frame(1, 1), std::pow(9 * kTurn, 2), 1e-15);
+  EXPECT_NEAR(frame(5, 5), std::pow(5 * kTurn, 2), 1e-15);
+  for (int i = 0; i < 3; ++i) drive(-1);
+  const Matrix6d back = uncertainty.at({}, Matrix6d::Zero());
+  EXPECT_NEAR(back(0, 0), 0, 1e-15);
+  EXPECT_NEAR(back(5, 5), 0, 1e-15);
+  uncertainty.start(Matrix6d::Zero());
+  EXPECT_EQ(uncertainty.at({}, Matrix6d::Zero()).norm(), 0);
+}
+
+// A metre ahead without noise has the variance kScale^2; measured with four times that it has
+// 1 / (1 + 1/4) = 0.8 of it.
+TEST(PoseUncertaintyTest, AMeasurementTellsOfErrorsOfTheWay) {
+  constexpr double kScale = PoseUncertainty::kScale;
+  const Pose step{Eigen::Quaterniond::Identity(), {1, 0, 0}};
+  PoseUncertainty uncertainty;
+  uncertainty.start(1e-12 * Matrix6d::Identity());
+  uncertainty.keyframe(step, Matrix6d::Zero(), Eigen::MatrixXd::Zero(6, 0));
+  Matrix6d measured = Matrix6d::Identity();
+  measured(0, 0) = 4 * kScale * kScale;
+  uncertainty.measure(measured);
+  EXPECT_NEAR(uncertainty.at({}, Matrix6d::Zero())(0, 0), 0.8 * kScale * kScale, 1e-11);
 }
 
 // Of two errors one makes each step 1 mm longer, one turns it by 2 mrad to the left: after three

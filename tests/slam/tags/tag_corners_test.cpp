@@ -16,7 +16,7 @@ using Corners = std::array<Eigen::Vector2d, 4>;
 class TagCornersTest : public testing::Test {
  protected:
   static constexpr double kSize = 0.161;  // m
-  static constexpr double kModule = 6.7;  // px
+  static constexpr int kModules = 8;
   static constexpr double kUnrefined = 0.4;
 
   Corners truth() const {
@@ -38,9 +38,9 @@ class TagCornersTest : public testing::Test {
     for (std::size_t i = 0; i < 4; ++i) worst = std::max(worst, (a[i] - b[i]).norm());
     return worst;
   }
-  void expect_unrefined(const cv::Mat& image, double module, const Corners& start) const {
+  void expect_unrefined(const cv::Mat& image, const Corners& start) const {
     Corners corners = start;
-    EXPECT_EQ(refine_tag_corners(image, lens_, module, corners), kUnrefined);
+    EXPECT_EQ(refine_tag_corners(image, lens_, kModules, corners), kUnrefined);
     EXPECT_EQ(worst(corners, start), 0);
   }
 
@@ -53,7 +53,7 @@ TEST_F(TagCornersTest, ComeToTheirPlacesFromAPixelAway) {
   for (const double noise : {0.0, 2.0}) {
     Corners corners = rough();
     const double sigma =
-        refine_tag_corners(tag_.render(lens_, T_cam_tag_, noise), lens_, kModule, corners);
+        refine_tag_corners(tag_.render(lens_, T_cam_tag_, noise), lens_, kModules, corners);
     // The image puts edges on twelfths of a pixel: 0.06 px at a corner.
     EXPECT_LT(worst(corners, truth()), 0.1) << noise;
     EXPECT_LT(sigma, 0.1);
@@ -61,43 +61,62 @@ TEST_F(TagCornersTest, ComeToTheirPlacesFromAPixelAway) {
   }
 }
 
+// A pixel that an edge crosses with a share f of white has the code f^(1 / 2.2): on average over f
+// that is 1 / (1 + 1 / 2.2) = 0.69 in place of 0.5, so that each edge of white seems 0.19 px
+// further out, and a corner, where two sides meet, 0.27 px. Black is no black here, which leaves
+// half of it.
+TEST_F(TagCornersTest, WhatWhiteSpreadsOverBlackIsMadeGood) {
+  T_cam_tag_.translation.z() = 0.6;  // modules of 13 px
+  const Corners start = truth();
+  Corners plain = start;
+  refine_tag_corners(tag_.render(lens_, T_cam_tag_), lens_, kModules, plain);
+  const auto side = [](const Corners& corners) { return (corners[1] - corners[0]).norm(); };
+  EXPECT_NEAR(side(plain), side(start), 0.05);
+  tag_.encode(2.2);
+  Corners encoded = start;
+  refine_tag_corners(tag_.render(lens_, T_cam_tag_), lens_, kModules, encoded);
+  EXPECT_NEAR(side(encoded), side(start), 0.05);
+}
+
 TEST_F(TagCornersTest, SidesAreStraightWithoutTheDistortion) {
   lens_.distortion = {-0.2, 0.03, 0, 0};
   T_cam_tag_.translation = {0.5, 0.24, 1.2};  // towards the image's corner
   Corners corners = rough();
-  refine_tag_corners(tag_.render(lens_, T_cam_tag_), lens_, kModule, corners);
+  refine_tag_corners(tag_.render(lens_, T_cam_tag_), lens_, kModules, corners);
   EXPECT_LT(worst(corners, truth()), 0.1);
 }
 
 TEST_F(TagCornersTest, MoreNoiseIsToldByTheirDeviation) {
   Corners clean = rough(), noisy = rough();
-  const double low = refine_tag_corners(tag_.render(lens_, T_cam_tag_, 1), lens_, kModule, clean);
-  const double high = refine_tag_corners(tag_.render(lens_, T_cam_tag_, 12), lens_, kModule, noisy);
+  const double low = refine_tag_corners(tag_.render(lens_, T_cam_tag_, 1), lens_, kModules, clean);
+  const double high =
+      refine_tag_corners(tag_.render(lens_, T_cam_tag_, 20), lens_, kModules, noisy);
   EXPECT_GT(high, 2 * low);
 }
 
 TEST_F(TagCornersTest, StayWhereThereIsNoEdgeFromBlackToWhite) {
   const cv::Mat image = tag_.render(lens_, T_cam_tag_);
-  expect_unrefined(cv::Mat(image.size(), CV_8UC1, cv::Scalar(110)), kModule, rough());
-  expect_unrefined(255 - image, kModule, rough());
+  expect_unrefined(cv::Mat(image.size(), CV_8UC1, cv::Scalar(110)), rough());
+  expect_unrefined(255 - image, rough());
   // A contrast of 190 grey levels, of which a tenth is less than the least of 20.
-  expect_unrefined(cv::Mat(0.1 * image), kModule, rough());
+  expect_unrefined(cv::Mat(0.1 * image), rough());
 }
 
 TEST_F(TagCornersTest, StayWhereModulesAreTooSmallForAProfile) {
-  // 0.6 of a module to either side, in steps of half a pixel: 1 px of 2.4 px.
-  expect_unrefined(tag_.render(lens_, T_cam_tag_), 2.4, rough());
+  // At 3.4 m they have 2.4 px. 0.6 of one to either side, in steps of half a pixel: 1 px.
+  T_cam_tag_.translation *= 3.4 / 1.2;
+  expect_unrefined(tag_.render(lens_, T_cam_tag_), rough());
 }
 
 TEST_F(TagCornersTest, StayWhereTheyWouldMoveFar) {
   Corners far = truth();
   far[2] += Eigen::Vector2d(1.8, 0);  // beyond 1.5 px
-  expect_unrefined(tag_.render(lens_, T_cam_tag_), kModule, far);
+  expect_unrefined(tag_.render(lens_, T_cam_tag_), far);
 }
 
 TEST_F(TagCornersTest, StayWhereTheTagReachesTheImagesRim) {
   T_cam_tag_.translation.x() = 0.94;  // its right corners are out of the image
-  expect_unrefined(tag_.render(lens_, T_cam_tag_), kModule, truth());
+  expect_unrefined(tag_.render(lens_, T_cam_tag_), truth());
 }
 
 }  // namespace
