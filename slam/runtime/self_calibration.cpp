@@ -15,6 +15,8 @@ bool is_accuracy_told(const CalibrationConfig& told, double disparity_sigma) {
          told.baseline != usual.baseline || told.time != usual.time ||
          told.readout != usual.readout || told.principal_point != usual.principal_point ||
          told.right_turn_deg != usual.right_turn_deg || told.right_ahead != usual.right_ahead ||
+         told.tag_camera_position != usual.tag_camera_position ||
+         told.tag_camera_rotation_deg != usual.tag_camera_rotation_deg ||
          disparity_sigma != StereoConfig{}.calibration_sigma;
 }
 

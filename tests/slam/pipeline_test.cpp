@@ -227,7 +227,6 @@ TEST_F(RoundTripTest, TheFirstPoseIsAsSureAsWhatPlacedIt) {
   EXPECT_GT(by_corners.ldlt().vectorD().minCoeff(), 1e-12);
   // What is told of the camera's mounting adds to it.
   SlamConfig told;
-  told.calibration.position = 0.01;
   told.calibration.tag_camera_position = 0.003;
   told.calibration.tag_camera_rotation_deg = 0.2;
   EXPECT_LT((covariance(told, tags) - by_corners -

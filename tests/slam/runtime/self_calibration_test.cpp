@@ -49,6 +49,8 @@ TEST(AccuracyTest, IsToldWhereANumberOfThePairsIsNotTheUsualOne) {
   EXPECT_TRUE(is_accuracy_told({}, 0.5 * usual));
   EXPECT_TRUE(is_accuracy_told({.focal = 0.001}, usual));
   EXPECT_TRUE(is_accuracy_told({.right_ahead = 0.001}, usual));
+  EXPECT_TRUE(is_accuracy_told({.tag_camera_position = 0.001}, usual));
+  EXPECT_TRUE(is_accuracy_told({.tag_camera_rotation_deg = 0.05}, usual));
   EXPECT_FALSE(is_accuracy_told({.tag_size = 0.01}, usual));
 }
 
