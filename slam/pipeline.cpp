@@ -201,14 +201,17 @@ Matrix6d Pipeline::covariance(const TrackedFrame& tracked, bool keyframe) const 
          tracker_.dead_reckoning().covariance();
 }
 
-/// Of the body's pose by these tags: their surveys, their corners, and how their camera is mounted,
-/// if it was told how well that is known.
+/// Of the body's pose by these tags: their surveys, their corners, and how the camera of the first
+/// of them is mounted, if it was told how well that is known.
 Matrix6d Pipeline::covariance_by(const std::vector<TagSighting>& tags) const {
   const Matrix6d by_corners = loop_closer_.gates().localisation_covariance(tags);
   const CalibrationConfig& told = config_.calibration;
   if (!is_accuracy_told(told, config_.stereo.calibration_sigma)) return by_corners;
-  return by_corners + isotropic_covariance(told.tag_camera_position,
-                                           told.tag_camera_rotation_deg * kRadiansPerDegree);
+  const Matrix6d of_camera = isotropic_covariance(told.tag_camera_position,
+                                                  told.tag_camera_rotation_deg * kRadiansPerDegree);
+  const auto camera = static_cast<std::size_t>(tags.front().camera);
+  return by_corners +
+         carry_covariance(of_camera, rig_.tag_cameras.cameras[camera].T_body_cam.inverse());
 }
 
 /// The first frame with enough stereo points is the map's first keyframe. A registered tag in it

@@ -14,7 +14,7 @@ struct LoopConfig {
   double away_seconds = 3;     ///< a tag unseen for this long was left
   double away_distance = 1.0;  ///< m, the way driven meanwhile
   double corner_sigma =
-      0.15;  ///< px, by which a tag's corner is off besides its noise: lens, print
+      0.08;  ///< px, by which a tag's corner is off besides its noise: lens, print, blur
   /// Accuracy of the survey of registered tags that do not say their own, standard deviations of
   /// each axis of a tag.
   double survey_position = 0;      ///< m

@@ -21,7 +21,7 @@ struct LocalMapperSettings {
   double second_best = 0.85;         ///< of new landmarks: see EpipolarSearch
   double min_depth = 0.15;           ///< m, likewise
   double far_depth_baselines = 150;  ///< see StereoConfig
-  double tag_corner_sigma = 0.15;    ///< px, by which a tag's corner is off besides its noise
+  double tag_corner_sigma = 0.08;    ///< px, by which a tag's corner is off besides its noise
   std::optional<InertialNoise> inertial{};  ///< of a unit that takes part
 };
 
