@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
+#include "core/geometry/cross_matrix.h"
 #include "tests/support/aisle_drive.h"
 
 namespace vinebench::slam {
@@ -225,13 +227,20 @@ TEST_F(RoundTripTest, TheFirstPoseIsAsSureAsWhatPlacedIt) {
   const std::vector<RegisteredTag> tags{{"tag36h11", 0, 0.161, T_world_tag_}};
   const Matrix6d by_corners = covariance({}, tags);
   EXPECT_GT(by_corners.ldlt().vectorD().minCoeff(), 1e-12);
-  // What is told of the camera's mounting adds to it.
+  // What is told of the camera's mounting adds to it: where the camera is at c, a turn of it by
+  // theta moves the body by c x theta.
   SlamConfig told;
   told.calibration.tag_camera_position = 0.003;
   told.calibration.tag_camera_rotation_deg = 0.2;
-  EXPECT_LT((covariance(told, tags) - by_corners -
-             isotropic_covariance(0.003, 0.2 * std::numbers::pi / 180))
-                .norm(),
+  const double turn = std::pow(0.2 * std::numbers::pi / 180, 2);
+  const Eigen::Vector3d c = aisle_.rig.cameras[4].T_body_cam.translation;
+  const Matrix6d of_mounting = covariance(told, tags) - by_corners;
+  const Eigen::Matrix3d of_position =
+      0.003 * 0.003 * Eigen::Matrix3d::Identity() +
+      turn * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
+  EXPECT_LT((of_mounting.topLeftCorner<3, 3>() - of_position).norm(), 1e-15);
+  EXPECT_LT((of_mounting.topRightCorner<3, 3>() - turn * cross_matrix(c)).norm(), 1e-15);
+  EXPECT_LT((of_mounting.bottomRightCorner<3, 3>() - turn * Eigen::Matrix3d::Identity()).norm(),
             1e-15);
 }
 
