@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <optional>
 #include <system_error>
 
@@ -31,13 +32,15 @@ const std::vector<std::string> kTraining{"rgb", "depth", "semantic", "instances"
 
 /// What is timed.
 struct Kind {
+  std::string name;
   std::vector<std::string> formats;  ///< empty: nothing is recorded
   std::vector<std::string> cameras;  ///< all where empty
   bool slam = false;                 ///< as `run`, else as `record`
+  std::string base;                  ///< the name of the same without recording, measured before
 };
 
 struct Measured {
-  Timing timing;
+  std::vector<Timing> timings;  ///< one for each round
   double megabytes = 0;
   std::int64_t images = 0;
 };
@@ -71,7 +74,7 @@ void drive_and_estimate(const RecordBenchmark& benchmark, FrameSource& source,
   run_lockstep(ahead, *slam, sinks);
 }
 
-Measured measure_kind(const RecordBenchmark& benchmark, const Kind& kind) {
+void measure_kind(const RecordBenchmark& benchmark, const Kind& kind, Measured& measured) {
   RecordOptions options;
   options.last = benchmark.frames - 1;
   options.threads = benchmark.threads;
@@ -93,21 +96,20 @@ Measured measure_kind(const RecordBenchmark& benchmark, const Kind& kind) {
     writer.emplace(folder, notes_of(benchmark.scenario), *source, options, source->size());
     sinks.push_back(&*writer);
   }
-  Measured measured;
-  measured.timing = measure(
-      [&] { kind.slam ? drive_and_estimate(benchmark, *source, sinks) : drive(*source, sinks); });
+  measured.timings.push_back(measure(
+      [&] { kind.slam ? drive_and_estimate(benchmark, *source, sinks) : drive(*source, sinks); }));
   measured.images = count.images();
   if (writer) measured.megabytes = static_cast<double>(writer->bytes()) / 1e6;
   fs::remove_all(folder, ignored);
-  return measured;
 }
 
 /// `base` is the same without recording.
-Json row_of(const Measured& measured, const Timing& base) {
-  const double seconds = measured.timing.wall_ms / 1e3;
+Json row_of(const Measured& measured, const Measured& base) {
+  const Timing timing = median(measured.timings);
+  const double seconds = timing.wall_ms / 1e3;
   return {{"wall_s", rounded(seconds)},
-          {"cpu_s", rounded(measured.timing.cpu_ms / 1e3)},
-          {"ratio", rounded(measured.timing.wall_ms / base.wall_ms)},
+          {"cpu_s", rounded(timing.cpu_ms / 1e3)},
+          {"ratio", rounded(timing.wall_ms / median(base.timings).wall_ms)},
           {"megabytes", rounded(measured.megabytes)},
           {"images_per_hour",
            rounded(static_cast<double>(measured.images) / seconds * kSecondsPerHour)}};
@@ -129,31 +131,39 @@ Json measure_recording(const RecordBenchmark& benchmark) {
   const std::vector<std::string> pairs =
       pair_cameras(load_rig(benchmark.scenario.simulation.rover.rig));
   if (pairs.empty()) fail("bench record: the scenario's rig has no stereo pair");
-  measure_kind(benchmark, {});  // generates the plants and fills caches
+  const std::string pairs_alone = "pairs";  // a base without a row
+  const std::vector<Kind> kinds{{"record", {}, {}, false, "record"},
+                                {"record rgb", kRgbOnly, {}, false, "record"},
+                                {"record labels", kEveryLabel, {}, false, "record"},
+                                {pairs_alone, {}, pairs, false, pairs_alone},
+                                {"record training", kTraining, pairs, false, pairs_alone},
+                                {"run", {}, {}, true, "run"},
+                                {"run rgb", kRgbOnly, {}, true, "run"},
+                                {"run labels", kEveryLabel, {}, true, "run"}};
+  std::map<std::string, Measured> measured;
+  Measured ignored;
+  measure_kind(benchmark, kinds.front(), ignored);  // generates the plants and fills caches
+  for (int round = 0; round < benchmark.rounds; ++round) {
+    for (const Kind& kind : kinds) measure_kind(benchmark, kind, measured[kind.name]);
+  }
   Json result{{"scenario", benchmark.scenario.name},
               {"frames", benchmark.frames},
-              {"threads", benchmark.threads}};
-  const auto add = [&](const char* name, const Kind& kind, const Timing& base) {
-    result["rows"][name] = row_of(measure_kind(benchmark, kind), base);
-  };
-  const Measured alone = measure_kind(benchmark, {});
-  result["rows"]["record"] = row_of(alone, alone.timing);
-  add("record rgb", {kRgbOnly, {}, false}, alone.timing);
-  add("record labels", {kEveryLabel, {}, false}, alone.timing);
-  const Measured of_pairs = measure_kind(benchmark, {{}, pairs, false});
-  add("record training", {kTraining, pairs, false}, of_pairs.timing);
-  const Measured run = measure_kind(benchmark, {{}, {}, true});
-  result["rows"]["run"] = row_of(run, run.timing);
-  add("run rgb", {kRgbOnly, {}, true}, run.timing);
-  add("run labels", {kEveryLabel, {}, true}, run.timing);
+              {"threads", benchmark.threads},
+              {"rounds", benchmark.rounds}};
+  for (const Kind& kind : kinds) {
+    if (kind.name == pairs_alone) continue;
+    result["rows"][kind.name] = row_of(measured[kind.name], measured[kind.base]);
+  }
   return result;
 }
 
 std::string record_table(const Json& result) {
-  std::string text = fmt::format(
-      "{}, {} frames, {} threads\n{:<16} {:>8} {:>8} {:>7} {:>9} {:>13}\n",
-      result["scenario"].get<std::string>(), result["frames"].get<std::int64_t>(),
-      result["threads"].get<int>(), "", "wall s", "CPU s", "ratio", "MB", "pictures/hour");
+  std::string text =
+      fmt::format("{}, {} frames, {} threads, {} {}\n{:<16} {:>8} {:>8} {:>7} {:>9} {:>13}\n",
+                  result["scenario"].get<std::string>(), result["frames"].get<std::int64_t>(),
+                  result["threads"].get<int>(), result["rounds"].get<int>(),
+                  result["rounds"] == 1 ? "round" : "rounds", "", "wall s", "CPU s", "ratio", "MB",
+                  "pictures/hour");
   for (const auto& [name, row] : result["rows"].items()) {
     text += fmt::format("{:<16} {:>8.2f} {:>8.2f} {:>7.2f} {:>9.1f} {:>13.0f}\n", name,
                         row["wall_s"].get<double>(), row["cpu_s"].get<double>(),

@@ -14,6 +14,7 @@ namespace vinebench::harness {
 struct RecordBenchmark {
   ScenarioConfig scenario;
   std::int64_t frames = 60;  ///< the first ones of the run
+  int rounds = 1;            ///< each kind is measured so often, in turn; the median counts
   int threads = 2;           ///< for rendering, and as many for encoding
   CacheFolder plant_cache;
   std::filesystem::path folder;  ///< for recordings, which are removed afterwards

@@ -24,7 +24,7 @@ void FrameImages::on_tick(const Sample& sample, const Estimate&) {
   for (std::size_t i = 0; i < sample.frame.images.size(); ++i) {
     if (sample.frame.images[i].empty()) continue;
     write_file_atomically(folder_ / fmt::format("{:06}_{}.png", sample.frame.index, cameras_.at(i)),
-                          encode_png(sample.frame.images[i], PngRows::kCodes));
+                          encode_png(sample.frame.images[i], PngContent::kNoise));
   }
 }
 

@@ -99,7 +99,7 @@ std::vector<FileTask> CocoWriter::files(const std::shared_ptr<const DatasetFrame
                      folder_ / "panoptic" / name_of_image(*frame, i, "png"), [this, frame, i] {
                        const ImageLabels labels = label_things(frame->truth.views[i], scene_);
                        pending_[i] = describe(*frame, i, labels);
-                       return encode_png(id_colours(labels.segments), PngRows::kCodes);
+                       return encode_png(id_colours(labels.segments));
                      }});
   }
   return tasks;

@@ -49,7 +49,7 @@ std::string encode_image(const cv::Mat& image, ImageKind kind) {
     case ImageKind::kPng:
       break;
   }
-  return encode_png(image, PngRows::kCodes);
+  return encode_png(image, PngContent::kNoise);
 }
 
 cv::Mat to_grey(const cv::Mat& image) {

@@ -9,19 +9,17 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <memory>
 #include <string_view>
 #include <vector>
 
 #include "core/util/error.h"
 #include "harness/datasets/files/noise_deflate.h"
+#include "harness/datasets/files/run_deflate.h"
 
 namespace vinebench::harness {
 namespace {
 
-constexpr int kLevel = 1;               // libdeflate's fastest that compresses
-constexpr std::uint8_t kSubFilter = 1;  // difference to the left pixel
-constexpr std::uint8_t kGrey = 0;       // colour types of PNG
+constexpr std::uint8_t kGrey = 0;  // colour types of PNG
 constexpr std::uint8_t kRgb = 2;
 constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
 
@@ -55,17 +53,33 @@ void swap_bytes(const std::uint8_t* from, std::size_t size, std::uint8_t* to) {
   }
 }
 
-/// The first pixel, and the difference of each other to the one on its left.
-void filter_row(const std::uint8_t* from, std::size_t size, std::size_t pixel, std::uint8_t* to) {
-  std::memcpy(to, from, std::min(pixel, size));
-  for (std::size_t i = pixel; i < size; ++i) {
-    to[i] = static_cast<std::uint8_t>(from[i] - from[i - pixel]);
+/// PNG's filters: what the difference is taken to.
+enum class Filter : std::uint8_t { kSub = 1, kUp = 2 };  // the pixel on the left, or above
+
+/// By size, of the labels of a drive past vines: "Up" is better for 8 bits, "Sub" for depths.
+Filter filter_for(const cv::Mat& image, PngContent content) {
+  return content == PngContent::kAreas && image.elemSize1() == 1 ? Filter::kUp : Filter::kSub;
+}
+
+/// `above` is the row before, or null.
+void filter_row(const std::uint8_t* from, const std::uint8_t* above, std::size_t size,
+                std::size_t pixel, Filter filter, std::uint8_t* to) {
+  if (filter == Filter::kUp && above == nullptr) {
+    std::memcpy(to, from, size);
+  } else if (filter == Filter::kUp) {
+    for (std::size_t i = 0; i < size; ++i) to[i] = static_cast<std::uint8_t>(from[i] - above[i]);
+  } else {
+    std::memcpy(to, from, std::min(pixel, size));
+    for (std::size_t i = pixel; i < size; ++i) {
+      to[i] = static_cast<std::uint8_t>(from[i] - from[i - pixel]);
+    }
   }
 }
 
-/// The filtered rows, each after its filter number; valid until the thread's next call. The buffer
-/// is reused, because fresh pages cost as much as the filter.
-const std::vector<std::uint8_t>& filtered(const cv::Mat& image) {
+/// The filtered rows, each after its filter's number; valid until the thread's next call. The
+/// buffer is reused, because fresh pages cost as much as the filter.
+const std::vector<std::uint8_t>& filtered(const cv::Mat& image, PngContent content) {
+  const Filter filter = filter_for(image, content);
   const std::size_t pixel = image.elemSize();
   const std::size_t row = static_cast<std::size_t>(image.cols) * pixel;
   const bool wide = image.elemSize1() == 2;
@@ -76,38 +90,29 @@ const std::vector<std::uint8_t>& filtered(const cv::Mat& image) {
   std::uint8_t* to = bytes.data();
   for (int y = 0; y < image.rows; ++y) {
     if (wide) swap_bytes(image.ptr(y), row, plain.data());
-    *to++ = kSubFilter;
-    filter_row(wide ? plain.data() : image.ptr(y), row, pixel, to);
+    *to++ = static_cast<std::uint8_t>(filter);
+    filter_row(wide ? plain.data() : image.ptr(y), y == 0 ? nullptr : image.ptr(y - 1), row, pixel,
+               filter, to);
     to += row;
   }
   return bytes;
 }
 
 /// Also valid until the thread's next call.
-std::string_view compressed(const std::vector<std::uint8_t>& bytes, PngRows rows) {
-  if (rows == PngRows::kCodes) {
-    thread_local std::vector<char> buffer;
-    return deflate_noise(bytes, buffer);
-  }
-  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
-      libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
-  if (!compressor) fail("an image cannot be compressed: not enough memory");
-  thread_local std::vector<char> result;
-  result.resize(
-      std::max(result.size(), libdeflate_zlib_compress_bound(compressor.get(), bytes.size())));
-  return {result.data(), libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(),
-                                                  result.data(), result.size())};
+std::string_view compressed(const std::vector<std::uint8_t>& bytes, PngContent content) {
+  thread_local std::vector<char> buffer;
+  return content == PngContent::kNoise ? deflate_noise(bytes, buffer) : deflate_runs(bytes, buffer);
 }
 
 }  // namespace
 
-std::string encode_png(const cv::Mat& image, PngRows rows) {
+std::string encode_png(const cv::Mat& image, PngContent content) {
   static_assert(std::endian::native == std::endian::little, "rows of 16 bits are byte-swapped");
   const bool known = (image.depth() == CV_8U || image.depth() == CV_16U) &&
                      (image.channels() == 1 || image.channels() == 3);
   if (!known || image.empty()) fail("PNG: expected an image of 8 or 16 bits, grey or RGB");
   std::string bytes(kSignature);
-  const std::string_view data = compressed(filtered(image), rows);
+  const std::string_view data = compressed(filtered(image, content), content);
   bytes.reserve(data.size() + 256);  // with the other chunks
   append_chunk(bytes, "IHDR", header(image));
   append_chunk(bytes, "IDAT", data);

@@ -84,9 +84,9 @@ std::vector<FileTask> FlowWriter::files(const std::shared_ptr<const DatasetFrame
         folders_.kitti / "visible" / cameras_[i].name / numbered(before->number, "png");
     tasks.push_back({fmt::format("flow {}", i), kitti, [this, truth, mask, flo] {
                        const FlowTruth flow = truth();
-                       write_file_atomically(mask, encode_png(flow.visible, PngRows::kCodes));
+                       write_file_atomically(mask, encode_png(flow.visible));
                        if (!folders_.flo.empty()) write_file_atomically(flo, encode_flo(flow.flow));
-                       return encode_png(kitti_flow(flow.flow), PngRows::kCodes);
+                       return encode_png(kitti_flow(flow.flow), PngContent::kNoise);
                      }});
   }
   return tasks;

@@ -21,7 +21,7 @@ FileTask camera_image(const std::shared_ptr<const DatasetFrame>& frame, std::siz
   return {fmt::format("{} png {}", colour ? "rgb" : "grey", camera), std::move(file),
           [frame, camera, colour] {
             const cv::Mat& image = frame->frame.images[camera];
-            return encode_png(colour ? image : to_grey(image), PngRows::kCodes);
+            return encode_png(colour ? image : to_grey(image), PngContent::kNoise);
           }};
 }
 

@@ -47,18 +47,8 @@ std::vector<FileTask> InstanceWriter::files(const std::shared_ptr<const DatasetF
     name_new_ones(truth_of(*frame, i).instances);
     tasks.push_back({fmt::format("instances {}", i),
                      folder_ / cameras_[i] / numbered(frame->number, "png"), [this, frame, i] {
-                       const cv::Mat& numbers = truth_of(*frame, i).instances;
-                       cv::Mat ids(numbers.size(), CV_32SC1, cv::Scalar(0));
-                       std::int32_t last = 0;
-                       std::int32_t id = 0;
-                       for (int y = 0; y < numbers.rows; ++y) {
-                         for (int x = 0; x < numbers.cols; ++x) {
-                           const auto number = numbers.at<std::int32_t>(y, x);
-                           if (number != last) id = instance_id(scene_, last = number);
-                           ids.at<std::int32_t>(y, x) = id;
-                         }
-                       }
-                       return encode_png(id_colours(ids), PngRows::kCodes);
+                       return encode_png(
+                           id_colours(instance_ids(scene_, truth_of(*frame, i).instances)));
                      }});
   }
   return tasks;

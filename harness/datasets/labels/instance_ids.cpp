@@ -22,6 +22,21 @@ std::int32_t instance_id(const SceneIndex& scene, std::int32_t number) {
   return number;
 }
 
+cv::Mat instance_ids(const SceneIndex& scene, const cv::Mat& numbers) {
+  cv::Mat ids(numbers.size(), CV_32SC1);
+  std::int32_t last = 0;
+  std::int32_t id = instance_id(scene, last);
+  for (int y = 0; y < numbers.rows; ++y) {
+    const auto* number = numbers.ptr<std::int32_t>(y);
+    auto* to = ids.ptr<std::int32_t>(y);
+    for (int x = 0; x < numbers.cols; ++x) {
+      if (number[x] != last) id = instance_id(scene, last = number[x]);
+      to[x] = id;
+    }
+  }
+  return ids;
+}
+
 cv::Mat id_colours(const cv::Mat& ids) {
   cv::Mat colours(ids.size(), CV_8UC3);
   for (int y = 0; y < ids.rows; ++y) {

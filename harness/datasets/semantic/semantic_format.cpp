@@ -16,8 +16,7 @@ std::unique_ptr<FormatWriter> make_semantic_writer(const WriterInputs& inputs) {
   write_file_atomically(inputs.folder / "labels.yaml", label_table_text());
   return std::make_unique<ImageWriter>(inputs.folder, inputs.notes, "semantic", "png",
                                        [](const DatasetFrame& frame, std::size_t camera) {
-                                         return encode_png(truth_of(frame, camera).labels,
-                                                           PngRows::kCodes);
+                                         return encode_png(truth_of(frame, camera).labels);
                                        });
 }
 

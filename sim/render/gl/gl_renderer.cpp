@@ -20,7 +20,10 @@ namespace vinebench::sim {
 class GlRenderer::Impl {
  public:
   Impl(const Scene& scene, const RendererConfig& config)
-      : config_(config), motions_(scene.motions), context_(make_gl_context(config.backend)) {
+      : config_(config),
+        motions_(scene.motions),
+        windy_(scene.wind.speed > 0),
+        context_(make_gl_context(config.backend)) {
     const CurrentContext current(*context_);
     painter_ = std::make_unique<Painter>(current.gl(), scene, config.shadow_map_size);
   }
@@ -36,7 +39,7 @@ class GlRenderer::Impl {
                        const RenderRequest& request) {
     check_camera(camera);
     const TruthParts truth{request.depth, request.instances || tells_movers_apart(request),
-                           request.normals, request.motion};
+                           request.normals, request.motion && windy_};
     CurrentContext current(*context_);
     painter_->draw(target(current.gl(), camera.width, camera.height, truth.any()), camera,
                    T_world_cam, request.T_world_rover, config_.lod_scale * request.detail,
@@ -88,8 +91,9 @@ class GlRenderer::Impl {
     if (request.instances || tells_movers_apart(request)) {
       read_back_.instances(gl, size, image.instances);
     }
-    if (request.normals) read_back_.vectors(gl, 2, size, image.normals);
-    if (request.motion) read_back_.vectors(gl, 3, size, image.motion);
+    if (request.normals) read_back_.normals(gl, size, image.normals);
+    if (request.motion && windy_) read_back_.motion(gl, size, image.motion);
+    if (request.motion && !windy_) image.motion = cv::Mat::zeros(size, CV_32FC3);
     return image;
   }
 
@@ -101,6 +105,7 @@ class GlRenderer::Impl {
 
   RendererConfig config_;
   std::vector<Motion> motions_;
+  bool windy_;  ///< else nothing moves by itself, and the target of motion is not drawn
   std::unique_ptr<GlContext> context_;
   std::unique_ptr<Painter> painter_;
   std::map<std::tuple<int, int, bool>, GlTarget> targets_;  // by width, height, truth

@@ -87,13 +87,29 @@ void ReadBack::instances(const GlFunctions& gl, const cv::Size& size, cv::Mat& n
   });
 }
 
-void ReadBack::vectors(const GlFunctions& gl, int attachment, const cv::Size& size,
-                       cv::Mat& vectors) {
-  vectors.create(size, CV_32FC3);
-  gl.ReadBuffer(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(attachment));
+void ReadBack::normals(const GlFunctions& gl, const cv::Size& size, cv::Mat& normals) {
+  constexpr float kStep = 2.0f / 65535;
+  normals.create(size, CV_32FC3);
+  gl.ReadBuffer(GL_COLOR_ATTACHMENT2);
+  rows(gl, size, GL_RGBA, GL_UNSIGNED_SHORT, 4 * sizeof(std::uint16_t),
+       [&](int y, const std::uint8_t* row) {
+         const auto* from = reinterpret_cast<const std::uint16_t*>(row);
+         auto* to = normals.ptr<float>(y);
+         for (int x = 0; x < size.width; ++x) {
+           const float drawn = from[4 * x + 3] != 0 ? 1.0f : 0.0f;
+           for (int c = 0; c < 3; ++c) {
+             to[3 * x + c] = kStep * static_cast<float>(from[4 * x + c]) - drawn;
+           }
+         }
+       });
+}
+
+void ReadBack::motion(const GlFunctions& gl, const cv::Size& size, cv::Mat& motion) {
+  motion.create(size, CV_32FC3);
+  gl.ReadBuffer(GL_COLOR_ATTACHMENT3);
   rows(gl, size, GL_RGBA, GL_FLOAT, 4 * sizeof(float), [&](int y, const std::uint8_t* row) {
     const auto* from = reinterpret_cast<const float*>(row);
-    auto* to = vectors.ptr<float>(y);
+    auto* to = motion.ptr<float>(y);
     for (int x = 0; x < size.width; ++x) {
       for (int c = 0; c < 3; ++c) to[3 * x + c] = from[4 * x + c];
     }

@@ -21,8 +21,10 @@ class ReadBack {
   void depth(const GlFunctions& gl, const cv::Size& size, cv::Mat& depth);
   /// RenderedImage::instances.
   void instances(const GlFunctions& gl, const cv::Size& size, cv::Mat& numbers);
-  /// The first three floats of each pixel of a colour attachment (CV_32FC3).
-  void vectors(const GlFunctions& gl, int attachment, const cv::Size& size, cv::Mat& vectors);
+  /// RenderedImage::normals, to 1.5e-5.
+  void normals(const GlFunctions& gl, const cv::Size& size, cv::Mat& normals);
+  /// RenderedImage::motion by the wind.
+  void motion(const GlFunctions& gl, const cv::Size& size, cv::Mat& motion);
 
  private:
   /// Hands each row's pixels to `take`, as bytes.

@@ -14,7 +14,8 @@ using RecordBenchmarkTest = test::SmallScenario;
 TEST_F(RecordBenchmarkTest, TellsWhatEachKindOfRecordingCosts) {
   RecordBenchmark benchmark;
   benchmark.scenario = load_scenario(request_.scenario);
-  benchmark.frames = 3;
+  benchmark.frames = 2;
+  benchmark.rounds = 2;
   benchmark.plant_cache = request_.machine.plant_cache;
   benchmark.folder = folder_ / "bench";
   const auto result = measure_recording(benchmark);
@@ -31,7 +32,9 @@ TEST_F(RecordBenchmarkTest, TellsWhatEachKindOfRecordingCosts) {
   EXPECT_GT(rows["record labels"]["megabytes"], rows["record rgb"]["megabytes"]);
   EXPECT_EQ(rows["run rgb"]["megabytes"], rows["record rgb"]["megabytes"]);
   EXPECT_FALSE(std::filesystem::exists(benchmark.folder / "recording"));
+  EXPECT_THAT(record_table(result), testing::HasSubstr("2 threads, 2 rounds"));
   EXPECT_THAT(record_table(result), testing::HasSubstr("record training"));
+  EXPECT_FALSE(rows.contains("pairs"));
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ struct BenchRecordArguments {
   std::vector<std::string> overrides;
   int threads = default_threads();
   std::int64_t frames = 60;
+  int rounds = 1;
   bool untrusted = false;
 };
 
@@ -41,6 +42,7 @@ int bench_record(const BenchRecordArguments& arguments, const Surroundings& surr
   sim::choose_backend(benchmark.scenario.simulation.renderer, surroundings.machine.gl_platform);
   benchmark.plant_cache = with_cache(surroundings.machine, arguments.cache).plant_cache;
   benchmark.frames = arguments.frames;
+  benchmark.rounds = arguments.rounds;
   benchmark.threads = arguments.threads;
   const TemporaryFolder folder(arguments.folder);
   benchmark.folder = folder.path();
@@ -75,7 +77,12 @@ Command bench_record_command(const Surroundings& surroundings) {
                        .target = &arguments->frames,
                        .help = "Frames of the run",
                        .show_default = true,
-                       .range = Range::between(2, 100000)}},
+                       .range = Range::between(2, 100000)},
+                      {.name = "--rounds",
+                       .target = &arguments->rounds,
+                       .help = "How often each kind is measured, in turn; the median counts",
+                       .show_default = true,
+                       .range = Range::between(1, 100)}},
           .run = [arguments, surroundings] { return bench_record(*arguments, surroundings); }};
 }
 

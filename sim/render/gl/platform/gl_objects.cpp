@@ -187,7 +187,7 @@ GLint GlProgram::uniform(const char* name) const {
 GlTarget::GlTarget(const GlFunctions& gl, int width, int height, bool truth)
     : gl_(gl), width_(width), height_(height) {
   std::vector<GLenum> formats{GL_RGBA8};
-  if (truth) formats.insert(formats.end(), {GL_RGBA8, GL_RGBA32F, GL_RGBA32F});
+  if (truth) formats.insert(formats.end(), {GL_RGBA8, GL_RGBA16, GL_RGBA32F});
   framebuffer_ = GlFramebuffer(gl, generate(gl.GenFramebuffers));
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
   for (const GLenum format : formats) {

@@ -104,7 +104,7 @@ class GlProgram {
 };
 
 /// Where images are drawn: RGBA8 colour and 32-bit depth; for the truth also RGBA8 for who is
-/// seen and two RGBA32F for normals and motion.
+/// seen, RGBA16 for normals (from -1 at 0 to 1) and RGBA32F for motion.
 class GlTarget {
  public:
   GlTarget(const GlFunctions& gl, int width, int height, bool truth);

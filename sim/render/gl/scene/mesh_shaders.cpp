@@ -29,7 +29,9 @@ layout(location = 7) in uint instance;
 layout(location = 8) in float part;
 flat out uvec2 v_id;
 out vec3 v_place;
+#ifdef WIND
 out vec3 v_motion;
+#endif
 #endif
 #ifdef HAZE
 out float v_haze;
@@ -61,12 +63,8 @@ void main() {
   vec3 p_rest = (world_from_cam * vec4(p_cam, 1.0)).xyz;
   vec3 moved = sway * sway_at(p_rest, gust.z);
   p_cam += mat3(cam_from_world) * moved;
-#endif
 #ifdef TRUTH
-#ifdef WIND
   v_motion = sway * sway_at(p_rest, gust.w) - moved;
-#else
-  v_motion = vec3(0.0);
 #endif
 #endif
   if (leaf.y > 0.5 && dot(n_cam, p_cam) > 0.0) n_cam = -n_cam;
@@ -131,7 +129,9 @@ in vec2 v_uv;
 #ifdef TRUTH
 flat in uvec2 v_id;
 in vec3 v_place;
+#ifdef WIND
 in vec3 v_motion;
+#endif
 layout(location = 1) out vec4 identity;
 layout(location = 2) out vec4 facing;
 layout(location = 3) out vec4 motion;
@@ -211,8 +211,12 @@ void main() {
   colour = vec4(light, surface.a);
 #ifdef TRUTH
   identity = vec4(v_id.x & 255u, (v_id.x >> 8u) & 255u, (v_id.x >> 16u) & 255u, v_id.y) / 255.0;
-  facing = vec4(normalize(dot(across, v_place) < 0.0 ? across : -across), 1.0);
+  facing = vec4(0.5 + 0.5 * normalize(dot(across, v_place) < 0.0 ? across : -across), 1.0);
+#ifdef WIND
   motion = vec4(v_motion, 1.0);
+#else
+  motion = vec4(0.0, 0.0, 0.0, 1.0);
+#endif
 #endif
 }
 )";

@@ -108,7 +108,7 @@ void main() {
 #ifdef TRUTH
   if (share < 0.5) discard;
   identity = vec4(0.0);
-  facing = vec4(normalize(v_normal), 1.0);
+  facing = vec4(0.5 + 0.5 * normalize(v_normal), 1.0);
   motion = vec4(0.0, 0.0, 0.0, 1.0);
 #else
   colour = vec4(v_light.rgb, surface.a);

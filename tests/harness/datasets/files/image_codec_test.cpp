@@ -38,8 +38,8 @@ TEST(PngWriterTest, LibpngReadsTheSamePixels) {
     for (const cv::Size size :
          {cv::Size(1, 1), cv::Size(53, 37), cv::Size(1, 9), cv::Size(300, 2)}) {
       const cv::Mat image = noise(size.height, size.width, type);
-      for (const PngRows rows : {PngRows::kRepetitions, PngRows::kCodes}) {
-        const cv::Mat back = decoded(encode_png(image, rows));
+      for (const PngContent content : {PngContent::kAreas, PngContent::kNoise}) {
+        const cv::Mat back = decoded(encode_png(image, content));
         ASSERT_EQ(back.type(), type);
         ASSERT_EQ(back.size(), size);
         EXPECT_EQ(cv::norm(back, image, cv::NORM_INF), 0);

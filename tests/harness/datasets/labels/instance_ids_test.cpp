@@ -16,6 +16,7 @@ TEST(InstanceIdsTest, AnIdIsRedAndGreenAndBlue) {
 
 TEST(InstanceIdsTest, NothingIsNumberZero) {
   EXPECT_EQ(instance_id(SceneIndex{}, 0), 0);
+  EXPECT_EQ(cv::countNonZero(instance_ids(SceneIndex{}, cv::Mat::zeros(2, 3, CV_32SC1))), 0);
 }
 
 }  // namespace

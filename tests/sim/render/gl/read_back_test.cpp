@@ -24,17 +24,19 @@ void main() {
 layout(location = 0) out vec4 colour;
 layout(location = 1) out vec4 identity;
 layout(location = 2) out vec4 facing;
+layout(location = 3) out vec4 motion;
 void main() {
   vec2 p = floor(gl_FragCoord.xy);
   colour = vec4(p.x, p.y, p.x + p.y, 2.0 * p.x) / 255.0;
   identity = vec4(p.x, p.y, 1.0, 2.0) / 255.0;
-  facing = vec4(p.x, -p.y, 0.25, 1.0);
+  facing = p.y < 3.0 ? vec4(0.0) : vec4(p.x / 37.0, 1.0 - p.y / 70.0, 0.25, 1.0);
+  motion = vec4(p.x, -p.y, 0.25, 1.0);
   gl_FragDepth = p.x < 1.0 ? 1.0 : 0.5;
 })");
     target_.bind();
-    constexpr std::array<GLenum, 3> kTargets{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
-                                             GL_COLOR_ATTACHMENT2};
-    gl_.DrawBuffers(3, kTargets.data());
+    constexpr std::array<GLenum, 4> kTargets{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
+                                             GL_COLOR_ATTACHMENT2, GL_COLOR_ATTACHMENT3};
+    gl_.DrawBuffers(4, kTargets.data());
     gl_.Enable(GL_DEPTH_TEST);
     gl_.DepthFunc(GL_LEQUAL);
     gl_.DepthMask(GL_TRUE);
@@ -84,12 +86,28 @@ TEST_F(ReadBackTest, InstancesAreTheirNumberTimes256AndThePart) {
   });
 }
 
-TEST_F(ReadBackTest, VectorsHaveThreeOfFourFloats) {
-  cv::Mat vectors;
-  read_back_.vectors(gl_, 2, kPicture, vectors);
+TEST_F(ReadBackTest, MotionIsThreeOfFourFloats) {
+  cv::Mat motion;
+  read_back_.motion(gl_, kPicture, motion);
   for_each_pixel([&](int x, int y) {
-    EXPECT_EQ(vectors.at<cv::Vec3f>(y, x),
+    EXPECT_EQ(motion.at<cv::Vec3f>(y, x),
               cv::Vec3f(static_cast<float>(x), static_cast<float>(-y), 0.25f));
+  });
+}
+
+// Half a step of 16 bits, which span 2, is 1.53e-5.
+TEST_F(ReadBackTest, NormalsGoFromMinusOneToOneAndAreZeroWhereNothingIs) {
+  cv::Mat normals;
+  read_back_.normals(gl_, kPicture, normals);
+  for_each_pixel([&](int x, int y) {
+    const auto& normal = normals.at<cv::Vec3f>(y, x);
+    if (y < 3) {
+      EXPECT_EQ(normal, cv::Vec3f(0, 0, 0));
+      return;
+    }
+    const cv::Vec3f expected(2 * static_cast<float>(x) / 37 - 1, 1 - 2 * static_cast<float>(y) / 70,
+                             -0.5f);
+    EXPECT_LT(cv::norm(normal - expected, cv::NORM_INF), 1.6e-5);
   });
 }
 
