@@ -96,6 +96,10 @@ int Map::add_landmark(const Eigen::Vector3d& position, const Observation& observ
   return id;
 }
 
+std::span<const Landmark> Map::begun_with(int keyframe) const {
+  return std::ranges::equal_range(landmarks_, keyframe, {}, &Landmark::first_keyframe);
+}
+
 void Map::change_covisibility(const Landmark& landmark, int keyframe_id, int change) {
   int last = -1;
   for (const Observation& o : landmark.observations) {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <vector>
 
 #include "core/geometry/pose.h"
@@ -99,6 +100,9 @@ class Map {
   const std::vector<Landmark>& landmarks() const { return landmarks_; }
   std::vector<MapTag>& tags() { return tags_; }
   const std::vector<MapTag>& tags() const { return tags_; }
+
+  /// Landmarks that began with a keyframe, removed ones too: ids ascend with the keyframes.
+  std::span<const Landmark> begun_with(int keyframe) const;
 
   /// What self-calibration found of the rig when the map was made; empty for nothing.
   RigCalibration& calibration() { return calibration_; }

@@ -81,8 +81,8 @@ std::unique_ptr<AdjustmentJob> LocalMapper::local_adjustment(int keyframe, const
 
 void LocalMapper::cull(int keyframe, Map& map) const {
   const int due = keyframe - settings_.mapping.trial_keyframes;
-  for (Landmark& landmark : map.landmarks()) {
-    if (landmark.removed || landmark.first_keyframe != due) continue;
+  for (const Landmark& landmark : map.begun_with(due)) {
+    if (landmark.removed) continue;
     if (count_keyframes(landmark) < settings_.mapping.min_observations) {
       map.remove_landmark(landmark.id);
     }

@@ -94,6 +94,20 @@ TEST_F(MapTest, ObservationsAreKeptOnBothSidesInOrder) {
   expect_consistent();
 }
 
+TEST_F(MapTest, LandmarksAreFoundByTheKeyframeTheyBeganWith) {
+  const int first = map_.add_landmark({1, 0, 0}, {0, 0, 1});
+  const int second = map_.add_landmark({2, 0, 0}, {2, 0, 2});
+  const int third = map_.add_landmark({3, 0, 0}, {2, 1, 3});
+  map_.add_observation(second, {0, 0, 4});  // it began with keyframe 2 all the same
+  map_.remove_landmark(third);
+  ASSERT_EQ(map_.begun_with(0).size(), 1u);
+  EXPECT_EQ(map_.begun_with(0)[0].id, first);
+  EXPECT_TRUE(map_.begun_with(1).empty());
+  ASSERT_EQ(map_.begun_with(2).size(), 2u);
+  EXPECT_EQ(map_.begun_with(2)[0].id, second);
+  EXPECT_TRUE(map_.begun_with(2)[1].removed);
+}
+
 TEST_F(MapTest, ATakenEndIsNotTakenAgain) {
   const int a = map_.add_landmark({1, 0, 0}, {0, 0, 1});
   const int b = map_.add_landmark({2, 0, 0}, {0, 0, 2});
