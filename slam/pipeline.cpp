@@ -62,6 +62,7 @@ void Pipeline::continue_from(Map map) {
 }
 
 Estimate Pipeline::process(const std::shared_ptr<FrameFeatures>& frame) {
+  global_adjuster_.wait_for_copy();
   join_due_mapping();
   correct_stereo(*frame);
   TrackedFrame tracked = locate(frame);
@@ -73,6 +74,7 @@ Estimate Pipeline::process(const std::shared_ptr<FrameFeatures>& frame) {
   record_tags(tracked);
   record_pose(tracked, estimate);
   supporting_.keep(tracked);
+  start_due_adjustment();
   return estimate;
 }
 
@@ -169,8 +171,12 @@ void Pipeline::record_pose(const TrackedFrame& tracked, Estimate& estimate) {
 
 SlamSummary Pipeline::finish() {
   join_mapping();
-  while (global_adjuster_.busy()) join_global_adjustment();
-  calibration_.finish(rig_);
+  global_adjuster_.wait_for_copy();
+  while (global_adjuster_.busy()) {
+    join_global_adjustment();
+    start_due_adjustment();
+  }
+  calibration_.finish();
   const auto calibration = calibration_.latest();
   if (calibration) use_calibration(*calibration);
   if (tags_since_adjustment_ || calibration) {
@@ -277,15 +283,16 @@ bool Pipeline::wants_new_keyframe(const TrackedFrame& tracked) const {
 
 /// Takes over what local mapping found; the latest poses move with it.
 void Pipeline::join_mapping(TrackedFrame* tracked) {
+  if (tracked != nullptr && is_live()) scheduler_.hasten();
   const Pose T_new_old = scheduler_.join(map_, times_);
   tracker_.correct(T_new_old * tracker_.T_map_body());
   if (tracked != nullptr) tracked->motion.T_map_body = T_new_old * tracked->motion.T_map_body;
 }
 
-/// At once in lockstep; live, beside tracking.
+/// At once in lockstep; live, beside tracking, from the frame's end on.
 void Pipeline::adjust_globally() {
   if (is_live()) {
-    global_adjuster_.start(loop_closer_, rig_, map_);
+    global_adjuster_.want();
   } else {
     loop_closer_.adjust_globally(rig_, map_);
   }
@@ -297,14 +304,17 @@ void Pipeline::adjust_moved_map() {
   adjust_globally();
 }
 
+/// Nothing else changes the map until the next frame.
+void Pipeline::start_due_adjustment() {
+  if (global_adjuster_.due()) global_adjuster_.start(loop_closer_, rig_, map_);
+}
+
 /// Takes over what an adjustment beside tracking found; the latest poses move with it.
 void Pipeline::join_global_adjustment() {
-  const bool another = global_adjuster_.wants_another();
   if (const std::optional<Pose> T_new_old = global_adjuster_.join(map_, times_)) {
     tracker_.correct(*T_new_old * tracker_.T_map_body());
     believe_gravity();
   }
-  if (another) adjust_globally();
 }
 
 void Pipeline::map_keyframe(TrackedFrame& tracked, Estimate& estimate) {

@@ -72,6 +72,7 @@ class Pipeline {
   bool is_live() const { return config_.mapping.schedule == MappingSchedule::kLive; }
   void adjust_globally();
   void adjust_moved_map();
+  void start_due_adjustment();
   void join_global_adjustment();
   void map_keyframe(TrackedFrame& tracked, Estimate& estimate);
   void grow_uncertainty(const TrackedFrame& tracked);

@@ -97,7 +97,9 @@ int Map::add_landmark(const Eigen::Vector3d& position, const Observation& observ
 }
 
 std::span<const Landmark> Map::begun_with(int keyframe) const {
-  return std::ranges::equal_range(landmarks_, keyframe, {}, &Landmark::first_keyframe);
+  const auto begin = std::ranges::lower_bound(landmarks_, keyframe, {}, &Landmark::first_keyframe);
+  const auto end = std::ranges::upper_bound(landmarks_, keyframe, {}, &Landmark::first_keyframe);
+  return {begin, end};
 }
 
 void Map::change_covisibility(const Landmark& landmark, int keyframe_id, int change) {

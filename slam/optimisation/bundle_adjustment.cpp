@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/optimisation/bundle_adjustment.h"
 
+#include <atomic>
 #include <vector>
 
 #include "slam/optimisation/calibration_unknowns.h"
@@ -69,8 +70,12 @@ class AdjustmentJob::Impl {
   }
 
   double solve() {
-    return problem_.solve(solver_options(problem_.window().moved.size(), options_));
+    ceres::Solver::Options options = solver_options(problem_.window().moved.size(), options_);
+    options.callbacks.push_back(&stop_);
+    return problem_.solve(options);
   }
+
+  void stop() { stop_.wanted = true; }
 
   void apply(Map& map) {
     problem_.write_poses(map);
@@ -81,6 +86,14 @@ class AdjustmentJob::Impl {
   CalibrationMarginal calibration() { return calibration_->marginal(problem_); }
 
  private:
+  /// Ends a solver's iterations once that is wanted.
+  struct Stop : ceres::IterationCallback {
+    ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+      return wanted ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+    }
+    std::atomic<bool> wanted = false;
+  };
+
   static std::unique_ptr<CalibrationUnknowns> unknown_calibration(
       const EstimatorRig& rig, const AdjustmentOptions& options) {
     if (!options.calibration) return nullptr;
@@ -98,6 +111,7 @@ class AdjustmentJob::Impl {
 
   const EstimatorRig rig_;  // a copy: calibration may change the estimator's own meanwhile
   AdjustmentOptions options_;
+  Stop stop_;
   std::unique_ptr<CalibrationUnknowns> calibration_;
   LandmarkFactors landmarks_;
   OdometryFactors odometry_;
@@ -115,6 +129,10 @@ AdjustmentJob::~AdjustmentJob() = default;
 
 double AdjustmentJob::solve() {
   return impl_->solve();
+}
+
+void AdjustmentJob::stop() {
+  impl_->stop();
 }
 
 CalibrationMarginal AdjustmentJob::calibration() const {

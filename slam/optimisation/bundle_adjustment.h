@@ -42,6 +42,9 @@ class AdjustmentJob {
   /// Touches nothing but its own copies. Returns the cost reached: half the sum of the squared
   /// residuals, in standard deviations, under their loss.
   double solve();
+
+  /// solve() is to return after the iteration that it is at. From any thread.
+  void stop();
   void apply(Map& map) const;
 
   /// What is known of the rig's calibration after solve(), where that is unknown

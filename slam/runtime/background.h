@@ -9,13 +9,20 @@
 
 namespace vinebench::slam {
 
-/// One piece of work at a time, on a thread of its own. Is waited for where it is let go.
+/// From here on others come first on the processors that this thread shares with them.
+void lower_priority_of_thread();
+
+/// One piece of work at a time, on a thread of its own that comes after others where processors are
+/// scarce. Is waited for where it is let go.
 template <class Result>
 class Background {
  public:
   /// None may be under way, or there and not taken.
   void start(std::function<Result()> work) {
-    result_ = std::async(std::launch::async, std::move(work));
+    result_ = std::async(std::launch::async, [work = std::move(work)] {
+      lower_priority_of_thread();
+      return work();
+    });
   }
 
   bool busy() const { return result_.valid(); }

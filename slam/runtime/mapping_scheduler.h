@@ -34,6 +34,10 @@ class MappingScheduler {
   /// there.
   bool due() const;
 
+  /// The job under way is to end soon, with what it has found by then, which is no longer the same
+  /// each time.
+  void hasten() { job_->stop(); }
+
   /// Waits for the job, writes its result into the map, adds its time to the stage "local
   /// adjustment". Returns how the keyframe that it was started for moved: T_map_new T_map_old^-1.
   /// Does nothing where there is no job.

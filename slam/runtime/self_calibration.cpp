@@ -3,6 +3,7 @@
 #include "slam/runtime/self_calibration.h"
 
 #include <memory>
+#include <utility>
 
 #include "slam/stereo/stereo_matcher.h"
 
@@ -40,24 +41,37 @@ std::optional<RigCalibration> SelfCalibration::after_keyframe(const Map& map,
     know_error(rig, found);
     return found;
   }
-  const auto found = look_.done() ? ended_look(rig) : std::nullopt;
-  if (look_.busy() || !watch_.due(map)) return found;
-  const EstimatorRig& now = found ? rig.with_calibration(*found) : rig;
-  look_.start([job = std::shared_ptr(watch_.begin_look(map, now, options))] {
+  std::optional<RigCalibration> found;
+  if (look_.done()) {
+    found = take_look();
+    know_error(rig, found);
+  }
+  if (!look_.busy() && watch_.due(map)) {
+    start_look(map, found ? rig.with_calibration(*found) : rig, options);
+  }
+  return found;
+}
+
+/// Of a copy of the watch: to weigh what may be wrong with the rig takes longer than a frame has.
+void SelfCalibration::start_look(const Map& map, const EstimatorRig& rig,
+                                 const AdjustmentOptions& options) {
+  const std::shared_ptr<AdjustmentJob> job = watch_.begin_look(map, rig, options);
+  look_.start([job, rig, before = watch_] {
+    Look look{before, {}};
     job->solve();
-    return job->calibration();
+    look.found = look.watch.finish_look(job->calibration(), rig);
+    return look;
   });
-  return found;
 }
 
-void SelfCalibration::finish(const EstimatorRig& rig) {
-  if (look_.busy()) watch_.finish_look(look_.take(), rig);
+void SelfCalibration::finish() {
+  if (look_.busy()) take_look();
 }
 
-std::optional<RigCalibration> SelfCalibration::ended_look(const EstimatorRig& rig) {
-  const auto found = watch_.finish_look(look_.take(), rig);
-  know_error(rig, found);
-  return found;
+std::optional<RigCalibration> SelfCalibration::take_look() {
+  Look look = look_.take();
+  watch_ = std::move(look.watch);
+  return look.found;
 }
 
 void SelfCalibration::know_error(const EstimatorRig& rig,

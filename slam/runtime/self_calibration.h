@@ -40,7 +40,7 @@ class SelfCalibration {
                                                const AdjustmentOptions& options, StageTimes& times);
 
   /// Waits for a look that is under way.
-  void finish(const EstimatorRig& rig);
+  void finish();
 
   /// The calibrations as they are known now, if they were replaced once.
   std::optional<RigCalibration> latest() const { return watch_.latest(); }
@@ -50,12 +50,19 @@ class SelfCalibration {
   const Eigen::MatrixXd& drift() const { return watch_.drift(); }
 
  private:
-  std::optional<RigCalibration> ended_look(const EstimatorRig& rig);
+  /// What a look beside tracking leaves.
+  struct Look {
+    CalibrationWatch watch;
+    std::optional<RigCalibration> found;
+  };
+
+  void start_look(const Map& map, const EstimatorRig& rig, const AdjustmentOptions& options);
+  std::optional<RigCalibration> take_look();
   void know_error(const EstimatorRig& rig, const std::optional<RigCalibration>& found);
 
   SelfCalibrationSettings settings_;
   CalibrationWatch watch_;
-  Background<CalibrationMarginal> look_;  ///< beside tracking
+  Background<Look> look_;  ///< beside tracking
   Eigen::MatrixXd error_;
 };
 

@@ -23,7 +23,7 @@ TEST_F(GlobalAdjusterTest, FindsWhatAnAdjustmentAtOnceWouldFind) {
   EXPECT_FALSE(adjuster_.busy());
   adjuster_.start(loop_, known_.rig, known_.map);
   EXPECT_TRUE(adjuster_.busy());
-  EXPECT_FALSE(adjuster_.wants_another());
+  EXPECT_FALSE(adjuster_.due());
   const Pose before = known_.map.keyframe(5).T_map_body;
   const auto T_new_old = adjuster_.join(known_.map, times_);
   ASSERT_TRUE(T_new_old);
@@ -34,25 +34,36 @@ TEST_F(GlobalAdjusterTest, FindsWhatAnAdjustmentAtOnceWouldFind) {
 
 TEST_F(GlobalAdjusterTest, WhatWasOutdatedIsDropped) {
   adjuster_.outdate();  // of none under way
-  EXPECT_FALSE(adjuster_.wants_another());
+  EXPECT_FALSE(adjuster_.due());
   adjuster_.start(loop_, known_.rig, known_.map);
   adjuster_.outdate();
-  EXPECT_TRUE(adjuster_.wants_another());
   const Pose before = known_.map.keyframe(4).T_map_body;
   EXPECT_FALSE(adjuster_.join(known_.map, times_));
   EXPECT_EQ(test::distance(known_.map.keyframe(4).T_map_body, before), 0);
-  EXPECT_FALSE(adjuster_.wants_another());
+  EXPECT_TRUE(adjuster_.due());
   adjuster_.start(loop_, known_.rig, known_.map);
+  EXPECT_FALSE(adjuster_.due());
   EXPECT_TRUE(adjuster_.join(known_.map, times_));
   expect_true_poses();
 }
 
 TEST_F(GlobalAdjusterTest, AskedAgainItIsTakenOverAndAnotherIsWanted) {
+  adjuster_.want();
+  EXPECT_TRUE(adjuster_.due());
   adjuster_.start(loop_, known_.rig, known_.map);
-  adjuster_.start(loop_, known_.rig, known_.map);
-  EXPECT_TRUE(adjuster_.wants_another());
+  adjuster_.want();
+  EXPECT_FALSE(adjuster_.due());
   EXPECT_TRUE(adjuster_.join(known_.map, times_));
-  EXPECT_FALSE(adjuster_.wants_another());
+  EXPECT_TRUE(adjuster_.due());
+  expect_true_poses();
+}
+
+// What happens to the map once it is copied makes no difference to what is found.
+TEST_F(GlobalAdjusterTest, TheMapIsFreeOnceItIsCopied) {
+  adjuster_.start(loop_, known_.rig, known_.map);
+  adjuster_.wait_for_copy();
+  for (Landmark& landmark : known_.map.landmarks()) landmark.position.setZero();
+  EXPECT_TRUE(adjuster_.join(known_.map, times_));
   expect_true_poses();
 }
 

@@ -130,6 +130,27 @@ TEST_F(MappingSchedulerTest, LiveIsDueWhenItIsSolved) {
   EXPECT_LT(distance(known_.map.keyframe(2).T_map_body, truth(2)), 1e-5);
 }
 
+// Before its first step a solver asks whether to go on.
+TEST_F(MappingSchedulerTest, AStoppedJobEndsWithWhatItHasFoundByThen) {
+  const auto stopped = job();
+  const Pose before = known_.map.keyframe(2).T_map_body;
+  stopped->stop();
+  stopped->solve();
+  stopped->apply(known_.map);
+  EXPECT_LT(distance(known_.map.keyframe(2).T_map_body, before), 1e-12);
+}
+
+TEST_F(MappingSchedulerTest, AHastenedJobIsJoinedLikeAny) {
+  MappingScheduler scheduler(config(MappingSchedule::kLive));
+  scheduler.start(job(), 2);
+  scheduler.hasten();
+  const Pose before = known_.map.keyframe(2).T_map_body;
+  const Pose T_new_old = scheduler.join(known_.map, times_);
+  EXPECT_LT(distance(T_new_old * before, known_.map.keyframe(2).T_map_body), 1e-12);
+  EXPECT_LE(distance(known_.map.keyframe(2).T_map_body, truth(2)), 0.01 + 1e-12);
+  EXPECT_FALSE(scheduler.busy());
+}
+
 /// Live and final poses of a drive, byte by byte. `pause` between two frames gives a job more or
 /// less time.
 std::string drive(const SyntheticAisle& aisle, int delay, std::chrono::milliseconds pause,

@@ -93,7 +93,7 @@ TEST_F(SelfCalibrationTest, BesideTrackingItFindsTheSameLater) {
       later = look(beside);
     }
     if (!first) {
-      beside.finish(made_.rig);
+      beside.finish();
       continue;
     }
     ASSERT_TRUE(later);
