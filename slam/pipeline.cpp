@@ -333,7 +333,7 @@ void Pipeline::map_keyframe(TrackedFrame& tracked, Estimate& estimate) {
     calibrate(estimate);
     const ScopedTimer timer(times_, "local mapping");
     mapper_.extend(id, rig_, map_);
-    scheduler_.start(mapper_.local_adjustment(id, map_, rig_), id);
+    scheduler_.start(mapper_.local_adjustment(id, map_, rig_), id, map_);
     if (scheduler_.due()) join_mapping();
   }
   tracker_.correct(map_.keyframe(id).T_map_body);

@@ -9,19 +9,13 @@
 namespace vinebench::slam {
 namespace {
 
-bool is_same(const Observation& a, const Observation& b) {
-  return a.keyframe == b.keyframe && a.view == b.view && a.feature == b.feature;
-}
-
 std::vector<std::pair<int, Observation>> removed_between(const Map& before, const Map& after) {
   std::vector<std::pair<int, Observation>> removed;
   for (const Landmark& landmark : before.landmarks()) {
     const std::vector<Observation>& left = after.landmark(landmark.id).observations;
     if (left.size() == landmark.observations.size()) continue;
     for (const Observation& o : landmark.observations) {
-      const bool stays =
-          std::ranges::any_of(left, [&](const Observation& other) { return is_same(o, other); });
-      if (!stays) removed.emplace_back(landmark.id, o);
+      if (std::ranges::count(left, o) == 0) removed.emplace_back(landmark.id, o);
     }
   }
   return removed;

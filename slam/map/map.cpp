@@ -167,24 +167,29 @@ void Map::merge(int from, int into) {
 
 void Map::refresh(int id, const std::vector<Pose>& T_body_cams) {
   Landmark& landmark = this->landmark(id);
-  if (landmark.removed || landmark.observations.empty()) return;
+  const auto T_map_body = [this](int seen_by) { return keyframe(seen_by).T_map_body; };
+  static_cast<LandmarkLook&>(landmark) = look_of(landmark, T_map_body, T_body_cams);
+}
+
+LandmarkLook Map::look_of(const Landmark& landmark, const std::function<Pose(int)>& T_map_body,
+                          const std::vector<Pose>& T_body_cams) const {
+  LandmarkLook look = landmark;
+  if (landmark.removed || landmark.observations.empty()) return look;
   std::vector<Descriptor> descriptors;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Vector3d from_last;
   for (const Observation& o : landmark.observations) {
-    const Keyframe& seen_by = keyframe(o.keyframe);
-    descriptors.push_back(descriptor_of(seen_by, o));
-    const Eigen::Vector3d camera =
-        seen_by.T_map_body * T_body_cams[static_cast<std::size_t>(o.view)].translation;
-    sum += (landmark.position - camera).normalized();
+    descriptors.push_back(descriptor_of(keyframe(o.keyframe), o));
+    from_last = landmark.position -
+                T_map_body(o.keyframe) * T_body_cams[static_cast<std::size_t>(o.view)].translation;
+    sum += from_last.normalized();
   }
-  landmark.normal = sum.norm() > 1e-9 ? Eigen::Vector3d(sum.normalized()) : landmark.normal;
-  landmark.descriptor = descriptors[median_descriptor(descriptors)];
+  if (sum.norm() > 1e-9) look.normal = sum.normalized();
+  look.descriptor = descriptors[median_descriptor(descriptors)];
   const Observation& last = landmark.observations.back();
-  const Keyframe& reference = keyframe(last.keyframe);
-  const Eigen::Vector3d camera =
-      reference.T_map_body * T_body_cams[static_cast<std::size_t>(last.view)].translation;
-  landmark.max_distance = (landmark.position - camera).norm() *
-                          std::pow(level_scale_, keypoint_of(reference, last).level);
+  look.max_distance =
+      from_last.norm() * std::pow(level_scale_, keypoint_of(keyframe(last.keyframe), last).level);
+  return look;
 }
 
 std::vector<int> Map::covisible(int id, int at_most) const {

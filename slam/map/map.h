@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -54,15 +55,21 @@ struct Observation {
   int keyframe = 0;
   int view = 0;
   int feature = 0;
+
+  bool operator==(const Observation&) const = default;
 };
 
-struct Landmark {
-  int id = 0;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< map frame, m
+/// What a landmark looks like, by those who see it.
+struct LandmarkLook {
   Descriptor descriptor{};  ///< the one nearest to all others that were seen of it
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< mean direction from the cameras to it
   double max_distance = 0;  ///< m, where its feature would be found on level 0 of the pyramid
-  std::vector<Observation> observations;  ///< ascending by keyframe, then view
+};
+
+struct Landmark : LandmarkLook {
+  int id = 0;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< map frame, m
+  std::vector<Observation> observations;               ///< ascending by keyframe, then view
   int first_keyframe = 0;
   bool removed = false;
 };
@@ -137,8 +144,13 @@ class Map {
   /// All observations of `from` go to `into`, where they are free; `from` is removed.
   void merge(int from, int into);
 
-  /// Recomputes what is derived from a landmark's observations: descriptor, normal, distance.
+  /// Recomputes what a landmark looks like from its observations.
   void refresh(int landmark, const std::vector<Pose>& T_body_cams);
+
+  /// What a landmark looks like, with keyframes where T_map_body() has them by their ids. What
+  /// nobody sees looks as before.
+  LandmarkLook look_of(const Landmark& landmark, const std::function<Pose(int)>& T_map_body,
+                       const std::vector<Pose>& T_body_cams) const;
 
   /// Ids of the keyframes that share most landmarks with `keyframe`, best first.
   std::vector<int> covisible(int keyframe, int at_most) const;

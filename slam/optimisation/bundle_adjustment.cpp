@@ -3,6 +3,7 @@
 #include "slam/optimisation/bundle_adjustment.h"
 
 #include <atomic>
+#include <optional>
 #include <vector>
 
 #include "slam/optimisation/calibration_unknowns.h"
@@ -61,29 +62,36 @@ class AdjustmentJob::Impl {
         landmarks_(rig_, options.min_keyframes, calibration_.get()),
         gravity_(options.inertial, options.global),
         tags_(rig_.tag_cameras, options.tag_corner_sigma, options.global),
-        problem_(map, window) {
-    if (calibration_) calibration_->add_to(problem_, map);
+        moved_(window.moved) {
+    problem_.emplace(map, window);
+    if (calibration_) calibration_->add_to(*problem_, map);
     if (calibration_ && options.tag_measures) {
       tag_measures_.emplace(rig_, *options.tag_measures, *calibration_);
     }
-    for (FactorSource* source : sources()) source->add_to(problem_, map);
+    for (FactorSource* source : sources()) source->add_to(*problem_, map);
   }
 
   double solve() {
-    ceres::Solver::Options options = solver_options(problem_.window().moved.size(), options_);
+    ceres::Solver::Options options = solver_options(moved_.size(), options_);
     options.callbacks.push_back(&stop_);
-    return problem_.solve(options);
+    return problem_->solve(options);
   }
 
   void stop() { stop_.wanted = true; }
 
-  void apply(Map& map) {
-    problem_.write_poses(map);
-    for (const FactorSource* source : sources()) source->write_back(map);
-    for (const FactorSource* source : sources()) source->remove_outliers(map);
+  void conclude(const Map& map) {
+    poses_ = problem_->poses(map);
+    problem_.reset();
+    for (FactorSource* source : sources()) source->conclude(poses_, map);
   }
 
-  CalibrationMarginal calibration() { return calibration_->marginal(problem_); }
+  void apply(Map& map) {
+    if (problem_) conclude(map);
+    for (const int id : moved_) map.keyframe(id).T_map_body = poses_[static_cast<std::size_t>(id)];
+    for (const FactorSource* source : sources()) source->write_back(map);
+  }
+
+  CalibrationMarginal calibration() { return calibration_->marginal(*problem_); }
 
  private:
   /// Ends a solver's iterations once that is wanted.
@@ -118,7 +126,9 @@ class AdjustmentJob::Impl {
   GravityFactors gravity_;
   TagFactors tags_;
   std::optional<TagMeasures> tag_measures_;
-  ProblemBuilder problem_;  // last: it must go before what it points to
+  std::vector<int> moved_;
+  std::vector<Pose> poses_;                ///< found, by keyframe
+  std::optional<ProblemBuilder> problem_;  // last: it must go before what it points to
 };
 
 AdjustmentJob::AdjustmentJob(const Map& map, const AdjustmentWindow& window,
@@ -137,6 +147,10 @@ void AdjustmentJob::stop() {
 
 CalibrationMarginal AdjustmentJob::calibration() const {
   return impl_->calibration();
+}
+
+void AdjustmentJob::conclude(const Map& map) {
+  impl_->conclude(map);
 }
 
 void AdjustmentJob::apply(Map& map) const {

@@ -45,6 +45,10 @@ class AdjustmentJob {
 
   /// solve() is to return after the iteration that it is at. From any thread.
   void stop();
+
+  /// After solve(): finds what is to be written back, so that apply() has less to do, and lets go
+  /// of what calibration() needs. Reads keyframes and landmarks of the map that it was made of.
+  void conclude(const Map& map);
   void apply(Map& map) const;
 
   /// What is known of the rig's calibration after solve(), where that is unknown

@@ -81,24 +81,37 @@ void LandmarkFactors::add_landmark(const Landmark& landmark, const Map& map,
       blocks.push_back(calibration_->lens(v));
     }
     problem.add_factor(factors_.back(), loss_.get(), blocks);
-    terms_.push_back({landmark.id, o, &factors_.back(), chi_squared_limit(m)});
+    terms_.push_back({points_.size() - 1, o, &factors_.back(), chi_squared_limit(m)});
   }
+}
+
+void LandmarkFactors::conclude(const std::vector<Pose>& T_map_bodies, const Map& map) {
+  const auto T_map_body = [&](int keyframe) {
+    return T_map_bodies[static_cast<std::size_t>(keyframe)];
+  };
+  auto term = terms_.begin();
+  for (std::size_t i = 0; i < landmark_ids_.size(); ++i) {
+    Landmark landmark = map.landmark(landmark_ids_[i]);
+    landmark.position = points_[i];
+    for (; term != terms_.end() && term->landmark == i; ++term) {
+      const Observation& o = term->observation;
+      if (term->factor->chi_squared(T_map_body(o.keyframe), points_[i]) <= term->limit) continue;
+      std::erase(landmark.observations, o);
+      outliers_.push_back({landmark.id, o});
+    }
+    looks_.push_back(map.look_of(landmark, T_map_body, rig_.T_body_cams));
+  }
+  terms_.clear();
+  factors_.clear();
 }
 
 void LandmarkFactors::write_back(Map& map) const {
   for (std::size_t i = 0; i < landmark_ids_.size(); ++i) {
-    map.landmark(landmark_ids_[i]).position = points_[i];
+    Landmark& landmark = map.landmark(landmark_ids_[i]);
+    landmark.position = points_[i];
+    static_cast<LandmarkLook&>(landmark) = looks_[i];
   }
-}
-
-void LandmarkFactors::remove_outliers(Map& map) const {
-  for (const Term& term : terms_) {
-    const Keyframe& keyframe = map.keyframe(term.observation.keyframe);
-    const double chi_squared =
-        term.factor->chi_squared(keyframe.T_map_body, map.landmark(term.landmark).position);
-    if (chi_squared > term.limit) map.remove_observation(term.landmark, term.observation);
-  }
-  for (const int id : landmark_ids_) map.refresh(id, rig_.T_body_cams);
+  for (const Outlier& o : outliers_) map.remove_observation(o.landmark, o.observation);
 }
 
 }  // namespace vinebench::slam

@@ -23,16 +23,20 @@ class LandmarkFactors : public FactorSource {
                            CalibrationUnknowns* calibration = nullptr);
 
   void add_to(ProblemBuilder& problem, const Map& map) override;
+  /// Observations beyond the 95 % of chi-square are to go, and landmarks look otherwise.
+  void conclude(const std::vector<Pose>& T_map_bodies, const Map& map) override;
   void write_back(Map& map) const override;
-  /// Observations beyond the 95 % of chi-square.
-  void remove_outliers(Map& map) const override;
 
  private:
   struct Term {
-    int landmark;
+    std::size_t landmark;  ///< its place among those that take part
     Observation observation;
     const ReprojectionFactor* factor;
     double limit;  ///< of chi-square
+  };
+  struct Outlier {
+    int landmark;
+    Observation observation;
   };
 
   void add_landmark(const Landmark& landmark, const Map& map, ProblemBuilder& problem);
@@ -44,7 +48,9 @@ class LandmarkFactors : public FactorSource {
   std::vector<int> landmark_ids_;  ///< ascending
   std::vector<Eigen::Vector3d> points_;
   std::deque<ReprojectionFactor> factors_;
-  std::vector<Term> terms_;
+  std::vector<Term> terms_;  ///< landmark by landmark
+  std::vector<LandmarkLook> looks_;
+  std::vector<Outlier> outliers_;
 };
 
 }  // namespace vinebench::slam

@@ -108,11 +108,14 @@ ProblemBuilder::Marginal ProblemBuilder::marginal(const std::vector<Group>& last
   return marginal;
 }
 
-void ProblemBuilder::write_poses(Map& map) const {
+std::vector<Pose> ProblemBuilder::poses(const Map& map) const {
+  std::vector<Pose> poses;
+  for (const Keyframe& keyframe : map.keyframes()) poses.push_back(keyframe.T_map_body);
   for (const int id : window_.moved) {
-    const std::size_t index = pose_index_[static_cast<std::size_t>(id)];
-    map.keyframe(id).T_map_body = from_block(poses_[index].data());
+    const auto k = static_cast<std::size_t>(id);
+    poses[k] = from_block(poses_[pose_index_[k]].data());
   }
+  return poses;
 }
 
 }  // namespace vinebench::slam

@@ -66,7 +66,8 @@ class ProblemBuilder {
   /// between the poses and these.
   Marginal marginal(const std::vector<Group>& last_groups);
 
-  void write_poses(Map& map) const;
+  /// Poses of all of the map's keyframes by id, of the moved ones as they were found.
+  std::vector<Pose> poses(const Map& map) const;
 
  private:
   AdjustmentWindow window_;
@@ -82,10 +83,11 @@ class FactorSource {
  public:
   virtual ~FactorSource() = default;
   virtual void add_to(ProblemBuilder& problem, const Map& map) = 0;
-  /// Writes the values of its own blocks into the map.
+  /// Once the blocks have their values and the problem is gone: finds what else is to be written
+  /// back. The keyframes, of the poses given by id, and landmarks are those that add_to() saw.
+  virtual void conclude(const std::vector<Pose>&, const Map&) {}
+  /// Writes the values of its own blocks into the map, and what it concluded.
   virtual void write_back(Map&) const {}
-  /// Takes out of the map what contradicts it, once all is written back.
-  virtual void remove_outliers(Map&) const {}
 };
 
 }  // namespace vinebench::slam

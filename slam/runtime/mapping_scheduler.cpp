@@ -7,22 +7,23 @@
 namespace vinebench::slam {
 namespace {
 
-double solve(AdjustmentJob& job) {
+double solve(AdjustmentJob& job, const Map& map) {
   const auto start = std::chrono::steady_clock::now();
   job.solve();
+  job.conclude(map);
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
       .count();
 }
 
 }  // namespace
 
-void MappingScheduler::start(std::unique_ptr<AdjustmentJob> job, int keyframe) {
+void MappingScheduler::start(std::unique_ptr<AdjustmentJob> job, int keyframe, const Map& map) {
   job_ = std::move(job);
   keyframe_ = keyframe;
   frames_since_start_ = 0;
   const bool at_once = schedule_ == MappingSchedule::kLockstep && (delay_ == 0 || in_caller_);
   solved_ = std::async(at_once ? std::launch::deferred : std::launch::async,
-                       [job = job_.get()] { return solve(*job); });
+                       [job = job_.get(), &map] { return solve(*job, map); });
   if (at_once) solved_.wait();
 }
 

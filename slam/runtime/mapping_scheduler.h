@@ -21,9 +21,10 @@ class MappingScheduler {
   explicit MappingScheduler(const MappingConfig& config, bool in_caller = false)
       : schedule_(config.schedule), delay_(config.delay), in_caller_(in_caller) {}
 
-  /// Begins to solve a job that moves `keyframe` among others. None may be under way. With a delay
-  /// of no frames in lockstep, and in the caller, it is solved before this returns.
-  void start(std::unique_ptr<AdjustmentJob> job, int keyframe);
+  /// Begins to solve a job that moves `keyframe` among others. None may be under way. Until join()
+  /// nobody else may change keyframes and landmarks of the map that it was made of. With a delay of
+  /// no frames in lockstep, and in the caller, it is solved before this returns.
+  void start(std::unique_ptr<AdjustmentJob> job, int keyframe, const Map& map);
 
   /// Counts a frame.
   void tick() { ++frames_since_start_; }

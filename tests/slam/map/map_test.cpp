@@ -206,6 +206,12 @@ TEST_F(MapTest, RefreshTakesTheMedianDescriptorTheMeanDirectionAndTheReach) {
   EXPECT_EQ(landmark.descriptor, frame()->views[0].features.descriptors[1]);
   // The last one sees it 2 m away on level 2: on level 0 it would be seen 1.44 times as far.
   EXPECT_NEAR(landmark.max_distance, 2 * 1.44, 1e-12);
+  // With all cameras 1 m farther down the last one is 3 m away; the map stays as it is.
+  const auto farther = [&](int keyframe) {
+    return Pose{Eigen::Quaterniond::Identity(), {0, 0, -1}} * map_.keyframe(keyframe).T_map_body;
+  };
+  EXPECT_NEAR(map_.look_of(landmark, farther, {Pose{}, Pose{}}).max_distance, 3 * 1.44, 1e-12);
+  EXPECT_NEAR(landmark.max_distance, 2 * 1.44, 1e-12);
 }
 
 TEST_F(MapTest, TheOnlyRegisteredTagAndFixedOnesHoldTheMap) {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "tests/support/swinging_body.h"
+#include "tests/support/write_poses.h"
 
 namespace vinebench::slam {
 namespace {
@@ -54,7 +55,7 @@ class GravityFactorsTest : public testing::Test {
     options.max_num_iterations = 100;
     options.logging_type = ceres::SILENT;
     const double cost = problem.solve(options);
-    problem.write_poses(map_);
+    test::write_poses(problem, map_);
     factors.write_back(map_);
     return cost;
   }

@@ -6,6 +6,8 @@
 
 #include <memory>
 
+#include "tests/support/write_poses.h"
+
 namespace vinebench::slam {
 namespace {
 
@@ -32,7 +34,7 @@ class OdometryFactorsTest : public testing::Test {
     options.function_tolerance = 1e-14;
     options.logging_type = ceres::SILENT;
     const double cost = problem.solve(options);
-    problem.write_poses(map_);
+    test::write_poses(problem, map_);
     return cost;
   }
   double x(int keyframe) const { return map_.keyframe(keyframe).T_map_body.translation.x(); }
@@ -72,7 +74,7 @@ TEST_F(OdometryFactorsTest, TheCovarianceWeighsThem) {
   options.logging_type = ceres::SILENT;
   // Half of (0.03 / 0.01)^2 + (0.27 / 0.03)^2.
   EXPECT_NEAR(problem.solve(options), 45, 1e-6);
-  problem.write_poses(map_);
+  test::write_poses(problem, map_);
   EXPECT_NEAR(x(1), 1.17, 1e-6);
 }
 

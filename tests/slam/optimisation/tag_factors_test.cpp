@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/aisle_map.h"
+#include "tests/support/write_poses.h"
 
 namespace vinebench::slam {
 namespace {
@@ -37,7 +38,7 @@ class TagFactorsTest : public testing::Test {
     options.function_tolerance = 1e-16;
     options.logging_type = ceres::SILENT;
     const double cost = problem.solve(options);
-    problem.write_poses(made_.map);
+    test::write_poses(problem, made_.map);
     factors.write_back(made_.map);
     return cost;
   }

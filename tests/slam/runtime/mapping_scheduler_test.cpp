@@ -75,7 +75,7 @@ TEST_F(MappingSchedulerTest, InLockstepIsDueAfterTheDelayHoweverSoonItIsSolved) 
   for (const int delay : {0, 1, 3}) {
     MappingScheduler scheduler(config(MappingSchedule::kLockstep, delay));
     scheduler.tick();  // ticks before the start do not count
-    scheduler.start(job(), 2);
+    scheduler.start(job(), 2, known_.map);
     for (int frame = 0; frame < delay; ++frame) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));  // it is probably solved by now
       EXPECT_FALSE(scheduler.due()) << delay;
@@ -97,7 +97,7 @@ std::ptrdiff_t threads() {
 TEST_F(MappingSchedulerTest, TheCallerSolvesWithoutAnotherThread) {
   const std::ptrdiff_t before = threads();
   MappingScheduler scheduler(config(MappingSchedule::kLockstep, 2), true);
-  scheduler.start(job(), 2);
+  scheduler.start(job(), 2, known_.map);
   EXPECT_EQ(threads(), before);
   EXPECT_FALSE(scheduler.due());  // it still joins after the delay
   scheduler.join(known_.map, times_);
@@ -107,7 +107,7 @@ TEST_F(MappingSchedulerTest, TheCallerSolvesWithoutAnotherThread) {
 TEST_F(MappingSchedulerTest, JoiningMovesTheMapAndTellsHowFar) {
   MappingScheduler scheduler(config(MappingSchedule::kLockstep, 2));
   const Pose before = known_.map.keyframe(2).T_map_body;
-  scheduler.start(job(), 2);
+  scheduler.start(job(), 2, known_.map);
   EXPECT_EQ(known_.map.keyframe(2).T_map_body.translation, before.translation);  // not yet
   const Pose T_new_old = scheduler.join(known_.map, times_);
   const Pose& after = known_.map.keyframe(2).T_map_body;
@@ -120,7 +120,7 @@ TEST_F(MappingSchedulerTest, JoiningMovesTheMapAndTellsHowFar) {
 
 TEST_F(MappingSchedulerTest, LiveIsDueWhenItIsSolved) {
   MappingScheduler scheduler(config(MappingSchedule::kLive));
-  scheduler.start(job(), 2);
+  scheduler.start(job(), 2, known_.map);
   const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   while (!scheduler.due() && std::chrono::steady_clock::now() < patience) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -142,7 +142,7 @@ TEST_F(MappingSchedulerTest, AStoppedJobEndsWithWhatItHasFoundByThen) {
 
 TEST_F(MappingSchedulerTest, AHastenedJobIsJoinedLikeAny) {
   MappingScheduler scheduler(config(MappingSchedule::kLive));
-  scheduler.start(job(), 2);
+  scheduler.start(job(), 2, known_.map);
   scheduler.hasten();
   const Pose before = known_.map.keyframe(2).T_map_body;
   const Pose T_new_old = scheduler.join(known_.map, times_);
