@@ -329,9 +329,9 @@ Map read_content(BinaryReader& reader, const EstimatorRig& rig, const std::strin
                       std::isfinite(landmark.max_distance) && landmark.first_keyframe >= 0 &&
                       static_cast<std::size_t>(landmark.first_keyframe) < keyframes.size(),
                   "a landmark");
-    reader.expect(&landmark == landmarks.data() ||
-                      landmark.first_keyframe >= (&landmark - 1)->first_keyframe,
-                  "the order of landmarks");
+    reader.expect(
+        &landmark == landmarks.data() || landmark.first_keyframe >= (&landmark - 1)->first_keyframe,
+        "the order of landmarks");
     landmark.id = static_cast<int>(&landmark - landmarks.data());
   }
   map.landmarks() = std::move(landmarks);

@@ -20,30 +20,17 @@ namespace {
 /// Relative decrease of the cost at which a global adjustment is done.
 constexpr double kGlobalTolerance = 1e-5;
 
-/// Beyond so many keyframes the normal equations of their poses are solved by conjugate gradients:
-/// what is far away is seen from everywhere, so that they have no zeros to speak of, and to factor
-/// them takes the cube of their number.
+/// Beyond so many keyframes their normal equations are solved by conjugate gradients: what is far
+/// away is seen from everywhere, so that they have few zeros, and to factor them takes the cube of
+/// their number.
 constexpr std::size_t kManyKeyframes = 400;
 
-/// Relative decrease of the cost at which such an adjustment is done.
-constexpr double kManyKeyframesTolerance = 5e-4;
-
-/// Steps of conjugate gradients at most: they smooth what is near each other, and what is far apart
-/// was put right when the loop's correction was spread.
-constexpr int kManyKeyframesSteps = 60;
-
-/// Settings of Ceres for an adjustment that moves so many keyframes.
-ceres::Solver::Options solver_options(std::size_t moved, const AdjustmentOptions& adjustment) {
-  const bool many = moved > kManyKeyframes;
+ceres::Solver::Options solver_options(const AdjustmentOptions& adjustment) {
   ceres::Solver::Options options;
-  options.linear_solver_type = many ? ceres::ITERATIVE_SCHUR : ceres::DENSE_SCHUR;
-  options.preconditioner_type = ceres::SCHUR_JACOBI;
+  options.linear_solver_type = ceres::DENSE_SCHUR;
   options.dense_linear_algebra_library_type = ceres::EIGEN;
-  options.max_linear_solver_iterations = kManyKeyframesSteps;
   options.max_num_iterations = adjustment.iterations;
-  options.function_tolerance = many                ? kManyKeyframesTolerance
-                               : adjustment.global ? kGlobalTolerance
-                                                   : 1e-6;
+  options.function_tolerance = adjustment.global ? kGlobalTolerance : 1e-6;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   return options;
@@ -72,7 +59,10 @@ class AdjustmentJob::Impl {
   }
 
   double solve() {
-    ceres::Solver::Options options = solver_options(moved_.size(), options_);
+    if (options_.global && moved_.size() > kManyKeyframes) {
+      return problem_->solve(SchurOptions{.iterations = options_.iterations}, stop_.wanted);
+    }
+    ceres::Solver::Options options = solver_options(options_);
     options.callbacks.push_back(&stop_);
     return problem_->solve(options);
   }

@@ -70,6 +70,19 @@ double ProblemBuilder::solve(ceres::Solver::Options options) {
   return summary.final_cost;
 }
 
+double ProblemBuilder::solve(const SchurOptions& options, const std::atomic<bool>& stop) {
+  Unknowns unknowns;
+  for (PoseBlock& pose : poses_) unknowns.poses.push_back(pose.data());
+  unknowns.chain = unknowns.poses.size();
+  for (const auto& [group, blocks] : ordering_.group_to_elements()) {
+    if (group == static_cast<int>(Group::kPoses)) continue;
+    std::vector<double*>& others =
+        group == static_cast<int>(Group::kLandmarks) ? unknowns.points : unknowns.poses;
+    others.insert(others.end(), blocks.begin(), blocks.end());
+  }
+  return solve_by_schur(problem_, unknowns, options, stop);
+}
+
 ProblemBuilder::Marginal ProblemBuilder::marginal(const std::vector<Group>& last_groups) {
   ceres::Problem::EvaluateOptions options;
   int kept = 0;

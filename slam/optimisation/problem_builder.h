@@ -4,10 +4,12 @@
 
 #include <ceres/ceres.h>
 
+#include <atomic>
 #include <vector>
 
 #include "slam/factors/pose_manifold.h"
 #include "slam/optimisation/adjustment_window.h"
+#include "slam/solver/schur_solver.h"
 
 namespace vinebench::slam {
 
@@ -52,6 +54,9 @@ class ProblemBuilder {
 
   /// Half the sum of the squared residuals in the end, under their losses.
   double solve(ceres::Solver::Options options);
+
+  /// The same for very many keyframes, by solve_by_schur(). No calibration can be unknown.
+  double solve(const SchurOptions& options, const std::atomic<bool>& stop);
 
   /// What a part of the unknowns has to do with the others.
   struct Marginal {

@@ -55,7 +55,7 @@ std::size_t count_observations(const Map& map) {
 }
 
 // So many that they are solved for by conjugate gradients, 5 mm apart, each moved by a centimetre
-// and half a degree. Iteration ends where the cost falls by less than a two-thousandth, which the
+// and half a degree. Iteration ends where the cost falls by less than a ten-thousandth, which the
 // noise of half a pixel sets: keyframes stand within a few millimetres then.
 TEST(ManyKeyframesTest, PerturbedTheyComeBack) {
   const SyntheticAisle aisle(0.5, 1, 80);
