@@ -50,7 +50,7 @@ class AdjustmentJob::Impl {
         gravity_(options.inertial, options.global),
         tags_(rig_.tag_cameras, options.tag_corner_sigma, options.global),
         moved_(window.moved) {
-    problem_.emplace(map, window);
+    problem_.emplace(map, window, options.global && moved_.size() > kManyKeyframes);
     if (calibration_) calibration_->add_to(*problem_, map);
     if (calibration_ && options.tag_measures) {
       tag_measures_.emplace(rig_, *options.tag_measures, *calibration_);
@@ -59,7 +59,7 @@ class AdjustmentJob::Impl {
   }
 
   double solve() {
-    if (options_.global && moved_.size() > kManyKeyframes) {
+    if (problem_->of_many()) {
       return problem_->solve(SchurOptions{.iterations = options_.iterations}, stop_.wanted);
     }
     ceres::Solver::Options options = solver_options(options_);

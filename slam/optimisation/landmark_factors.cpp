@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/optimisation/landmark_factors.h"
 
-#include "slam/factors/robust_loss.h"
+#include <cmath>
+#include <utility>
+
 #include "slam/frame/measurements.h"
 
 namespace vinebench::slam {
@@ -49,9 +51,13 @@ LandmarkFactors::LandmarkFactors(const EstimatorRig& rig, int min_keyframes,
     : rig_(rig),
       min_keyframes_(min_keyframes),
       calibration_(calibration),
-      loss_(make_loss(rig.noise.loss)) {}
+      loss_(make_loss(rig.noise.loss)),
+      weights_(residual_loss(rig.noise.loss)) {}
 
 void LandmarkFactors::add_to(ProblemBuilder& problem, const Map& map) {
+  for (const Keyframe& keyframe : map.keyframes()) {
+    frames_.push_back(problem.takes_part(keyframe.id) ? keyframe.frame : nullptr);
+  }
   landmark_ids_ = landmarks_of(problem.window().moved, map);
   if (min_keyframes_ > 1) {
     std::erase_if(landmark_ids_, [&](int id) {
@@ -59,49 +65,97 @@ void LandmarkFactors::add_to(ProblemBuilder& problem, const Map& map) {
     });
   }
   points_.reserve(landmark_ids_.size());
-  for (const int id : landmark_ids_) add_landmark(map.landmark(id), map, problem);
+  for (const int id : landmark_ids_) {
+    const auto place = static_cast<std::uint32_t>(points_.size());
+    points_.push_back(map.landmark(id).position);
+    for (const Observation& o : map.landmark(id).observations) {
+      if (problem.takes_part(o.keyframe)) seen_.push_back({place, o});
+    }
+  }
+  if (problem.of_many()) {
+    add_sights(problem);
+  } else {
+    add_factors(problem);
+  }
 }
 
-void LandmarkFactors::add_landmark(const Landmark& landmark, const Map& map,
-                                   ProblemBuilder& problem) {
-  points_.push_back(landmark.position);
-  double* point = points_.back().data();
-  problem.add_block(point, 3, ProblemBuilder::Group::kLandmarks);
-  for (const Observation& o : landmark.observations) {
-    if (!problem.takes_part(o.keyframe)) continue;
-    const auto v = static_cast<std::size_t>(o.view);
-    const StereoView& view = map.keyframe(o.keyframe).frame->views[v];
-    PixelMeasurement m = measure(view, o.feature, rig_.noise);
-    m.velocity = map.keyframe(o.keyframe).frame->velocity;
-    const auto& cameras = calibration_ != nullptr ? rig_.nominal_cameras : rig_.left_cameras;
-    factors_.emplace_back(cameras[v], m, calibration_ != nullptr);
-    std::vector<double*> blocks{problem.pose_of(o.keyframe), point};
+PixelMeasurement LandmarkFactors::measurement(const Observation& o) const {
+  const FrameFeatures& frame = *frames_[static_cast<std::size_t>(o.keyframe)];
+  PixelMeasurement m =
+      measure(frame.views[static_cast<std::size_t>(o.view)], o.feature, rig_.noise);
+  m.velocity = frame.velocity;
+  return m;
+}
+
+const StereoCameraModel& LandmarkFactors::camera(const Observation& o) const {
+  const auto& cameras = calibration_ != nullptr ? rig_.nominal_cameras : rig_.left_cameras;
+  return cameras[static_cast<std::size_t>(o.view)];
+}
+
+void LandmarkFactors::add_factors(ProblemBuilder& problem) {
+  for (Eigen::Vector3d& point : points_) {
+    problem.add_block(point.data(), 3, ProblemBuilder::Group::kLandmarks);
+  }
+  for (const auto& [place, o] : seen_) {
+    factors_.emplace_back(camera(o), measurement(o), calibration_ != nullptr);
+    std::vector<double*> blocks{problem.pose_of(o.keyframe), points_[place].data()};
     if (calibration_ != nullptr) {
+      const auto v = static_cast<std::size_t>(o.view);
       blocks.push_back(calibration_->camera(v));
       blocks.push_back(calibration_->lens(v));
     }
     problem.add_factor(factors_.back(), loss_.get(), blocks);
-    terms_.push_back({points_.size() - 1, o, &factors_.back(), chi_squared_limit(m)});
   }
 }
 
+void LandmarkFactors::add_sights(ProblemBuilder& problem) {
+  std::vector<double*> points;
+  points.reserve(points_.size());
+  for (Eigen::Vector3d& point : points_) points.push_back(point.data());
+  std::vector<Sight> sights;
+  sights.reserve(seen_.size());
+  for (const auto& [place, o] : seen_) {
+    sights.push_back({place, static_cast<std::uint32_t>(problem.place_of(o.keyframe))});
+  }
+  problem.set_sights(*this, std::move(points), std::move(sights));
+}
+
+double LandmarkFactors::cost(std::size_t sight, const Pose& T_map_body,
+                             const Eigen::Vector3d& p_map) const {
+  const Observation& o = seen_[sight].observation;
+  const Reprojection reprojection(camera(o), measurement(o));
+  return weights_.cost(reprojection.residual(T_map_body, p_map).squaredNorm()) / 2;
+}
+
+Sights::Linearised LandmarkFactors::linearise(std::size_t sight, const Pose& T_map_body,
+                                              const Eigen::Vector3d& p_map) const {
+  const Observation& o = seen_[sight].observation;
+  const auto at = Reprojection(camera(o), measurement(o)).linearise(T_map_body, p_map);
+  const double scale = std::sqrt(weights_.weight(at.residual.squaredNorm()));
+  const Eigen::Matrix3d R_body_map = T_map_body.rotation.toRotationMatrix().transpose();
+  return {scale * at.residual, scale * at.by_pose, scale * at.by_point_in_body * R_body_map};
+}
+
 void LandmarkFactors::conclude(const std::vector<Pose>& T_map_bodies, const Map& map) {
-  const auto T_map_body = [&](int keyframe) {
-    return T_map_bodies[static_cast<std::size_t>(keyframe)];
-  };
-  auto term = terms_.begin();
+  auto seen = seen_.begin();
   for (std::size_t i = 0; i < landmark_ids_.size(); ++i) {
     Landmark landmark = map.landmark(landmark_ids_[i]);
     landmark.position = points_[i];
-    for (; term != terms_.end() && term->landmark == i; ++term) {
-      const Observation& o = term->observation;
-      if (term->factor->chi_squared(T_map_body(o.keyframe), points_[i]) <= term->limit) continue;
+    for (; seen != seen_.end() && seen->landmark == i; ++seen) {
+      const Observation& o = seen->observation;
+      const PixelMeasurement m = measurement(o);
+      const Pose& T_map_body = T_map_bodies[static_cast<std::size_t>(o.keyframe)];
+      const double chi_squared = Reprojection(camera(o), m).chi_squared(T_map_body, points_[i]);
+      if (chi_squared <= chi_squared_limit(m)) continue;
       std::erase(landmark.observations, o);
       outliers_.push_back({landmark.id, o});
     }
-    looks_.push_back(map.look_of(landmark, T_map_body, rig_.T_body_cams));
+    const auto T_map_body_of = [&](int keyframe) {
+      return T_map_bodies[static_cast<std::size_t>(keyframe)];
+    };
+    looks_.push_back(map.look_of(landmark, T_map_body_of, rig_.T_body_cams));
   }
-  terms_.clear();
+  seen_.clear();
   factors_.clear();
 }
 

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <vector>
 
 #include "slam/camera/estimator_rig.h"
 #include "slam/factors/reprojection_factor.h"
+#include "slam/factors/robust_loss.h"
 #include "slam/optimisation/calibration_unknowns.h"
 #include "slam/optimisation/problem_builder.h"
 
@@ -15,7 +17,7 @@ namespace vinebench::slam {
 
 /// Reprojection errors, Eq. (5), of the landmarks that the moved keyframes see, in all keyframes
 /// that take part; with the pairs' calibrations where these are unknown.
-class LandmarkFactors : public FactorSource {
+class LandmarkFactors : public FactorSource, private Sights {
  public:
   /// Landmarks that fewer keyframes see are left out. The rig must outlive it, and so must
   /// `calibration`, which is null where calibrations are known and otherwise added before.
@@ -28,27 +30,36 @@ class LandmarkFactors : public FactorSource {
   void write_back(Map& map) const override;
 
  private:
-  struct Term {
-    std::size_t landmark;  ///< its place among those that take part
+  /// Of a landmark, by its place among those that take part.
+  struct Seen {
+    std::uint32_t landmark;
     Observation observation;
-    const ReprojectionFactor* factor;
-    double limit;  ///< of chi-square
   };
   struct Outlier {
     int landmark;
     Observation observation;
   };
 
-  void add_landmark(const Landmark& landmark, const Map& map, ProblemBuilder& problem);
+  double cost(std::size_t sight, const Pose& T_map_body,
+              const Eigen::Vector3d& p_map) const override;
+  Linearised linearise(std::size_t sight, const Pose& T_map_body,
+                       const Eigen::Vector3d& p_map) const override;
+
+  PixelMeasurement measurement(const Observation& o) const;
+  const StereoCameraModel& camera(const Observation& o) const;
+  void add_factors(ProblemBuilder& problem);
+  void add_sights(ProblemBuilder& problem);
 
   const EstimatorRig& rig_;
   int min_keyframes_;
   CalibrationUnknowns* calibration_;
   std::unique_ptr<ceres::LossFunction> loss_;
-  std::vector<int> landmark_ids_;  ///< ascending
+  RobustLoss weights_;                                        ///< the same
+  std::vector<std::shared_ptr<const FrameFeatures>> frames_;  ///< of what takes part, by keyframe
+  std::vector<int> landmark_ids_;                             ///< ascending
   std::vector<Eigen::Vector3d> points_;
-  std::deque<ReprojectionFactor> factors_;
-  std::vector<Term> terms_;  ///< landmark by landmark
+  std::vector<Seen> seen_;                  ///< landmark by landmark
+  std::deque<ReprojectionFactor> factors_;  ///< of these, unless there are many keyframes
   std::vector<LandmarkLook> looks_;
   std::vector<Outlier> outliers_;
 };

@@ -4,6 +4,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <utility>
 
 namespace vinebench::slam {
 
@@ -25,8 +26,11 @@ ceres::Problem::Options ownership() {
 
 }  // namespace
 
-ProblemBuilder::ProblemBuilder(const Map& map, const AdjustmentWindow& window)
-    : window_(window), pose_index_(map.keyframes().size(), kAbsent), problem_(ownership()) {
+ProblemBuilder::ProblemBuilder(const Map& map, const AdjustmentWindow& window, bool many)
+    : window_(window),
+      many_(many),
+      pose_index_(map.keyframes().size(), kAbsent),
+      problem_(ownership()) {
   poses_.reserve(window_.moved.size() + window_.fixed.size());
   const auto add = [&](int id) {
     pose_index_[static_cast<std::size_t>(id)] = poses_.size();
@@ -70,17 +74,22 @@ double ProblemBuilder::solve(ceres::Solver::Options options) {
   return summary.final_cost;
 }
 
+void ProblemBuilder::set_sights(const Sights& factors, std::vector<double*> points,
+                                std::vector<Sight> sights) {
+  of_many_.factors = &factors;
+  of_many_.points = std::move(points);
+  of_many_.sights = std::move(sights);
+}
+
 double ProblemBuilder::solve(const SchurOptions& options, const std::atomic<bool>& stop) {
-  Unknowns unknowns;
-  for (PoseBlock& pose : poses_) unknowns.poses.push_back(pose.data());
-  unknowns.chain = unknowns.poses.size();
+  of_many_.poses.clear();
+  for (PoseBlock& pose : poses_) of_many_.poses.push_back(pose.data());
+  of_many_.chain = poses_.size();
   for (const auto& [group, blocks] : ordering_.group_to_elements()) {
     if (group == static_cast<int>(Group::kPoses)) continue;
-    std::vector<double*>& others =
-        group == static_cast<int>(Group::kLandmarks) ? unknowns.points : unknowns.poses;
-    others.insert(others.end(), blocks.begin(), blocks.end());
+    of_many_.poses.insert(of_many_.poses.end(), blocks.begin(), blocks.end());
   }
-  return solve_by_schur(problem_, unknowns, options, stop);
+  return solve_by_schur(problem_, of_many_, options, stop);
 }
 
 ProblemBuilder::Marginal ProblemBuilder::marginal(const std::vector<Group>& last_groups) {

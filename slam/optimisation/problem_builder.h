@@ -34,7 +34,8 @@ class ProblemBuilder {
     kTagTimes = 7
   };
 
-  ProblemBuilder(const Map& map, const AdjustmentWindow& window);
+  /// `many`: by solve_by_schur(), for very many keyframes. No calibration can be unknown then.
+  ProblemBuilder(const Map& map, const AdjustmentWindow& window, bool many = false);
   ProblemBuilder(const ProblemBuilder&) = delete;
   ProblemBuilder& operator=(const ProblemBuilder&) = delete;
 
@@ -48,6 +49,16 @@ class ProblemBuilder {
   void add_pose(double* block, Group group);
   void hold(double* block) { problem_.SetParameterBlockConstant(block); }
 
+  /// Of many keyframes landmarks have no blocks and factors of their own here.
+  bool of_many() const { return many_; }
+  /// Instead, these points are seen from these keyframes: ascending by point, in the order of
+  /// `factors`.
+  void set_sights(const Sights& factors, std::vector<double*> points, std::vector<Sight> sights);
+  /// Place of a keyframe that takes part among those poses.
+  std::size_t place_of(int keyframe) const {
+    return pose_index_[static_cast<std::size_t>(keyframe)];
+  }
+
   /// `loss` may be null: squared.
   void add_factor(ceres::CostFunction& factor, ceres::LossFunction* loss,
                   const std::vector<double*>& blocks);
@@ -55,7 +66,7 @@ class ProblemBuilder {
   /// Half the sum of the squared residuals in the end, under their losses.
   double solve(ceres::Solver::Options options);
 
-  /// The same for very many keyframes, by solve_by_schur(). No calibration can be unknown.
+  /// The same of many keyframes.
   double solve(const SchurOptions& options, const std::atomic<bool>& stop);
 
   /// What a part of the unknowns has to do with the others.
@@ -76,6 +87,8 @@ class ProblemBuilder {
 
  private:
   AdjustmentWindow window_;
+  bool many_;
+  Unknowns of_many_;
   PoseManifold manifold_;
   std::vector<PoseBlock> poses_;
   std::vector<std::size_t> pose_index_;  ///< by keyframe id

@@ -27,7 +27,8 @@ class ReducedSystem {
   const BlockMatrix& matrix() const { return matrix_; }
   const BlockVector& gradient() const { return gradient_; }
 
-  /// The points' steps where the poses make these.
+  /// The points' steps where the poses make these. Blocks must be as they were at linearise():
+  /// what is between points and poses is linearised again, as it is most of all numbers.
   std::vector<Eigen::Vector3d> points_steps(const BlockVector& steps) const;
 
  private:
@@ -35,15 +36,9 @@ class ReducedSystem {
   struct Point {
     Eigen::Matrix3d inverse;
     Eigen::Vector3d gradient;
-    std::size_t end;  ///< of what crosses it
-  };
-  /// Between a point and a pose. To find the point's step, single precision is plenty.
-  struct Crossing {
-    std::size_t pose;
-    Eigen::Matrix<float, 6, 3> block;
   };
 
-  void eliminate(std::size_t point, double damping);
+  void eliminate(std::size_t p, const std::vector<Pose>& poses, double damping);
   void add(const Tie& tie);
   void damp(double damping);
 
@@ -52,8 +47,7 @@ class ReducedSystem {
   BlockVector gradient_;
   BlockVector diagonal_;  ///< of the poses' own equations, before points are eliminated
   std::vector<Point> points_;
-  std::vector<Crossing> crossings_;  ///< point by point
-  std::vector<Cross> crosses_;       ///< of the point at hand, and their poses
+  std::vector<Cross> crosses_;  ///< of the point at hand, and their poses
   std::vector<std::size_t> crossed_;
 };
 

@@ -29,16 +29,16 @@ constexpr double kLessDamping = 1.0 / 3;
 /// Poses on the way in runs; others go with the first that they share a factor with.
 BlockGroups groups_of(const Terms& terms, const BlockMatrix& matrix) {
   const std::size_t run = std::max(kBody, (terms.chain + kMostBodies - 1) / kMostBodies);
-  std::vector<std::optional<std::size_t>> neighbour(terms.poses.size());
+  std::vector<std::optional<std::size_t>> neighbour(terms.rows.size());
   matrix.for_each([&](std::size_t row, std::size_t column, const Matrix6d&) {
     if (row != column && !neighbour[row]) neighbour[row] = column;
   });
   BlockGroups groups;
   groups.count = (terms.chain + run - 1) / run;
-  for (std::size_t i = 0; i < terms.poses.size(); ++i) {
+  for (std::size_t i = 0; i < terms.rows.size(); ++i) {
     if (i < terms.chain) {
       groups.group.push_back(i / run);
-    } else if (terms.poses[i].is_pose() && neighbour[i]) {
+    } else if (terms.rows[i].is_pose() && neighbour[i]) {
       groups.group.push_back(groups.group[*neighbour[i]]);
     } else {
       groups.group.push_back(groups.count++);
@@ -51,17 +51,17 @@ BlockGroups groups_of(const Terms& terms, const BlockMatrix& matrix) {
 std::vector<Matrix6d> modes_of(const Terms& terms, const BlockGroups& groups) {
   std::vector<Eigen::Vector3d> sum(groups.count, Eigen::Vector3d::Zero());
   std::vector<double> count(groups.count, 0);
-  for (std::size_t i = 0; i < terms.poses.size(); ++i) {
-    if (!terms.poses[i].is_pose()) continue;
-    sum[groups.group[i]] += from_block(terms.poses[i].block).translation;
+  for (std::size_t i = 0; i < terms.rows.size(); ++i) {
+    if (!terms.rows[i].is_pose()) continue;
+    sum[groups.group[i]] += from_block(terms.rows[i].block).translation;
     ++count[groups.group[i]];
   }
   std::vector<Matrix6d> modes;
-  for (std::size_t i = 0; i < terms.poses.size(); ++i) {
+  for (std::size_t i = 0; i < terms.rows.size(); ++i) {
     Matrix6d& mode = modes.emplace_back(Matrix6d::Identity());
-    if (!terms.poses[i].is_pose()) continue;
+    if (!terms.rows[i].is_pose()) continue;
     const std::size_t g = groups.group[i];
-    const Pose T_map_body = from_block(terms.poses[i].block);
+    const Pose T_map_body = from_block(terms.rows[i].block);
     const Eigen::Matrix3d R_body_map = T_map_body.rotation.toRotationMatrix().transpose();
     const Eigen::Vector3d arm = T_map_body.translation - sum[g] / count[g];
     mode.topLeftCorner<3, 3>() = R_body_map;
@@ -104,8 +104,8 @@ std::optional<BlockVector> solve_poses(const ReducedSystem& system, BlockGroups 
 /// Values of all unknown blocks.
 std::vector<double> values_of(const Terms& terms) {
   std::vector<double> values;
-  for (const double* point : terms.points) values.insert(values.end(), point, point + 3);
-  for (const PoseUnknown& p : terms.poses) values.insert(values.end(), p.block, p.block + p.size);
+  for (const double* point : terms.unknowns->points) values.insert(values.end(), point, point + 3);
+  for (const Row& row : terms.rows) values.insert(values.end(), row.block, row.block + row.size);
   return values;
 }
 
@@ -115,21 +115,21 @@ void restore(const std::vector<double>& values, const Terms& terms) {
     std::copy_n(from, size, block);
     from += size;
   };
-  for (double* point : terms.points) take(point, 3);
-  for (const PoseUnknown& pose : terms.poses) take(pose.block, pose.size);
+  for (double* point : terms.unknowns->points) take(point, 3);
+  for (const Row& row : terms.rows) take(row.block, row.size);
 }
 
 void move(const Terms& terms, const BlockVector& steps,
           const std::vector<Eigen::Vector3d>& points_steps) {
-  for (std::size_t p = 0; p < terms.points.size(); ++p) {
-    Eigen::Map<Eigen::Vector3d>(terms.points[p]) += points_steps[p];
+  for (std::size_t p = 0; p < terms.unknowns->points.size(); ++p) {
+    Eigen::Map<Eigen::Vector3d>(terms.unknowns->points[p]) += points_steps[p];
   }
-  for (std::size_t i = 0; i < terms.poses.size(); ++i) {
-    const PoseUnknown& pose = terms.poses[i];
-    if (pose.is_pose()) {
-      std::ranges::copy(to_block(from_block(pose.block) * step_of(steps[i])), pose.block);
+  for (std::size_t i = 0; i < terms.rows.size(); ++i) {
+    const Row& row = terms.rows[i];
+    if (row.is_pose()) {
+      std::ranges::copy(to_block(from_block(row.block) * step_of(steps[i])), row.block);
     } else {
-      for (int k = 0; k < pose.size; ++k) pose.block[k] += steps[i](k);
+      for (int k = 0; k < row.size; ++k) row.block[k] += steps[i](k);
     }
   }
 }

@@ -6,18 +6,12 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "slam/factors/pose_manifold.h"
+
 namespace vinebench::slam {
 namespace {
 
-using IndexOf = std::unordered_map<const double*, std::size_t>;
-
 constexpr std::size_t kMostResiduals = 6;
-
-std::optional<std::size_t> find(const IndexOf& indices, const double* block) {
-  const auto found = indices.find(block);
-  if (found == indices.end()) return std::nullopt;
-  return found->second;
-}
 
 double squared_residual(const ceres::CostFunction& factor, const double* const* blocks) {
   std::array<double, kMostResiduals> residuals{};
@@ -27,53 +21,68 @@ double squared_residual(const ceres::CostFunction& factor, const double* const* 
   return sum;
 }
 
+void read_sights(Terms& terms) {
+  const Unknowns& unknowns = *terms.unknowns;
+  terms.first.assign(unknowns.points.size() + 1, 0);
+  for (std::size_t s = 0; s < unknowns.sights.size(); ++s) {
+    terms.sights.push_back({static_cast<std::uint32_t>(s), unknowns.sights[s].pose});
+    terms.first[unknowns.sights[s].point + 1] = s + 1;
+  }
+  // Points that nothing sees begin where they end.
+  for (std::size_t p = 1; p < terms.first.size(); ++p) {
+    terms.first[p] = std::max(terms.first[p], terms.first[p - 1]);
+  }
+  const auto at = [&](std::size_t s) {
+    return terms.sights.begin() + static_cast<std::ptrdiff_t>(s);
+  };
+  for (std::size_t p = 0; p < unknowns.points.size(); ++p) {
+    std::stable_sort(at(terms.first[p]), at(terms.first[p + 1]),
+                     [](const auto& a, const auto& b) { return a.pose < b.pose; });
+  }
+}
+
 }  // namespace
 
 Terms read_terms(const ceres::Problem& problem, const Unknowns& unknowns) {
-  Terms terms;
-  terms.points = unknowns.points;
-  IndexOf points, poses;
-  for (std::size_t i = 0; i < unknowns.points.size(); ++i) points.emplace(unknowns.points[i], i);
+  Terms terms{&unknowns, {}, {}, 0, {}, {}, {}};
+  std::unordered_map<const double*, std::size_t> rows;
   for (std::size_t i = 0; i < unknowns.poses.size(); ++i) {
     double* block = unknowns.poses[i];
+    std::optional<std::size_t>& row = terms.row_of.emplace_back();
     if (problem.IsParameterBlockConstant(block)) continue;
-    poses.emplace(block, terms.poses.size());
-    terms.poses.push_back({block, problem.ParameterBlockSize(block)});
-    if (i < unknowns.chain) terms.chain = terms.poses.size();
+    row = terms.rows.size();
+    rows.emplace(block, *row);
+    terms.rows.push_back({block, problem.ParameterBlockSize(block)});
+    if (i < unknowns.chain) terms.chain = terms.rows.size();
   }
+  read_sights(terms);
 
   std::vector<ceres::ResidualBlockId> ids;
   problem.GetResidualBlocks(&ids);
   std::vector<double*> blocks;
-  const auto point_of = [&](ceres::ResidualBlockId id) {
+  for (const ceres::ResidualBlockId id : ids) {
     problem.GetParameterBlocksForResidualBlock(id, &blocks);
-    return blocks.size() == 2 ? find(points, blocks[1]) : std::nullopt;
-  };
-  terms.first.assign(terms.points.size() + 1, 0);
-  for (const ceres::ResidualBlockId id : ids) {
-    if (const auto point = point_of(id)) ++terms.first[*point + 1];
-  }
-  for (std::size_t i = 1; i < terms.first.size(); ++i) terms.first[i] += terms.first[i - 1];
-  terms.sights.resize(terms.first.back());
-  std::vector<std::size_t> next = terms.first;
-  for (const ceres::ResidualBlockId id : ids) {
-    const auto point = point_of(id);
-    const ceres::CostFunction* factor = problem.GetCostFunctionForResidualBlock(id);
-    const ceres::LossFunction* loss = problem.GetLossFunctionForResidualBlock(id);
-    if (point) {
-      terms.sights[next[*point]++] = {factor, loss, blocks[0], find(poses, blocks[0])};
-      continue;
-    }
-    Tie& tie = terms.ties.emplace_back(Tie{factor, loss, blocks.size(), {}, {}});
+    Tie& tie = terms.ties.emplace_back(Tie{problem.GetCostFunctionForResidualBlock(id),
+                                           problem.GetLossFunctionForResidualBlock(id),
+                                           blocks.size(),
+                                           {},
+                                           {}});
     std::ranges::copy(blocks, tie.blocks.begin());
-    for (std::size_t b = 0; b < blocks.size(); ++b) tie.poses[b] = find(poses, blocks[b]);
-  }
-  for (std::size_t p = 0; p < terms.points.size(); ++p) {
-    std::stable_sort(terms.sights.begin() + static_cast<std::ptrdiff_t>(terms.first[p]),
-                     terms.sights.begin() + static_cast<std::ptrdiff_t>(terms.first[p + 1]),
-                     [](const Sight& a, const Sight& b) { return a.pose < b.pose; });
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const auto row = rows.find(blocks[b]);
+      if (row != rows.end()) tie.rows[b] = row->second;
+    }
   }
   return terms;
+}
+
+std::vector<Pose> chain_of(const Terms& terms) {
+  std::vector<Pose> poses;
+  poses.reserve(terms.unknowns->chain);
+  for (std::size_t i = 0; i < terms.unknowns->chain; ++i) {
+    poses.push_back(from_block(terms.unknowns->poses[i]));
+  }
+  return poses;
 }
 
 Weighed weigh(const ceres::LossFunction* loss, double squared_residual) {
@@ -84,12 +93,14 @@ Weighed weigh(const ceres::LossFunction* loss, double squared_residual) {
 }
 
 double cost_of(const Terms& terms) {
+  const Unknowns& unknowns = *terms.unknowns;
+  const std::vector<Pose> poses = chain_of(terms);
   double cost = 0;
-  for (std::size_t p = 0; p < terms.points.size(); ++p) {
+  for (std::size_t p = 0; p < unknowns.points.size(); ++p) {
+    const Eigen::Vector3d point(unknowns.points[p]);
     for (std::size_t s = terms.first[p]; s < terms.first[p + 1]; ++s) {
-      const Sight& sight = terms.sights[s];
-      const std::array<const double*, 2> blocks{sight.block, terms.points[p]};
-      cost += weigh(sight.loss, squared_residual(*sight.factor, blocks.data())).cost;
+      const auto& [sight, pose] = terms.sights[s];
+      cost += unknowns.factors->cost(sight, poses[pose], point);
     }
   }
   for (const Tie& tie : terms.ties) {

@@ -52,14 +52,14 @@ class PlaceFactor : public ceres::CostFunction {
 
 /// Bodies once around a circle, who see the points near them to 1 cm; the first stands still. The
 /// blocks are where bodies and points truly are.
-struct LoopProblem {
+struct LoopProblem : slam::Sights {
   static constexpr double kRadius = 5;    // m
   static constexpr double kReach = 1.5;   // m
   static constexpr double kSigma = 0.01;  // m
 
   LoopProblem(std::size_t bodies, std::size_t count, double noise,
-              ceres::LossFunction* loss = nullptr)
-      : poses(bodies), points(count), problem(ownership()) {
+              ceres::LossFunction* loss_of_sights = nullptr)
+      : poses(bodies), points(count), loss(loss_of_sights), problem(ownership()), all(ownership()) {
     RandomSequence random(RandomStream(1, "loop"));
     const auto draw = [&]() -> Eigen::Vector3d {
       return {random.normal(), random.normal(), random.normal()};
@@ -72,26 +72,54 @@ struct LoopProblem {
       const double share = static_cast<double>(i) / static_cast<double>(bodies);
       poses[i] = slam::to_block(
           {exp_so3({0.01 * random.normal(), 0, 2 * std::numbers::pi * share}), on_circle(share)});
-      problem.AddParameterBlock(poses[i].data(), 7, &manifold);
-    }
-    problem.SetParameterBlockConstant(poses[0].data());
-    for (std::size_t p = 0; p < count; ++p) {
-      points[p] = on_circle(static_cast<double>(p) / static_cast<double>(count)) + 0.3 * draw();
-      problem.AddParameterBlock(points[p].data(), 3);
-    }
-    for (const slam::PoseBlock& block : poses) {
-      const Pose T_map_body = slam::from_block(block.data());
-      for (Eigen::Vector3d& point : points) {
-        if ((point - T_map_body.translation).norm() > kReach) continue;
-        factors.push_back(
-            std::make_unique<PlaceFactor>(T_map_body.inverse() * point + noise * draw(), kSigma));
-        problem.AddResidualBlock(factors.back().get(), loss, const_cast<double*>(block.data()),
-                                 point.data());
+      unknowns.poses.push_back(poses[i].data());
+      for (ceres::Problem* of : {&problem, &all}) {
+        of->AddParameterBlock(poses[i].data(), 7, &manifold);
       }
     }
-    for (slam::PoseBlock& pose : poses) unknowns.poses.push_back(pose.data());
-    for (Eigen::Vector3d& point : points) unknowns.points.push_back(point.data());
+    for (ceres::Problem* of : {&problem, &all}) of->SetParameterBlockConstant(poses[0].data());
+    for (std::size_t p = 0; p < count; ++p) {
+      points[p] = on_circle(static_cast<double>(p) / static_cast<double>(count)) + 0.3 * draw();
+      unknowns.points.push_back(points[p].data());
+      all.AddParameterBlock(points[p].data(), 3);
+      for (std::size_t i = 0; i < bodies; ++i) {
+        const Pose T_map_body = slam::from_block(poses[i].data());
+        if ((points[p] - T_map_body.translation).norm() > kReach) continue;
+        factors.push_back(std::make_unique<PlaceFactor>(
+            T_map_body.inverse() * points[p] + noise * draw(), kSigma));
+        all.AddResidualBlock(factors.back().get(), loss, poses[i].data(), points[p].data());
+        unknowns.sights.push_back({static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(i)});
+      }
+    }
     unknowns.chain = bodies;
+    unknowns.factors = this;
+  }
+
+  double cost(std::size_t sight, const Pose& T_map_body,
+              const Eigen::Vector3d& p_map) const override {
+    const slam::PoseBlock pose = slam::to_block(T_map_body);
+    const std::array<const double*, 2> blocks{pose.data(), p_map.data()};
+    Eigen::Vector3d residual;
+    factors[sight]->Evaluate(blocks.data(), residual.data(), nullptr);
+    return slam::weigh(loss, residual.squaredNorm()).cost;
+  }
+
+  Linearised linearise(std::size_t sight, const Pose& T_map_body,
+                       const Eigen::Vector3d& p_map) const override {
+    const slam::PoseBlock pose = slam::to_block(T_map_body);
+    const std::array<const double*, 2> blocks{pose.data(), p_map.data()};
+    Eigen::Vector3d residual;
+    Eigen::Matrix<double, 3, 7, Eigen::RowMajor> by_block;
+    Eigen::Matrix<double, 3, 3, Eigen::RowMajor> by_point;
+    std::array<double*, 2> jacobians{by_block.data(), by_point.data()};
+    factors[sight]->Evaluate(blocks.data(), residual.data(), jacobians.data());
+    const double scale = slam::weigh(loss, residual.squaredNorm()).scale;
+    return {scale * residual, scale * by_block.leftCols<6>(), scale * by_point};
+  }
+
+  /// A factor of poses, for both ways of solving.
+  void tie(ceres::CostFunction& factor, const std::vector<double*>& blocks) {
+    for (ceres::Problem* of : {&problem, &all}) of->AddResidualBlock(&factor, nullptr, blocks);
   }
 
   /// Moves all but the first body by about so many metres and a tenth of a radian for each.
@@ -108,9 +136,10 @@ struct LoopProblem {
     }
   }
 
-  double cost() {
+  /// As Ceres has it.
+  double whole_cost() {
     double cost = 0;
-    problem.Evaluate({}, &cost, nullptr, nullptr, nullptr);
+    all.Evaluate({}, &cost, nullptr, nullptr, nullptr);
     return cost;
   }
 
@@ -124,10 +153,12 @@ struct LoopProblem {
 
   std::vector<slam::PoseBlock> poses;
   std::vector<Eigen::Vector3d> points;
+  ceres::LossFunction* loss;
   std::vector<std::unique_ptr<ceres::CostFunction>> factors;
   slam::PoseManifold manifold;
   slam::Unknowns unknowns;
-  ceres::Problem problem;  // last: it must go before what it points to
+  ceres::Problem problem;  ///< the bodies alone
+  ceres::Problem all;      ///< with points and factors of these
 };
 
 }  // namespace vinebench::test

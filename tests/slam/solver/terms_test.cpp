@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "slam/factors/relative_pose_factor.h"
 #include "tests/support/loop_problem.h"
 
@@ -14,37 +16,50 @@ using test::LoopProblem;
 
 TEST(TermsTest, SightsStandByPointAndThenByPose) {
   LoopProblem loop(20, 40, 0);
+  std::vector<Sight>& sights = loop.unknowns.sights;
+  std::ranges::reverse(sights);  // the later pose first
+  std::ranges::stable_sort(sights, {}, &Sight::point);
   const Terms terms = read_terms(loop.problem, loop.unknowns);
-  EXPECT_EQ(terms.sights.size(), loop.factors.size());
   ASSERT_EQ(terms.first.size(), 41u);
-  EXPECT_EQ(terms.first.back(), terms.sights.size());
+  EXPECT_EQ(terms.first.back(), sights.size());
   for (std::size_t p = 0; p < 40; ++p) {
-    for (std::size_t s = terms.first[p] + 1; s < terms.first[p + 1]; ++s) {
-      EXPECT_LT(terms.sights[s - 1].pose, terms.sights[s].pose);
+    for (std::size_t s = terms.first[p]; s < terms.first[p + 1]; ++s) {
+      const auto& [sight, pose] = terms.sights[s];
+      EXPECT_EQ(sights[sight].point, p);
+      EXPECT_EQ(sights[sight].pose, pose);
+      EXPECT_TRUE(s == terms.first[p] || pose > terms.sights[s - 1].pose);
     }
   }
 }
 
-TEST(TermsTest, WhatIsHeldIsNoUnknown) {
+TEST(TermsTest, PointsThatNothingSeesHaveNoSights) {
+  LoopProblem loop(20, 3, 0);
+  std::vector<Sight>& sights = loop.unknowns.sights;
+  std::erase_if(sights, [](const Sight& s) { return s.point != 1; });
+  const Terms terms = read_terms(loop.problem, loop.unknowns);
+  const std::vector<std::size_t> expected{0, 0, sights.size(), sights.size()};
+  EXPECT_EQ(terms.first, expected);
+}
+
+TEST(TermsTest, WhatIsHeldHasNoRow) {
   LoopProblem loop(20, 40, 0);
   const Terms terms = read_terms(loop.problem, loop.unknowns);
-  ASSERT_EQ(terms.poses.size(), 19u);  // of 20, the first is held
+  ASSERT_EQ(terms.rows.size(), 19u);  // of 20, the first is held
   EXPECT_EQ(terms.chain, 19u);
-  EXPECT_EQ(terms.poses[0].block, loop.poses[1].data());
-  for (const Sight& sight : terms.sights) {
-    EXPECT_EQ(sight.pose.has_value(), sight.block != loop.poses[0].data());
-  }
+  EXPECT_EQ(terms.rows[0].block, loop.poses[1].data());
+  EXPECT_FALSE(terms.row_of[0]);
+  EXPECT_EQ(terms.row_of[19], 18u);
 }
 
 TEST(TermsTest, FactorsOfPosesAreTies) {
   LoopProblem loop(20, 40, 0);
   RelativePoseFactor factor({}, Matrix6d::Identity());
-  loop.problem.AddResidualBlock(&factor, nullptr, loop.poses[0].data(), loop.poses[7].data());
+  loop.tie(factor, {loop.poses[0].data(), loop.poses[7].data()});
   const Terms terms = read_terms(loop.problem, loop.unknowns);
   ASSERT_EQ(terms.ties.size(), 1u);
   EXPECT_EQ(terms.ties[0].count, 2u);
-  EXPECT_FALSE(terms.ties[0].poses[0]);
-  EXPECT_EQ(terms.ties[0].poses[1], 6u);
+  EXPECT_FALSE(terms.ties[0].rows[0]);
+  EXPECT_EQ(terms.ties[0].rows[1], 6u);
 }
 
 TEST(TermsTest, SquaresAreWeighedByTheirLoss) {
@@ -60,8 +75,8 @@ TEST(TermsTest, TheirCostIsTheProblems) {
   ceres::CauchyLoss cauchy(1);
   LoopProblem loop(20, 40, 0.02, &cauchy);
   RelativePoseFactor factor({}, Matrix6d::Identity());
-  loop.problem.AddResidualBlock(&factor, nullptr, loop.poses[0].data(), loop.poses[7].data());
-  const double cost = loop.cost();
+  loop.tie(factor, {loop.poses[0].data(), loop.poses[7].data()});
+  const double cost = loop.whole_cost();
   EXPECT_NEAR(cost_of(read_terms(loop.problem, loop.unknowns)), cost, 1e-12 * cost);
 }
 
