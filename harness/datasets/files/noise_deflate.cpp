@@ -90,7 +90,8 @@ std::span<const std::uint32_t> codes_of_pairs(const DeflateCodes& table) {
 
 void put_block(std::span<const std::uint8_t> bytes, bool last, BitWriter& to) {
   const DeflateCodes table(count_symbols(bytes));
-  const auto& [lengths, codes] = table;
+  const auto& lengths = table.lengths;
+  const auto& codes = table.codes;
   const std::uint32_t* const pairs = codes_of_pairs(table).data();
   BitWriter writer = to;
   put_block_header(table, last, writer);
