@@ -314,6 +314,7 @@ void Pipeline::join_global_adjustment() {
   if (const std::optional<Pose> T_new_old = global_adjuster_.join(map_, times_)) {
     tracker_.correct(*T_new_old * tracker_.T_map_body());
     believe_gravity();
+    if (closed_) uncertainty_ = *std::exchange(closed_, std::nullopt);
   }
 }
 
@@ -344,11 +345,22 @@ void Pipeline::map_keyframe(TrackedFrame& tracked, Estimate& estimate) {
 
 void Pipeline::grow_uncertainty(const TrackedFrame& tracked) {
   const Pose T_last_now = map_.keyframes().back().T_map_body.inverse() * tracked.motion.T_map_body;
-  if (tracked.link) {
-    uncertainty_.cross_gap(T_last_now, tracked.link->covariance);
-  } else {
-    uncertainty_.keyframe(T_last_now, tracked.motion.information, calibration_.drift());
+  for (PoseUncertainty* of : {&uncertainty_, closed_ ? &*closed_ : nullptr}) {
+    if (of == nullptr) continue;
+    if (tracked.link) {
+      of->cross_gap(T_last_now, tracked.link->covariance);
+    } else {
+      of->keyframe(T_last_now, tracked.motion.information, calibration_.drift());
+    }
   }
+}
+
+/// What a loop makes surer: the pose in lockstep; live, what it will be when the loop's global
+/// adjustment joins, until which the pose is as unsure as before.
+PoseUncertainty& Pipeline::uncertainty_of_closed() {
+  if (!is_live()) return uncertainty_;
+  if (!closed_) closed_ = uncertainty_;
+  return *closed_;
 }
 
 void Pipeline::close_loop(int keyframe, Estimate& estimate) {
@@ -360,9 +372,9 @@ void Pipeline::close_loop(int keyframe, Estimate& estimate) {
   const Matrix6d of_tags = covariance_by(map_.keyframe(keyframe).frame->tags);
   // Of one tag seen twice the survey's error is the same; another's is new.
   if (!estimate.loop_closure->covariance && several_surveys(map_)) {
-    uncertainty_.measure(of_tags);
+    uncertainty_of_closed().measure(of_tags);
   } else {
-    uncertainty_.start(of_tags);
+    uncertainty_of_closed().start(of_tags);
   }
   ++closures_;
   tags_since_adjustment_ = false;
@@ -389,7 +401,7 @@ void Pipeline::close_loop_by_place(int keyframe, Estimate& estimate) {
   const Matrix6d by_place =
       carry_covariance(found->earlier_covariance, estimate.loop_closure->T_earlier_later) +
       found->covariance;
-  if (by_place.trace() < now.trace()) uncertainty_.start(by_place);
+  if (by_place.trace() < now.trace()) uncertainty_of_closed().start(by_place);
   ++closures_;
   tags_since_adjustment_ = false;
 }

@@ -72,6 +72,7 @@ class Pipeline {
   bool is_live() const { return config_.mapping.schedule == MappingSchedule::kLive; }
   void adjust_globally();
   void adjust_moved_map();
+  PoseUncertainty& uncertainty_of_closed();
   void start_due_adjustment();
   void join_global_adjustment();
   void map_keyframe(TrackedFrame& tracked, Estimate& estimate);
@@ -96,8 +97,9 @@ class Pipeline {
   std::optional<PlaceLoops> places_;
   Recovery recovery_;
   SelfCalibration calibration_;
-  GlobalAdjuster global_adjuster_;  ///< live
-  PoseUncertainty uncertainty_;     ///< of the latest keyframe
+  GlobalAdjuster global_adjuster_;         ///< live
+  PoseUncertainty uncertainty_;            ///< of the latest keyframe
+  std::optional<PoseUncertainty> closed_;  ///< the same once a loop's adjustment has joined, live
   StageTimes times_;
   TrajectoryRecord records_;
   SupportingFeatures supporting_;
