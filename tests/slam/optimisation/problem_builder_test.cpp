@@ -243,6 +243,44 @@ TEST_F(ProblemBuilderTest, BlocksOfOthersCanBeHeld) {
   EXPECT_EQ(other, 5);
 }
 
+/// Where a landmark at some distance, 0 m aside, is seen by a camera that is turned: in px, for a
+/// focal length of 400 px.
+class Bearing : public ceres::SizedCostFunction<1, 1, 1> {
+ public:
+  explicit Bearing(double distance) : distance_(distance) {}
+  bool Evaluate(double const* const* x, double* residual, double** jacobian) const override {
+    residual[0] = 400 * (x[0][0] / distance_ + x[1][0]);
+    if (jacobian == nullptr) return true;
+    if (jacobian[0] != nullptr) jacobian[0][0] = 400 / distance_;
+    if (jacobian[1] != nullptr) jacobian[1][0] = 400;
+    return true;
+  }
+
+ private:
+  double distance_;
+};
+
+// A turn that a free landmark takes part in is not known, however far away the landmark is: of the
+// 400^2 = 1.6e5 of its one image the marginal's damping, 1e-12, is left, and rounding.
+TEST_F(ProblemBuilderTest, AFarLandmarkThatIsFreeTellsNoTurn) {
+  for (const double distance : {1.0, 1e4, 1e9}) {
+    double aside = 0, turn = 0, untouched = 0;
+    ProblemBuilder problem(map_, {});
+    problem.add_block(&aside, 1, ProblemBuilder::Group::kLandmarks);
+    problem.add_block(&untouched, 1, ProblemBuilder::Group::kLandmarks);
+    problem.add_block(&turn, 1, ProblemBuilder::Group::kLenses);
+    Bearing seen(distance);
+    Wish known(0);
+    problem.add_factor(seen, nullptr, {&aside, &turn});
+    EXPECT_NEAR(problem.marginal({ProblemBuilder::Group::kLenses}).information(0, 0), 0, 1e-6)
+        << distance << " m";
+    // What is known of it besides is known still.
+    problem.add_factor(known, nullptr, {&turn});
+    EXPECT_NEAR(problem.marginal({ProblemBuilder::Group::kLenses}).information(0, 0), 1, 1e-6)
+        << distance << " m";
+  }
+}
+
 TEST_F(ProblemBuilderTest, TheCostIsUnderTheLoss) {
   double held = 10;
   ProblemBuilder problem(map_, window_);
