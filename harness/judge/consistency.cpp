@@ -13,6 +13,9 @@ namespace {
 /// 95 % quantile of the chi-square distribution with six degrees of freedom.
 constexpr double kChiSquared6 = 12.592;
 
+/// m and rad: where a map begins is no surer than that only by definition.
+constexpr double kExact = 1e-5;
+
 bool is_told(const RunRecord& record, const TagSighting& seen) {
   const auto is_it = [&](const auto& tag) {
     return tag.id == seen.id && tag.family == seen.family;
@@ -26,24 +29,46 @@ bool is_any_told(const RunRecord& record) {
   return !record.told_tags.empty() || std::ranges::any_of(record.tags, &WorldTag::registered);
 }
 
-/// Where the map's frame lies, and the first frame whose error it leaves open.
-struct Begin {
+/// Whether the frame saw a told tag and did not reject it.
+bool believes_a_told_tag(const RunRecord& record, const Estimate& estimate) {
+  return std::ranges::any_of(estimate.tags, [&](const TagSighting& seen) {
+    const bool rejected = std::ranges::any_of(estimate.rejected_tags, [&](const RejectedTag& tag) {
+      return tag.id == seen.id && tag.family == seen.family && tag.camera == seen.camera;
+    });
+    return !rejected && is_told(record, seen);
+  });
+}
+
+/// Whether a covariance says that the pose is where the map begins.
+bool is_origin(const Matrix6d& covariance) {
+  return covariance.diagonal().maxCoeff() < kExact * kExact;
+}
+
+/// Where the map's frame lies, from the first frame whose error that leaves open, to the last.
+struct Span {
   Pose T_map_world;
-  std::size_t tick = 0;
+  std::size_t begin = 0;
+  std::size_t end = 0;
 };
 
-/// The map's frame is the world's by a registered tag; without any, it is that of the first pose.
-std::optional<Begin> begin_of(const RunRecord& record) {
+/// The map's frame is the world's by a told tag; without any, it is that of the first pose, and so
+/// it is before told tags close a loop if the map begins there.
+std::optional<Span> span_of(const RunRecord& record) {
   const auto first = std::ranges::find_if(
       record.ticks, [](const Tick& tick) { return tick.estimate.T_map_body.has_value(); });
   if (first == record.ticks.end()) return std::nullopt;
-  const auto tick = static_cast<std::size_t>(first - record.ticks.begin());
-  if (std::ranges::any_of(first->estimate.tags,
-                          [&](const TagSighting& seen) { return is_told(record, seen); })) {
-    return Begin{{}, tick};
-  }
-  if (is_any_told(record) || !first->truth.known) return std::nullopt;
-  return Begin{*first->estimate.T_map_body * first->truth.T_world_body.inverse(), tick + 1};
+  const auto begin = static_cast<std::size_t>(first - record.ticks.begin());
+  if (believes_a_told_tag(record, first->estimate)) return Span{{}, begin, record.ticks.size()};
+  if (!first->truth.known) return std::nullopt;
+  Span span{*first->estimate.T_map_body * first->truth.T_world_body.inverse(), begin + 1,
+            record.ticks.size()};
+  if (!is_any_told(record)) return span;
+  if (!is_origin(first->estimate.covariance)) return std::nullopt;
+  const auto loop = std::find_if(first, record.ticks.end(), [](const Tick& tick) {
+    return tick.estimate.loop_closure.has_value();
+  });
+  span.end = static_cast<std::size_t>(loop - record.ticks.begin());
+  return span;
 }
 
 /// Nothing where the covariance cannot be inverted.
@@ -59,15 +84,15 @@ std::optional<double> nees(const Tick& tick, const Pose& T_map_world) {
 }  // namespace
 
 std::optional<Consistency> check_consistency(const RunRecord& record) {
-  const std::optional<Begin> begin = begin_of(record);
-  if (!begin) return std::nullopt;
+  const std::optional<Span> span = span_of(record);
+  if (!span) return std::nullopt;
   Consistency found;
   bool any_covariance = false;
-  for (std::size_t i = begin->tick; i < record.ticks.size(); ++i) {
+  for (std::size_t i = span->begin; i < span->end; ++i) {
     const Tick& tick = record.ticks[i];
     if (!tick.truth.known || !tick.estimate.T_map_body) continue;
     any_covariance = any_covariance || !tick.estimate.covariance.isZero(0);
-    const auto error = nees(tick, begin->T_map_world);
+    const auto error = nees(tick, span->T_map_world);
     if (!error) {
       ++found.not_invertible;
       continue;

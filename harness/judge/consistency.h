@@ -22,10 +22,11 @@ struct Consistency {
   int not_invertible = 0;  ///< frames with a pose that are left out because of their covariance
 };
 
-/// Of all frames with a pose and a covariance. Where no tag is registered, the map's frame is the
-/// first pose's, and errors count from there. Empty where registered tags were not in view at the
-/// first pose, so that nothing says where the map's frame lies in the world, and for a system that
-/// gives no covariance at all.
+/// Of all frames with a pose and a covariance. The map's frame is the world's where the first pose
+/// is by a registered tag. Where none is registered, it is the first pose's, and errors count from
+/// there. Where one is, but not in view at first, or rejected, they count from a first pose that
+/// the system calls exact, until a loop is closed: nothing says where the map's frame lies then.
+/// Empty where the first pose is neither, and for a system that gives no covariance at all.
 std::optional<Consistency> check_consistency(const RunRecord& record);
 
 /// Readable line on the frames that are left out because of their covariance; empty without any.

@@ -79,6 +79,35 @@ TEST(ConsistencyTest, ARegisteredTagMustBeInTheFirstFrame) {
   EXPECT_FALSE(check_consistency(RunRecord{}));
 }
 
+// The map begins where the first pose is, at 1 sigma behind the world's, and a loop moves it there.
+TEST(ConsistencyTest, BeforeARegisteredTagHasASayErrorsCountFromTheFirstPose) {
+  RunRecord record = record_with({0.01, 0.01, 0.01, 0.05, 0.05});
+  for (std::size_t i = 0; i < record.ticks.size(); ++i) {
+    Tick& tick = record.ticks[i];
+    tick.truth.T_world_body = {Eigen::Quaterniond::Identity(), {static_cast<double>(i), 0, 0}};
+    tick.estimate.T_map_body = tick.truth.T_world_body;
+    tick.estimate.T_map_body->translation.x() += i == 0 ? 0.01 : 0.03;  // 2 sigma on from the first
+  }
+  record.ticks[0].estimate.covariance = Vector6d::Constant(1e-12).asDiagonal();
+  record.ticks[3].estimate.loop_closure = LoopClosure{};
+  const TagSighting& seen = record.ticks[0].estimate.tags[0];
+  record.ticks[0].estimate.rejected_tags.push_back(
+      {seen.family, seen.id, seen.camera, TagRejection::kAmbiguous});
+  const auto found = check_consistency(record);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->frames, 2);
+  EXPECT_NEAR(found->nees_mean, 4, 1e-9);
+  // Nothing in view at all is the same.
+  record.ticks[0].estimate.tags.clear();
+  record.ticks[0].estimate.rejected_tags.clear();
+  EXPECT_EQ(check_consistency(record)->frames, 2);
+  // Another camera's sighting is another one.
+  record.ticks[0].estimate.tags.push_back(record_with({0}).ticks[0].estimate.tags[0]);
+  record.ticks[0].estimate.rejected_tags.push_back(
+      {record.tags[0].family, record.tags[0].id, 7, TagRejection::kAmbiguous});
+  EXPECT_EQ(check_consistency(record)->frames, 5);
+}
+
 TEST(ConsistencyTest, OfARecordingTheTagsThatWereToldAreRegistered) {
   RunRecord record = record_with({0.01, 0.02});
   const WorldTag tag = record.tags[0];
