@@ -47,7 +47,8 @@ Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
       calibration_(
           {config.calibration, config.stereo.calibration_sigma, config.stereo.self_calibration,
            is_accuracy_told(config.calibration, config.stereo.calibration_sigma), is_live()},
-          rig_) {
+          rig_),
+      covariance_(is_live()) {
   rig_.wheels = config.dead_reckoning.wheels;
   rig_.noise.loss = config.loss;
   if (config.places) places_.emplace(*config.places);
@@ -195,16 +196,11 @@ SlamSummary Pipeline::finish() {
   return summary;
 }
 
-/// Of the body's pose; a keyframe's own is part of the uncertainty kept.
 Matrix6d Pipeline::covariance(const TrackedFrame& tracked, bool keyframe) const {
+  if (keyframe) return covariance_.of_keyframe(calibration_.error());
   const Pose T_last_now = map_.keyframes().back().T_map_body.inverse() * tracker_.T_map_body();
-  const Matrix6d of_calibration = uncertainty_.of_calibration(T_last_now, calibration_.error());
-  if (keyframe) return uncertainty_.at({}, Matrix6d::Zero()) + of_calibration;
-  if (tracked.tracked) {
-    return uncertainty_.at(T_last_now, tracked.motion.information) + of_calibration;
-  }
-  return uncertainty_.at(T_last_now, Matrix6d::Zero()) + of_calibration +
-         tracker_.dead_reckoning().covariance();
+  const Matrix6d seen = covariance_.of_frame(T_last_now, tracked, calibration_.error());
+  return tracked.tracked ? seen : seen + tracker_.dead_reckoning().covariance();
 }
 
 /// Of the body's pose by these tags: their surveys, their corners, and how the camera of the first
@@ -238,7 +234,7 @@ TrackedFrame Pipeline::initialise(const std::shared_ptr<FrameFeatures>& frame) {
     const std::optional<Pose> by_tag = loop_closer_.gates().world_pose(frame->tags);
     tracked.motion.T_map_body = by_tag.value_or(Pose{});
     tracker_.start(tracked.motion.T_map_body, frame->stamp);
-    uncertainty_.start(by_tag ? covariance_by(frame->tags) : covariance_of_origin());
+    covariance_.begin(by_tag ? covariance_by(frame->tags) : covariance_of_origin());
   }
   return tracked;
 }
@@ -314,14 +310,18 @@ void Pipeline::join_global_adjustment() {
   if (const std::optional<Pose> T_new_old = global_adjuster_.join(map_, times_)) {
     tracker_.correct(*T_new_old * tracker_.T_map_body());
     believe_gravity();
-    if (closed_) uncertainty_ = *std::exchange(closed_, std::nullopt);
+    covariance_.join();
   }
 }
 
 void Pipeline::map_keyframe(TrackedFrame& tracked, Estimate& estimate) {
   if (scheduler_.busy()) join_mapping(&tracked);
   const bool loop = started_ && loop_closer_.sees_loop(*tracked.frame, path_length_);
-  if (started_) grow_uncertainty(tracked);
+  if (started_) {
+    const Pose T_last_now =
+        map_.keyframes().back().T_map_body.inverse() * tracked.motion.T_map_body;
+    covariance_.add_keyframe(T_last_now, tracked, calibration_.drift());
+  }
   const int id = mapper_.insert(tracked, rig_, map_);
   map_.keyframe(id).link = tracked.link;
   map_.keyframe(id).motion = tracker_.take_motion();
@@ -343,26 +343,6 @@ void Pipeline::map_keyframe(TrackedFrame& tracked, Estimate& estimate) {
   started_ = true;
 }
 
-void Pipeline::grow_uncertainty(const TrackedFrame& tracked) {
-  const Pose T_last_now = map_.keyframes().back().T_map_body.inverse() * tracked.motion.T_map_body;
-  for (PoseUncertainty* of : {&uncertainty_, closed_ ? &*closed_ : nullptr}) {
-    if (of == nullptr) continue;
-    if (tracked.link) {
-      of->cross_gap(T_last_now, tracked.link->covariance);
-    } else {
-      of->keyframe(T_last_now, tracked.motion.information, calibration_.drift());
-    }
-  }
-}
-
-/// What a loop makes surer: the pose in lockstep; live, what it will be when the loop's global
-/// adjustment joins, until which the pose is as unsure as before.
-PoseUncertainty& Pipeline::uncertainty_of_closed() {
-  if (!is_live()) return uncertainty_;
-  if (!closed_) closed_ = uncertainty_;
-  return *closed_;
-}
-
 void Pipeline::close_loop(int keyframe, Estimate& estimate) {
   const ScopedTimer timer(times_, "global adjustment");
   take_calibration(estimate);
@@ -372,9 +352,9 @@ void Pipeline::close_loop(int keyframe, Estimate& estimate) {
   const Matrix6d of_tags = covariance_by(map_.keyframe(keyframe).frame->tags);
   // Of one tag seen twice the survey's error is the same; another's is new.
   if (!estimate.loop_closure->covariance && several_surveys(map_)) {
-    uncertainty_of_closed().measure(of_tags);
+    covariance_.close_besides(of_tags);
   } else {
-    uncertainty_of_closed().start(of_tags);
+    covariance_.close(of_tags);
   }
   ++closures_;
   tags_since_adjustment_ = false;
@@ -390,8 +370,7 @@ void Pipeline::take_calibration(Estimate& estimate) {
 
 void Pipeline::close_loop_by_place(int keyframe, Estimate& estimate) {
   const ScopedTimer timer(times_, "places");
-  const Matrix6d now =
-      uncertainty_.at({}, Matrix6d::Zero()) + uncertainty_.of_calibration({}, calibration_.error());
+  const Matrix6d now = covariance_.of_keyframe(calibration_.error());
   const auto found = places_->look(keyframe, path_length_, now, map_, rig_);
   if (!found || estimate.loop_closure) return;
   take_calibration(estimate);
@@ -401,7 +380,7 @@ void Pipeline::close_loop_by_place(int keyframe, Estimate& estimate) {
   const Matrix6d by_place =
       carry_covariance(found->earlier_covariance, estimate.loop_closure->T_earlier_later) +
       found->covariance;
-  if (by_place.trace() < now.trace()) uncertainty_of_closed().start(by_place);
+  if (by_place.trace() < now.trace()) covariance_.close(by_place);
   ++closures_;
   tags_since_adjustment_ = false;
 }

@@ -14,7 +14,7 @@
 #include "slam/map/map.h"
 #include "slam/map/trajectory_record.h"
 #include "slam/mapping/local_mapper.h"
-#include "slam/optimisation/pose_uncertainty.h"
+#include "slam/pose_covariance.h"
 #include "slam/recovery.h"
 #include "slam/runtime/global_adjuster.h"
 #include "slam/runtime/mapping_scheduler.h"
@@ -72,11 +72,9 @@ class Pipeline {
   bool is_live() const { return config_.mapping.schedule == MappingSchedule::kLive; }
   void adjust_globally();
   void adjust_moved_map();
-  PoseUncertainty& uncertainty_of_closed();
   void start_due_adjustment();
   void join_global_adjustment();
   void map_keyframe(TrackedFrame& tracked, Estimate& estimate);
-  void grow_uncertainty(const TrackedFrame& tracked);
   void close_loop(int keyframe, Estimate& estimate);
   void close_loop_by_place(int keyframe, Estimate& estimate);
   void take_calibration(Estimate& estimate);
@@ -97,9 +95,8 @@ class Pipeline {
   std::optional<PlaceLoops> places_;
   Recovery recovery_;
   SelfCalibration calibration_;
-  GlobalAdjuster global_adjuster_;         ///< live
-  PoseUncertainty uncertainty_;            ///< of the latest keyframe
-  std::optional<PoseUncertainty> closed_;  ///< the same once a loop's adjustment has joined, live
+  GlobalAdjuster global_adjuster_;  ///< live
+  PoseCovariance covariance_;
   StageTimes times_;
   TrajectoryRecord records_;
   SupportingFeatures supporting_;

@@ -17,21 +17,21 @@ Matrix6d isotropic_covariance(double offset, double turn);
 /// From keyframe to keyframe errors add up; from a keyframe to the frames after it the motion-only
 /// adjustment says how well each is held by the landmarks. That takes landmarks as exact, which
 /// they are not, and errors as larger than most are, for the sake of their tails: `kInflation`
-/// makes up for both. It was found on two clean drives (docs/benchmarks.md) and holds no truth of
-/// any other.
+/// makes up for both. It was found, like those below, on drives of seeds that no table has
+/// (docs/benchmarks.md).
 ///
 /// Besides, all of a drive has errors that are no noise: what leaves and stereo's windows make of
 /// where landmarks are is alike from keyframe to keyframe, so that lengths are off by the same
 /// share and each metre driven turns the body by the same angle. `kScale` and `kTurn` are their
-/// standard deviations, found on five drives.
+/// standard deviations.
 ///
 /// Errors of the cameras' calibration are the same all the way, too. Such errors add up in a line:
 /// kept is the step that each makes.
 class PoseUncertainty {
  public:
-  static constexpr double kInflation = 0.5;
+  static constexpr double kInflation = 0.25;
   static constexpr double kScale = 5e-4;  ///< of lengths
-  static constexpr double kTurn = 1e-4;   ///< rad/m, about each axis by the way along each
+  static constexpr double kTurn = 5e-5;   ///< rad/m, about each axis by the way along each
 
   /// The map begins here, or a tag of known pose has just fixed it.
   void start(const Matrix6d& covariance);
