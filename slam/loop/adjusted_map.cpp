@@ -79,6 +79,7 @@ Pose take_over(const AdjustedMap& adjusted, Map& map) {
     const MapTag* there = copy.find_tag(tag.family, tag.id);
     if (there != nullptr) {
       tag.T_map_tag = there->T_map_tag;
+      tag.sure = there->sure;
     } else if (!map.is_held(tag)) {
       tag.T_map_tag = T_new_old * tag.T_map_tag;
     }

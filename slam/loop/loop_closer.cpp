@@ -38,14 +38,21 @@ void LoopCloser::record(const FrameFeatures& frame, const Pose& T_map_body, doub
   if (!map.world()) {
     if (const auto T_world_body = gates_.world_pose(frame.tags)) {
       map.world() = T_map_body * T_world_body->inverse();
+      world_is_sure_ = std::ranges::any_of(frame.tags, [&](const TagSighting& seen) {
+        return gates_.registered(seen) != nullptr && gates_.places_well(seen);
+      });
     }
   }
   for (const TagSighting& sighting : frame.tags) {
     if (gates_.registered(sighting) != nullptr && !map.world()) continue;
-    if (map.find_tag(sighting.family, sighting.id) == nullptr)
-      gates_.add_tag(sighting, T_map_body, map);
+    if (map.find_tag(sighting.family, sighting.id) == nullptr) add_tag(sighting, T_map_body, map);
     gates_.remember_visit(sighting, frame.stamp, path_length, is_keyframe);
   }
+}
+
+void LoopCloser::add_tag(const TagSighting& sighting, const Pose& T_map_body, Map& map) const {
+  MapTag& tag = gates_.add_tag(sighting, T_map_body, map);
+  tag.sure = tag.fixed ? world_is_sure_ : gates_.places_well(sighting);
 }
 
 /// The surest of the sightings, in the last visit before `later`, of what says where `seen`'s tag
@@ -97,10 +104,11 @@ LoopClosure LoopCloser::close(int keyframe_id, double path_length, const Estimat
   spread_correction(map, earlier->keyframe, keyframe_id, corrected, earlier->covariance);
   for (const TagSighting& seen : later.frame->tags) {
     if (gates_.registered(seen) != nullptr && !map.world()) continue;
-    if (map.find_tag(seen.family, seen.id) == nullptr) gates_.add_tag(seen, later.T_map_body, map);
+    if (map.find_tag(seen.family, seen.id) == nullptr) add_tag(seen, later.T_map_body, map);
     gates_.remember_visit(seen, later.frame->stamp, path_length, true);
   }
   if (adjusts) adjust_globally(rig, map);
+  world_is_sure_ = true;
   if (!same_tag(*earlier->sighting, *sighting)) {
     // One sighting's turn swings what is measured by way of another tag: all of them know better.
     closure.T_earlier_later =

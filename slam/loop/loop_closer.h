@@ -75,6 +75,7 @@ class LoopCloser {
     Matrix6d covariance = Matrix6d::Zero();  ///< of T_earlier_later, in the step of the later body
   };
 
+  void add_tag(const TagSighting& sighting, const Pose& T_map_body, Map& map) const;
   std::optional<EarlierEnd> earlier_end(const Keyframe& later, const TagSighting& seen,
                                         const Map& map) const;
   Matrix6d loop_covariance(const TagSighting& later, const TagSighting& earlier,
@@ -83,6 +84,7 @@ class LoopCloser {
 
   LoopCloserSettings settings_;
   TagGates gates_;
+  bool world_is_sure_ = true;  ///< where it lies in the map: of one that was loaded, or by a loop
 };
 
 }  // namespace vinebench::slam

@@ -23,6 +23,10 @@ constexpr double kFrameTurn = 0.01;     // rad
 constexpr double kSureOffset = 0.03;                        // m
 constexpr double kSureTurn = 1.0 * std::numbers::pi / 180;  // rad
 
+/// A tag that is placed worse by its first sighting, from far away, would bend the map to itself.
+constexpr double kPlacedOffset = 0.003;                       // m
+constexpr double kPlacedTurn = 0.2 * std::numbers::pi / 180;  // rad
+
 /// How far a body may be carried, standard deviations.
 constexpr double kAnywhere = 100;  // m
 constexpr double kAnyTurn = 3;     // rad
@@ -34,6 +38,12 @@ std::pair<std::string, int> name_of(const Named& tag) {
 
 double square(double x) {
   return x * x;
+}
+
+/// Root mean square of the three axes, of each.
+bool is_within(const Matrix6d& covariance, double offset, double turn) {
+  return covariance.topLeftCorner<3, 3>().trace() <= 3 * square(offset) &&
+         covariance.bottomRightCorner<3, 3>().trace() <= 3 * square(turn);
 }
 
 /// What is known beforehand of a tag that does not stand exactly where it was surveyed.
@@ -107,8 +117,11 @@ Matrix6d TagGates::localisation_covariance(const std::vector<TagSighting>& sight
 bool TagGates::is_sure(const TagSighting& sighting) const {
   const Matrix6d of_body =
       carry_covariance(covariance(sighting), T_body_tag(sighting, cameras_).inverse());
-  return of_body.topLeftCorner<3, 3>().trace() <= 3 * square(kSureOffset) &&
-         of_body.bottomRightCorner<3, 3>().trace() <= 3 * square(kSureTurn);
+  return is_within(of_body, kSureOffset, kSureTurn);
+}
+
+bool TagGates::places_well(const TagSighting& sighting) const {
+  return is_within(covariance(sighting), kPlacedOffset, kPlacedTurn);
 }
 
 void TagGates::take_over(Map& map) const {
@@ -125,7 +138,7 @@ void TagGates::take_over(Map& map) const {
   if (!found.empty()) map.world() = likeliest_world(found);
 }
 
-void TagGates::add_tag(const TagSighting& sighting, const Pose& T_map_body, Map& map) const {
+MapTag& TagGates::add_tag(const TagSighting& sighting, const Pose& T_map_body, Map& map) const {
   MapTag tag{sighting.family, sighting.id, tag_size_, T_map_body * T_body_tag(sighting, cameras_)};
   if (const RegisteredTag* known = registered(sighting)) {
     tag.size = known->size;
@@ -133,7 +146,7 @@ void TagGates::add_tag(const TagSighting& sighting, const Pose& T_map_body, Map&
     tag.fixed = !tag.survey;
     if (tag.fixed) tag.T_map_tag = *map.world() * known->T_world_tag;
   }
-  map.tags().push_back(tag);
+  return map.tags().emplace_back(tag);
 }
 
 const TagGates::Visit* TagGates::visit(const TagSighting& sighting) const {

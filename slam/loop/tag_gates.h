@@ -61,12 +61,15 @@ class TagGates {
   /// Whether a sighting says well enough where the body is to close a loop by it.
   bool is_sure(const TagSighting& sighting) const;
 
+  /// Whether a sighting says well enough where the tag is to hold the map to it.
+  bool places_well(const TagSighting& sighting) const;
+
   /// Finds by the registered tags of a map that was loaded how it lies in the world.
   void take_over(Map& map) const;
 
   /// Maps a tag that is new, as the sighting has it: one that stands exactly where it was surveyed,
   /// there.
-  void add_tag(const TagSighting& sighting, const Pose& T_map_body, Map& map) const;
+  MapTag& add_tag(const TagSighting& sighting, const Pose& T_map_body, Map& map) const;
 
   /// Leaves the frame those sightings that are to be believed; call it with every tracked frame
   /// before what follows. A sighting is rejected that is ambiguous, one of two of the same name, or

@@ -88,6 +88,8 @@ struct MapTag {
   Pose T_map_tag;
   bool fixed = false;                     ///< its pose is known beforehand, exactly
   std::optional<SurveyedPlace> survey{};  ///< what else is known of it beforehand
+  /// Where it is in the map is known well enough for local adjustments to hold to.
+  bool sure = true;
 
   bool registered() const { return fixed || survey; }
 };

@@ -68,7 +68,7 @@ double* TagFactors::block_of(std::size_t index, ProblemBuilder& problem) {
 void TagFactors::add_sightings(int keyframe, const Map& map, ProblemBuilder& problem) {
   for (const TagSighting& sighting : map.keyframe(keyframe).frame->tags) {
     const MapTag* tag = map.find_tag(sighting.family, sighting.id);
-    if (tag == nullptr) continue;
+    if (tag == nullptr || (!tags_move_ && !tag->sure)) continue;
     double* block = block_of(static_cast<std::size_t>(tag - map.tags().data()), problem);
     const std::array<Eigen::Vector3d, 4> corners = tag_corners(tag->size);
     const double sigma = corner_sigma(sighting, corner_sigma_);
@@ -83,7 +83,9 @@ void TagFactors::add_sightings(int keyframe, const Map& map, ProblemBuilder& pro
 
 void TagFactors::write_back(Map& map) const {
   for (std::size_t t = 0; t + 1 < blocks_.size(); ++t) {
-    if (used_[t] && !held_[t]) map.tags()[t].T_map_tag = from_block(blocks_[t].data());
+    if (!used_[t]) continue;
+    if (!held_[t]) map.tags()[t].T_map_tag = from_block(blocks_[t].data());
+    map.tags()[t].sure = true;
   }
   if (used_.back()) map.world() = from_block(blocks_.back().data());
 }

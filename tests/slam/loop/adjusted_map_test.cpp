@@ -74,6 +74,18 @@ TEST_F(AdjustedMapTest, WhatTheAdjustmentTookOutIsTakenOut) {
   EXPECT_EQ(known_.map.landmark(seen.id).observations.size(), seen.observations.size() - 1);
 }
 
+TEST_F(AdjustedMapTest, ATagThatItPlacedIsSure) {
+  known_.map.tags().push_back({"tag36h11", 0, 0.161, Pose{}});
+  known_.map.tags().back().sure = false;
+  const AdjustedMap copy = adjust_copy(copy_for_adjustment(known_.map), [](Map& map) {
+    map.tags()[0].T_map_tag.translation.x() = 0.1;
+    map.tags()[0].sure = true;
+  });
+  take_over(copy, known_.map);
+  EXPECT_EQ(known_.map.tags()[0].T_map_tag.translation.x(), 0.1);
+  EXPECT_TRUE(known_.map.tags()[0].sure);
+}
+
 TEST_F(AdjustedMapTest, ALandmarkThatTheMapLostSinceStaysLost) {
   const AdjustedMap copy = adjusted();
   const int lost = known_.map.landmarks().back().id;

@@ -70,6 +70,38 @@ TEST_F(LoopCloserTest, TheFirstRegisteredTagGivesTheWorld) {
   EXPECT_EQ(distance(*map_.world(), T_map_world), 0);
 }
 
+// The distance of a tag that is eight times as far away is known 64 times worse, and its turn eight
+// times: 0.1 mm and 0.05 degrees or so are beyond 3 mm and 0.2 degrees then.
+TEST_F(LoopCloserTest, ATagFirstSeenFromAfarIsNotSurelyPlaced) {
+  const Pose near{exp_so3({-1.5, 0.4, 0.1}), {0.1, -1.0, 0.5}};
+  const Pose far{near.rotation, {0.1, -8.0, 0.5}};
+  LoopCloser loop = closer();
+  loop.record(*frame(0, {with_corners(sighting(1, near)), with_corners(sighting(2, far))}), body_,
+              0, map_);
+  ASSERT_EQ(map_.tags().size(), 2u);
+  EXPECT_TRUE(map_.find_tag("tag36h11", 1)->sure);
+  EXPECT_FALSE(map_.find_tag("tag36h11", 2)->sure);
+}
+
+// Registered ones stand in the world, whose place in the map is as sure as the tag that told it.
+TEST_F(LoopCloserTest, RegisteredTagsAreAsSurelyPlacedAsTheWorld) {
+  const Pose near{exp_so3({-1.5, 0.4, 0.1}), {0.1, -1.0, 0.5}};
+  const Pose far{near.rotation, {0.1, -8.0, 0.5}};
+  const Pose T_world_body = body_;
+  const std::vector<RegisteredTag> tags{{"tag36h11", 1, 0.161, T_world_body * near},
+                                        {"tag36h11", 2, 0.161, T_world_body * far}};
+  for (const bool near_first : {true, false}) {
+    map_.tags().clear();
+    map_.world().reset();
+    LoopCloser loop = closer(tags);
+    const TagSighting one = with_corners(sighting(1, near)), two = with_corners(sighting(2, far));
+    loop.record(*frame(0, {near_first ? one : two}), body_, 0, map_);
+    loop.record(*frame(1, {near_first ? two : one}), body_, 0, map_);
+    ASSERT_EQ(map_.tags().size(), 2u);
+    for (const MapTag& tag : map_.tags()) EXPECT_EQ(tag.sure, near_first) << tag.id;
+  }
+}
+
 // A degree of the tag's survey turns the body about the tag: at the distance d of the tag's origin
 // that moves it by a degree times d across the line between them, twice (two axes): 2 d^2 of the
 // trace, beside 3 times the square of the position's own.

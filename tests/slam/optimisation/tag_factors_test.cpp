@@ -96,6 +96,21 @@ TEST_F(TagFactorsTest, ATagIsHeldWhereItsPoseIsKnownOrTagsDoNotMove) {
   }
 }
 
+// A tag that its first sighting placed badly bends no way; a global adjustment finds its place.
+TEST_F(TagFactorsTest, ATagThatIsNotSurelyPlacedWaitsForAGlobalAdjustment) {
+  mapped().fixed = false;
+  mapped().sure = false;
+  mapped().T_map_tag = tag_ * off_;
+  pose(1) = pose(1) * off_;
+  EXPECT_EQ(adjusted({{1}, {0}}, false), 0);  // there are no factors
+  EXPECT_EQ(distance(pose(1), poses_[1] * off_), 0);
+  EXPECT_FALSE(mapped().sure);
+  EXPECT_NEAR(adjusted({{1}, {0}}, true), 0, 1e-9);
+  EXPECT_LT(distance(mapped().T_map_tag, tag_), 1e-6);
+  EXPECT_LT(distance(pose(1), poses_[1]), 1e-6);
+  EXPECT_TRUE(mapped().sure);
+}
+
 // Both surveys are off by the same step of the world: nothing but the world's place has to change.
 TEST_F(TagFactorsTest, TheWorldComesToWhereTheSurveysHaveIt) {
   see_another();
