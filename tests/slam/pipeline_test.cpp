@@ -283,7 +283,8 @@ TEST_F(RoundTripTest, LiveALoopIsClosedBesideTracking) {
     sure = estimate.covariance.trace();
   }
   ASSERT_EQ(closed_at_.size(), 1u);
-  for (std::int64_t i = 221; sure > 0.1 * unsure; ++i) {
+  // The way out and back leaves more than twice as much open as the tag does.
+  for (std::int64_t i = 221; sure > 0.5 * unsure; ++i) {
     ASSERT_LT(i, 3000) << "the adjustment does not join";
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     truth_.push_back(driving(0));
