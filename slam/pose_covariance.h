@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "slam/optimisation/pose_uncertainty.h"
 #include "slam/tracking/tracker.h"
