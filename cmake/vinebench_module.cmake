@@ -103,6 +103,13 @@ function(vinebench_module name)
   target_link_libraries(vinebench_${name} ${ARGN})
   vinebench_flags(vinebench_${name})
   vinebench_unity(vinebench_${name} ${sources})
+  # Highway compiles a file that includes foreach_target.h again for each kind of vectors.
+  foreach(source IN LISTS sources)
+    file(STRINGS ${source} vectors REGEX "hwy/foreach_target.h")
+    if(vectors)
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
+    endif()
+  endforeach()
 endfunction()
 
 # vinebench_shards(PROGRAM): its tests in several processes, because a process with sanitizers

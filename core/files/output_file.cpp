@@ -58,6 +58,14 @@ int write_bytes(const Descriptor& descriptor, std::string_view bytes) {
   return 0;
 }
 
+bool link_file(const std::filesystem::path& file, const std::filesystem::path& name) {
+  const std::filesystem::path partial = temporary_name(name);
+  if (::link(file.c_str(), partial.c_str()) != 0) return false;
+  const bool renamed = std::rename(partial.c_str(), name.c_str()) == 0;
+  ::unlink(partial.c_str());  // rename() leaves both names where they are of one file already
+  return renamed;
+}
+
 OutputFile::OutputFile(std::filesystem::path file) : file_(std::move(file)) {
   int error = EEXIST;
   for (int i = 0; i < kAttempts && error == EEXIST; ++i) {

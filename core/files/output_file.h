@@ -23,6 +23,10 @@ Descriptor create_file(const std::filesystem::path& file);
 /// Writes all bytes; returns 0 or the error number.
 int write_bytes(const Descriptor& descriptor, std::string_view bytes);
 
+/// Gives a complete file a second name, by a hard link; what has that name is replaced. False, and
+/// nothing done, where the system makes no such link: write the file again instead.
+bool link_file(const std::filesystem::path& file, const std::filesystem::path& name);
+
 /// A file that is written in parts to a temporary file beside it, of a random name, which gets the
 /// file's name when complete. An unfinished one is removed. Throws Error with the system's reason.
 class OutputFile {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/truth/body_flow.h"
 
+#include <opencv2/core.hpp>
+
 #include "core/truth/labels.h"
 
 namespace vinebench {
@@ -9,6 +11,7 @@ namespace vinebench {
 void move_body(const PinholeCamera& camera, const Pose& T_world_cam, const Pose& T_world_body,
                const Pose& T_world_body_other, const cv::Mat& mask, const cv::Mat& depth,
                cv::Mat& motion) {
+  if (cv::countNonZero(mask) == 0) return;
   if (motion.empty()) motion = cv::Mat(depth.size(), CV_32FC3, cv::Scalar::all(0));
   const Pose other_from_this = T_world_body_other * T_world_body.inverse();
   for (int y = 0; y < depth.rows; ++y) {

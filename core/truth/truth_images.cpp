@@ -2,23 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/truth/truth_images.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "core/truth/flow_row.h"
 #include "core/util/error.h"
 
 namespace vinebench {
 namespace {
 
-constexpr double kNearest = 1e-3;      // m in front of a camera; nearer points are not in its image
-constexpr double kShare = 1e-3;        // of depth: levels of detail, rounding
-constexpr double kResolution = 4e-6;   // 1/m: depth of 32 bits from 0.03 m on, twice
-constexpr double kSlopeShare = 0.25;   // px, of the depth's slope
-constexpr double kMostBySlope = 0.01;  // of depth
-constexpr double kSameAxes = 1e-6;     // rad, of the cameras and of the baseline off the x axis
+constexpr double kSameAxes = 1e-6;        // rad, of the cameras and of the baseline off the x axis
 constexpr double kSameIntrinsics = 1e-9;  // px
 
 void check(const TruthView& view, const char* which) {
@@ -41,110 +35,82 @@ std::vector<double> rays(int size, double focal, double centre) {
   return at;
 }
 
-/// A row of a's points in camera b's frame, directions for sky, and their places in b's image.
-/// Coordinates apart, so that the compiler takes several pixels at once.
-struct Row {
-  using Numbers = std::vector<double>;
-
-  explicit Row(std::size_t width)
-      : near(width), reach(width), x(width), y(width), z(width), u(width), v(width) {}
-  Numbers near;     ///< 0 for sky, else 1
-  Numbers reach;    ///< depth in a, m; of sky 1
-  Numbers x, y, z;  ///< m
-  Numbers u, v;     ///< px; of what is behind the camera they mean nothing
-};
+cv::Mat without_gaps(const cv::Mat& image) {
+  return image.isContinuous() ? image : image.clone();
+}
 
 /// The positions in b of the points seen by a's pixels.
 class Warp {
  public:
-  Warp(const TruthView& a, const TruthView& b) : a_(a), b_(b) {
+  Warp(const TruthView& a, const TruthView& b) : a_(a) {
     check(a, "the first");
     check(b, "the second");
     const Pose T_b_a = b.T_world_cam.inverse() * a.T_world_cam;
     R_b_a_ = T_b_a.rotation.toRotationMatrix();
     t_b_a_ = T_b_a.translation;
     R_b_world_ = b.T_world_cam.rotation.conjugate().toRotationMatrix();
+    depth_ = without_gaps(b.image.depth);
+    normals_ = without_gaps(b.image.normals);
+    const PinholeCamera& to = b.camera;
+    target_ = {to.width,
+               to.height,
+               to.fx,
+               to.fy,
+               to.cx,
+               to.cy,
+               depth_.ptr<float>(),
+               normals_.ptr<float>()};
   }
 
-  void place(int y, Row& row) const {
-    const std::size_t width = a_columns_.size();
-    const auto* depth = a_.image.depth.ptr<float>(y);
-    for (std::size_t x = 0; x < width; ++x) {
-      row.near[x] = depth[x] != 0 ? 1 : 0;
-      row.reach[x] = static_cast<double>(depth[x]) + (1 - row.near[x]);
+  FlowTruth flow() const {
+    const cv::Size size(a_.camera.width, a_.camera.height);
+    FlowTruth truth{cv::Mat(size, CV_32FC2), cv::Mat(size, CV_8UC1)};
+    FlowPoints points(columns_.size());
+    for (int y = 0; y < size.height; ++y) {
+      const auto* depths = a_.image.depth.ptr<float>(y);
+      place_points(depths, columns_, row_in_b(y), points);
+      if (!a_.image.motion.empty()) move(y, depths, points);
+      find_points(target_, depths, y, points, truth.flow.ptr<float>(y),
+                  truth.visible.ptr<std::uint8_t>(y));
     }
-    const Eigen::Vector3d begin =
-        R_b_a_.col(1) * a_rows_[static_cast<std::size_t>(y)] + R_b_a_.col(2);
-    for (int axis = 0; axis < 3; ++axis) {
-      double* const at = (axis == 0 ? row.x : axis == 1 ? row.y : row.z).data();
-      const double across = R_b_a_(axis, 0);
-      const double ahead = begin[axis];
-      const double moved = t_b_a_[axis];
-      for (std::size_t x = 0; x < width; ++x) {
-        at[x] = row.reach[x] * (across * a_columns_[x] + ahead) + row.near[x] * moved;
-      }
-    }
-    if (!a_.image.motion.empty()) move(y, row);
-    const PinholeCamera& to = b_.camera;
-    for (std::size_t x = 0; x < width; ++x) {
-      row.u[x] = to.fx * (row.x[x] / row.z[x]) + to.cx;
-      row.v[x] = to.fy * (row.y[x] / row.z[x]) + to.cy;
-    }
-  }
-
-  /// Whether the point of a row, or the sky, is visible in b.
-  bool shows(const Row& row, std::size_t i) const {
-    if (!b_.camera.contains({row.u[i], row.v[i]})) return false;
-    // The nearest pixel; positions begin at -0.5.
-    const int x = std::min(static_cast<int>(row.u[i] + 0.5), b_.camera.width - 1);
-    const int y = std::min(static_cast<int>(row.v[i] + 0.5), b_.camera.height - 1);
-    const double seen = b_.image.depth.ptr<float>(y)[x];
-    const bool sky = row.near[i] == 0;
-    if (sky || seen == 0) return sky && seen == 0;
-    return agrees(x, y, seen, {row.x[i], row.y[i], row.z[i]});
+    return truth;
   }
 
  private:
+  RowInView row_in_b(int y) const {
+    const Eigen::Vector3d ahead =
+        R_b_a_.col(1) * rows_[static_cast<std::size_t>(y)] + R_b_a_.col(2);
+    RowInView row;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      row.across[i] = R_b_a_(axis, 0);
+      row.ahead[i] = ahead[axis];
+      row.moved[i] = t_b_a_[axis];
+    }
+    return row;
+  }
+
   /// By the wind or with the rover. Most points stand still.
-  void move(int y, Row& row) const {
+  void move(int y, const float* depths, FlowPoints& points) const {
     const auto* motion = a_.image.motion.ptr<cv::Vec3f>(y);
-    for (std::size_t x = 0; x < row.x.size(); ++x) {
+    for (std::size_t x = 0; x < points.x.size(); ++x) {
       const cv::Vec3f& m = motion[x];
-      if (row.near[x] == 0 || (m[0] == 0 && m[1] == 0 && m[2] == 0)) continue;
+      if (depths[x] == 0 || (m[0] == 0 && m[1] == 0 && m[2] == 0)) continue;
       const Eigen::Vector3d moved = R_b_world_ * Eigen::Vector3d(m[0], m[1], m[2]);
-      row.x[x] += moved.x();
-      row.y[x] += moved.y();
-      row.z[x] += moved.z();
+      points.x[x] += moved.x();
+      points.y[x] += moved.y();
+      points.z[x] += moved.z();
     }
   }
 
-  /// The plane seen at pixel (x, y) is n . p = n . (seen * ray); a ray of z = 1 meets it at the
-  /// depth n . (seen * ray) / n . ray'.
-  bool agrees(int x, int y, double seen, const Eigen::Vector3d& point) const {
-    const cv::Vec3f& normal = b_.image.normals.ptr<cv::Vec3f>(y)[x];
-    const Eigen::Vector3d n(normal[0], normal[1], normal[2]);
-    const double facing = n.x() * b_columns_[static_cast<std::size_t>(x)] +
-                          n.y() * b_rows_[static_cast<std::size_t>(y)] + n.z();
-    // Both sides times n . ray' * z: divisions are for the few that do not agree at once.
-    const double along = n.dot(point);
-    const double off = std::abs(point.z() * (along - seen * facing));
-    const double usual = seen * (kShare + kResolution * seen);
-    if (!(std::abs(along) > 0)) return false;
-    if (off <= usual * std::abs(along)) return true;
-    const double slope = seen * Eigen::Vector2d(n.x() / b_.camera.fx, n.y() / b_.camera.fy).norm() /
-                         std::abs(facing);
-    return off / std::abs(along) - usual <= std::min(kSlopeShare * slope, kMostBySlope * seen);
-  }
-
   const TruthView& a_;
-  const TruthView& b_;
   Eigen::Matrix3d R_b_a_;
   Eigen::Vector3d t_b_a_;
   Eigen::Matrix3d R_b_world_;
-  std::vector<double> a_columns_ = rays(a_.camera.width, a_.camera.fx, a_.camera.cx);
-  std::vector<double> a_rows_ = rays(a_.camera.height, a_.camera.fy, a_.camera.cy);
-  std::vector<double> b_columns_ = rays(b_.camera.width, b_.camera.fx, b_.camera.cx);
-  std::vector<double> b_rows_ = rays(b_.camera.height, b_.camera.fy, b_.camera.cy);
+  cv::Mat depth_, normals_;  // of b
+  FlowTarget target_;
+  std::vector<double> columns_ = rays(a_.camera.width, a_.camera.fx, a_.camera.cx);
+  std::vector<double> rows_ = rays(a_.camera.height, a_.camera.fy, a_.camera.cy);
 };
 
 void check_rectified(const TruthView& left, const TruthView& right) {
@@ -166,24 +132,7 @@ void check_rectified(const TruthView& left, const TruthView& right) {
 }  // namespace
 
 FlowTruth optical_flow(const TruthView& a, const TruthView& b) {
-  const Warp warp(a, b);
-  const cv::Size size(a.camera.width, a.camera.height);
-  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-  FlowTruth truth{cv::Mat(size, CV_32FC2), cv::Mat(size, CV_8UC1)};
-  Row row(static_cast<std::size_t>(size.width));
-  for (int y = 0; y < size.height; ++y) {
-    warp.place(y, row);
-    auto* flow = truth.flow.ptr<cv::Vec2f>(y);
-    auto* visible = truth.visible.ptr<std::uint8_t>(y);
-    for (std::size_t x = 0; x < row.z.size(); ++x) {
-      const bool ahead = row.z[x] > kNearest;
-      flow[x] = ahead ? cv::Vec2f(static_cast<float>(row.u[x] - static_cast<double>(x)),
-                                  static_cast<float>(row.v[x] - y))
-                      : cv::Vec2f(kNone, kNone);
-      visible[x] = ahead && warp.shows(row, x) ? 255 : 0;
-    }
-  }
-  return truth;
+  return Warp(a, b).flow();
 }
 
 DisparityTruth disparity(const TruthView& left, const TruthView& right) {

@@ -21,7 +21,7 @@ struct RenderedImage {
   /// depth; of a wire, the direction to the camera. 0 for sky.
   cv::Mat normals;
   /// CV_32FC3, m, world frame: displacement of the point from `time` to `other_time`, by the wind
-  /// or with the rover.
+  /// or with the rover. May be empty where nothing in the image moves.
   cv::Mat motion;
 };
 

@@ -3,12 +3,14 @@
 #include "harness/datasets/files/file_manifest.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <xxhash.h>
 
 #include <algorithm>
 #include <memory>
 #include <set>
 #include <system_error>
+#include <utility>
 
 #include "core/files/files.h"
 #include "core/util/error.h"
@@ -70,10 +72,12 @@ std::vector<std::string> files_below(const fs::path& folder) {
 
 std::uint64_t bytes_below(const fs::path& folder) {
   std::uint64_t bytes = 0;
+  std::set<std::pair<dev_t, ino_t>> counted;
   for (const std::string& name : files_below(folder)) {
-    std::error_code error;
-    const std::uintmax_t size = fs::file_size(folder / name, error);
-    if (!error) bytes += size;
+    struct stat status {};
+    if (stat((folder / name).c_str(), &status) != 0) continue;
+    const bool first = status.st_nlink == 1 || counted.emplace(status.st_dev, status.st_ino).second;
+    if (first) bytes += static_cast<std::uint64_t>(status.st_size);
   }
   return bytes;
 }

@@ -54,7 +54,7 @@ std::vector<ListedFile> read_manifest(const std::filesystem::path& file);
 /// All files below a folder, relative to it, by name.
 std::vector<std::string> files_below(const std::filesystem::path& folder);
 
-/// Their sizes together.
+/// Their sizes together, of a file with several names once.
 std::uint64_t bytes_below(const std::filesystem::path& folder);
 
 }  // namespace vinebench::harness

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/files/files.h"
+#include "core/files/output_file.h"
 
 namespace vinebench::harness {
 namespace {
@@ -27,6 +28,24 @@ std::vector<std::vector<FileTask>> grouped(std::vector<FileTask> tasks) {
     groups[place->second].push_back(std::move(task));
   }
   return groups;
+}
+
+/// Hands the bytes to all of the group, whose files are one on the disk where it has hard links.
+/// How often it has the bytes.
+std::size_t put(const std::vector<FileTask>& group, const std::string& bytes) {
+  std::size_t copies = 0;
+  const fs::path* written = nullptr;
+  for (const FileTask& task : group) {
+    if (!task.take && written != nullptr && link_file(*written, task.file)) continue;
+    ++copies;
+    if (task.take) {
+      task.take(bytes);
+      continue;
+    }
+    write_file_atomically(task.file, bytes);
+    written = &task.file;
+  }
+  return copies;
 }
 
 }  // namespace
@@ -65,10 +84,7 @@ void DatasetEncoder::write(const std::shared_ptr<const DatasetFrame>& frame) {
     const auto start = std::chrono::steady_clock::now();
     const std::string bytes = groups[i].front().bytes();
     if (manifest_ != nullptr) hashes[i] = xxh128(bytes);
-    for (const FileTask& task : groups[i]) {
-      task.take ? task.take(bytes) : write_file_atomically(task.file, bytes);
-    }
-    bytes_ += bytes.size() * groups[i].size();
+    bytes_ += bytes.size() * put(groups[i], bytes);
     seconds[i] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   });
   for (std::size_t i = 0; i < groups.size(); ++i) seconds_[groups[i].front().key] = seconds[i];

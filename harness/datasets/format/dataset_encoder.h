@@ -34,7 +34,7 @@ class DatasetEncoder {
   /// Waits until everything is written and finishes the formats; rethrows likewise.
   void finish();
 
-  /// Bytes written so far by the frames' tasks.
+  /// Bytes written so far by the frames' tasks; a file of several names counts once.
   std::uint64_t bytes() const { return bytes_; }
 
  private:

@@ -93,7 +93,6 @@ class GlRenderer::Impl {
     }
     if (request.normals) read_back_.normals(gl, size, image.normals);
     if (request.motion && windy_) read_back_.motion(gl, size, image.motion);
-    if (request.motion && !windy_) image.motion = cv::Mat::zeros(size, CV_32FC3);
     return image;
   }
 

@@ -20,10 +20,10 @@ Stamp subframe_offset(int subframe, int count, double exposure_time) {
   return from_seconds(((subframe + 0.5) / count - 0.5) * exposure_time);
 }
 
-/// Puts a band of rows into a whole image, begun where it is empty.
+/// Puts a band of rows into a whole image, begun where it is empty. A band without motion has none.
 void put_rows(const cv::Mat& band, int top, cv::Size whole, cv::Mat& image) {
   if (band.empty()) return;
-  if (image.empty()) image.create(whole, band.type());
+  if (image.empty()) image = cv::Mat(whole, band.type(), cv::Scalar::all(0));
   band.copyTo(image.rowRange(top, top + band.rows));
 }
 

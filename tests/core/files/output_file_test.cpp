@@ -126,6 +126,40 @@ TEST_F(OutputFileTest, ACreatedFileReplacesALinkAndAFile) {
   EXPECT_FALSE(fs::exists(folder_ / "nowhere"));
 }
 
+TEST_F(OutputFileTest, ALinkedFileHasTwoNamesAndReplacesWhatHadTheSecond) {
+  const fs::path file = folder_.write("file", "ours");
+  const fs::path target = folder_.write("target", "theirs");
+  fs::create_symlink(target, folder_ / "link");
+  folder_.write("old", "before");
+  for (const char* name : {"new", "old", "link", "new"}) {  // the last is one of its names already
+    EXPECT_TRUE(link_file(file, folder_ / name));
+    EXPECT_EQ(read_file(folder_ / name), "ours") << name;
+    EXPECT_FALSE(fs::is_symlink(folder_ / name)) << name;
+  }
+  EXPECT_EQ(fs::hard_link_count(file), 4u);
+  EXPECT_EQ(read_file(target), "theirs");
+  EXPECT_EQ(content(), (std::set<std::string>{"file", "target", "new", "old", "link"}));
+}
+
+// A new file takes the name: what was linked to it keeps its bytes.
+TEST_F(OutputFileTest, WritingALinkedFileAgainLeavesItsOtherName) {
+  const fs::path file = folder_.write("file", "first");
+  ASSERT_TRUE(link_file(file, folder_ / "other"));
+  write_file_atomically(file, "second");
+  EXPECT_EQ(read_file(file), "second");
+  EXPECT_EQ(read_file(folder_ / "other"), "first");
+}
+
+TEST_F(OutputFileTest, WhereNoLinkCanBeMadeNothingIsDone) {
+  const fs::path file = folder_.write("file", "ours");
+  fs::create_directory(folder_ / "folder");
+  EXPECT_FALSE(link_file(folder_ / "missing", folder_ / "x"));
+  EXPECT_FALSE(link_file(file, folder_ / "no/x"));
+  EXPECT_FALSE(link_file(file, folder_ / "folder"));
+  EXPECT_FALSE(link_file("/proc/self/status", folder_ / "x"));  // another file system
+  EXPECT_EQ(content(), (std::set<std::string>{"file", "folder"}));
+}
+
 TEST_F(OutputFileTest, WhatCannotBeCreatedIsNamedWithItsReason) {
   EXPECT_THAT(test::error_of([&] { create_file(folder_.path()); }),
               AllOf(HasSubstr(folder_.path().string()), HasSubstr("Is a directory")));

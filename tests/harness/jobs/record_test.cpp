@@ -4,9 +4,11 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "harness/datasets/dataset_check.h"
+#include "harness/datasets/files/file_manifest.h"
 #include "harness/datasets/format/dataset_card.h"
 #include "harness/datasets/open_recording.h"
 #include "tests/support/small_scenario.h"
@@ -46,6 +48,23 @@ TEST_F(RecordTest, TheSameBytesForAnyNumberOfThreads) {
   EXPECT_TRUE(card.complete);
   EXPECT_EQ(card.frames, kFrames);
   EXPECT_EQ(card.cameras, (std::vector<std::string>{"left", "right", "side"}));
+}
+
+TEST_F(RecordTest, AnImageOfTwoFormatsIsOneFileOnTheDisk) {
+  draw_without_plants();
+  const RecordOutcome outcome = record({"rgb", "coco"});
+  const auto image = request_.out / "rgb" / "left" / "000000.png";
+  const auto other = request_.out / "coco" / "images" / "left_000000.png";
+  EXPECT_TRUE(std::filesystem::equivalent(image, other));
+  const auto names = files_below(request_.out);
+  std::uint64_t named = 0;
+  for (const std::string& name : names) named += std::filesystem::file_size(request_.out / name);
+  std::uint64_t images = 0;
+  for (const std::string& name : names) {
+    if (name.starts_with("rgb/")) images += std::filesystem::file_size(request_.out / name);
+  }
+  EXPECT_EQ(named - images, outcome.bytes);
+  EXPECT_THAT(faults(), testing::IsEmpty());
 }
 
 TEST_F(RecordTest, AnInterruptedRecordingIsReadableAndGoesOn) {

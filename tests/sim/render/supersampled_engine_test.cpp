@@ -100,6 +100,7 @@ TEST_F(WhitePanel, EdgesHaveStepsBetween) {
 TEST_F(WhitePanel, TheTruthIsThatOfThePlainImageToTheByte) {
   RenderRequest request = truth_request();
   request.instances = true;
+  scene_.wind.speed = 2;  // m/s: without any, no image of motion is drawn
   const RenderedImage plain = drawn(1, request);
   const RenderedImage fine = drawn(2, request);
   EXPECT_GT(test::different_values(fine.rgb, plain.rgb), 0);

@@ -146,7 +146,7 @@ TEST_F(LensTruthTest, EveryImageIsBentAlikeToTheNearestPixel) {
     const RenderedImage image = capture(camera, bands);
     ASSERT_EQ(image.instances.size(), image.labels.size());
     ASSERT_EQ(image.normals.size(), image.labels.size());
-    ASSERT_EQ(image.motion.size(), image.labels.size());
+    ASSERT_TRUE(image.motion.empty());  // nothing moves
     int compared = 0;
     for (int v = 0; v < 300; ++v) {
       for (int u = 0; u < 400; ++u) {

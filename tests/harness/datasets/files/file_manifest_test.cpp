@@ -31,6 +31,14 @@ TEST(FileManifestTest, LinksThatLeadNowhereAreNoFiles) {
   EXPECT_THAT(files_below(folder.path()), testing::ElementsAre("file"));
 }
 
+TEST(FileManifestTest, BytesOfAFileWithTwoNamesCountOnce) {
+  const test::TestFolder folder;
+  folder.write("a", "four");
+  folder.write("b", "three");
+  std::filesystem::create_hard_link(folder / "a", folder / "c");
+  EXPECT_EQ(bytes_below(folder.path()), 9u);  // 4 + 5
+}
+
 TEST(FileManifestTest, APipeHasNoHash) {
   const test::TestFolder folder;
   const auto pipe = test::make_pipe(folder, "pipe");

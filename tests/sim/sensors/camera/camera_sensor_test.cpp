@@ -118,6 +118,31 @@ TEST_F(EdgeTest, TheRoverIsWhereTheCameraIsInEachSubframeAndBand) {
   EXPECT_EQ(drawn, 3 * 4);
 }
 
+// Images of motion are empty where nothing moves.
+TEST_F(EdgeTest, RowsOfBandsWithoutMotionStandStill) {
+  CameraSensorConfig config = off();
+  config.readout_time = 0.02;
+  config.readout_bands = 4;
+  CameraSensor sensor(config, camera(), 0, 1, kDark);
+  int drawn = 0;
+  const RenderedImage image = sensor.capture(
+      {}, [&](Stamp stamp) { return pose_at(0, stamp); },
+      [&](const PinholeCamera& view, const Pose& pose, const RenderRequest& request) {
+        RenderedImage band = renderer_.render(view, pose, request);
+        if (drawn++ == 2) {
+          band.motion = cv::Mat(view.height, view.width, CV_32FC3, cv::Scalar(1, 2, 3));
+        }
+        return band;
+      });
+  ASSERT_EQ(image.motion.size(), image.rgb.size());
+  const int height = image.motion.rows / 4;
+  const cv::Mat third = image.motion.rowRange(2 * height, 3 * height);
+  const cv::Mat others[] = {image.motion.rowRange(0, 2 * height),
+                            image.motion.rowRange(3 * height, 4 * height)};
+  EXPECT_EQ(cv::mean(third), cv::Scalar(1, 2, 3));
+  for (const cv::Mat& rows : others) EXPECT_EQ(cv::countNonZero(rows.reshape(1)), 0);
+}
+
 TEST_F(EdgeTest, BlurIsAsLongAsExposureTimesImageSpeed) {
   for (const double exposure : {0.05, 0.1}) {
     CameraSensorConfig config = off();
