@@ -88,10 +88,10 @@ HWY_INLINE M seen_lanes(D d, const FlowTarget& b, M inside, M sky, I u, I v,
   const auto off = hn::Abs(hn::Mul(p.z, hn::Sub(along, hn::Mul(seen, facing))));
   const auto usual =
       hn::Mul(seen, hn::Add(hn::Set(d, kShare), hn::Mul(hn::Set(d, kResolution), seen)));
-  const auto depth_share = hn::Abs(along);
+  const auto along_size = hn::Abs(along);
   const auto solid =
-      hn::And(hn::AndNot(hn::Or(sky, empty), inside), hn::Gt(depth_share, hn::Zero(d)));
-  const auto agrees = hn::And(solid, hn::Le(off, hn::Mul(usual, depth_share)));
+      hn::And(hn::AndNot(hn::Or(sky, empty), inside), hn::Gt(along_size, hn::Zero(d)));
+  const auto agrees = hn::And(solid, hn::Le(off, hn::Mul(usual, along_size)));
   const auto visible = hn::Or(agrees, hn::And(inside, hn::And(sky, empty)));
   const auto others = hn::AndNot(agrees, solid);
   if (hn::AllFalse(d, others)) return visible;
@@ -101,7 +101,7 @@ HWY_INLINE M seen_lanes(D d, const FlowTarget& b, M inside, M sky, I u, I v,
   const auto slope = hn::Div(hn::Mul(seen, steepness), hn::Abs(facing));
   const auto allowed =
       hn::Min(hn::Mul(hn::Set(d, kSlopeShare), slope), hn::Mul(hn::Set(d, kMostBySlope), seen));
-  const auto too_far = hn::Sub(hn::Div(off, depth_share), usual);
+  const auto too_far = hn::Sub(hn::Div(off, along_size), usual);
   return hn::Or(visible, hn::And(others, hn::Le(too_far, allowed)));
 }
 
