@@ -99,9 +99,11 @@ Pose SensorFile::T_BS() const {
 std::optional<Pose> SensorFile::transform(const std::string& key) const {
   const YAML::Node node = root_[key];
   if (!node.IsDefined()) return std::nullopt;
+  const std::string rows = key + ": expected four rows of numbers";
+  if (!node.IsSequence()) fault(node, rows);
   YAML::Node data(YAML::NodeType::Sequence);
   for (const YAML::Node& row : node) {
-    if (!row.IsSequence()) fault(node, fmt::format("{}: expected four rows of numbers", key));
+    if (!row.IsSequence()) fault(node, rows);
     for (const YAML::Node& number : row) data.push_back(number);
   }
   if (data.size() != 16) fault(node, fmt::format("{}: expected four rows of four numbers", key));

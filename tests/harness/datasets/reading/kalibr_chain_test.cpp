@@ -82,6 +82,8 @@ TEST_F(KalibrChainTest, WhatCannotBeUsedIsAnErrorWithItsLine) {
               HasSubstr("camchain.yaml:16: T_cam_imu: expected a rotation"));
   EXPECT_THAT(error(first + replaced(second, "[1, 0, 0, 0]", "1")),
               HasSubstr("T_cam_imu: expected four rows of numbers"));
+  EXPECT_THAT(error(first + replaced(second, "T_cam_imu:", "T_cam_imu: {x: 1}\n  rows:")),
+              HasSubstr("T_cam_imu: expected four rows of numbers"));
   EXPECT_THAT(error(first + replaced(second, "[1, 0, 0, 0]", "[1, 0]")),
               HasSubstr("T_cam_imu: expected four rows of four numbers"));
   EXPECT_THAT(error(first + replaced(second, "model: pinhole", "model: omni")),
