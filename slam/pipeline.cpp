@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/geometry/step_covariance.h"
 #include "core/util/error.h"
 #include "slam/frame/measurements.h"
 #include "slam/loop/loop_correction.h"

@@ -78,7 +78,7 @@ bool Recovery::restart_map(TrackedFrame& tracked, double path_length) {
   tracked.motion.T_map_body = tracker_.T_map_body();
   tracked.link = OdometryLink{last.id, last.T_map_body.inverse() * tracker_.T_map_body(),
                               tracker_.dead_reckoning().covariance()};
-  loop_closer_.gates().cross_gap(path_length, tracked.link->covariance,
+  loop_closer_.gates().cross_gap(path_length, tracker_.dead_reckoning().worst_covariance(),
                                  static_cast<int>(map_.keyframes().size()));
   tracked.associations = no_associations(*tracked.frame);
   tracked.motion.information.setZero();

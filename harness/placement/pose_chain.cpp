@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/step_covariance.h"
 #include "core/util/percentile.h"
 
 namespace vinebench::harness {
@@ -30,13 +31,13 @@ PoseChain::PoseChain(const std::vector<Pose>& poses, const OdometryDrift& drift)
   for (std::size_t k = 0; k < poses.size(); ++k) {
     if (k == 0) {
       carried_.emplace_back(Matrix6d::Identity());
-      noise_.emplace_back(slam::isotropic_covariance(kFirstOffset, kFirstTurn));
+      noise_.emplace_back(isotropic_covariance(kFirstOffset, kFirstTurn));
       continue;
     }
     const Pose T_before_now = poses[k - 1].inverse() * poses[k];
     const double root = std::sqrt(std::max(T_before_now.translation.norm(), kShortestStep));
-    carried_.push_back(slam::carried_step(T_before_now));
-    noise_.push_back(slam::isotropic_covariance(drift.offset * root, drift.turn * root));
+    carried_.push_back(carried_step(T_before_now));
+    noise_.push_back(isotropic_covariance(drift.offset * root, drift.turn * root));
   }
 }
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/geometry/pose.h"
-#include "slam/optimisation/pose_uncertainty.h"
 
 namespace vinebench::harness {
 

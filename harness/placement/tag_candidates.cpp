@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/geometry/step_covariance.h"
 #include "harness/experiment/clear_view.h"
 #include "sim/rover/route.h"
 #include "sim/world/world_layout.h"
@@ -119,7 +120,7 @@ void predict_sightings(std::vector<TagCandidate>& candidates, const std::vector<
   const ClearView view(rig);
   const slam::TagCameras cameras(rig.cameras);
   const sim::WorldLayout layout = sim::lay_out(world);
-  const Matrix6d survey = slam::isotropic_covariance(model.survey.position, model.survey.rotation);
+  const Matrix6d survey = isotropic_covariance(model.survey.position, model.survey.rotation);
   for (TagCandidate& candidate : candidates) {
     const WorldTag& tag = candidate.placed;
     for (std::size_t k = 0; k < poses.size(); ++k) {
@@ -135,7 +136,7 @@ void predict_sightings(std::vector<TagCandidate>& candidates, const std::vector<
         const TagSighting sighting = sighting_of(tag, camera, rig, poses[k], model.corner_sigma);
         const Matrix6d of_tag = slam::tag_covariance(sighting, tag.size, cameras, 0) + survey;
         const Pose T_tag_body = tag.T_world_tag.inverse() * poses[k];
-        const Matrix6d of_body = slam::carry_covariance(of_tag, T_tag_body);
+        const Matrix6d of_body = carry_covariance(of_tag, T_tag_body);
         candidate.information.emplace_back(k, of_body.ldlt().solve(Matrix6d::Identity()));
       }
     }

@@ -6,11 +6,11 @@
 
 #include <algorithm>
 
+#include "core/geometry/step_covariance.h"
 #include "core/util/error.h"
 #include "slam/loop/levelling.h"
 #include "slam/loop/loop_correction.h"
 #include "slam/optimisation/bundle_adjustment.h"
-#include "slam/optimisation/pose_uncertainty.h"
 
 namespace vinebench::slam {
 namespace {

@@ -5,7 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "slam/optimisation/pose_uncertainty.h"
+#include "core/geometry/step_covariance.h"
 
 namespace vinebench::slam {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "slam/optimisation/pose_uncertainty.h"
+#include "core/geometry/step_covariance.h"
 #include "slam/tracking/place_evidence.h"
 
 namespace vinebench::slam {

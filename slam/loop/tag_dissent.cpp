@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/loop/tag_dissent.h"
 
-#include "slam/optimisation/pose_uncertainty.h"
+#include "core/geometry/step_covariance.h"
 #include "slam/optimisation/tag_localisation.h"
 
 namespace vinebench::slam {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "slam/optimisation/pose_uncertainty.h"
+#include "core/geometry/step_covariance.h"
 
 namespace vinebench::slam {
 namespace {

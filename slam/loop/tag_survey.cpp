@@ -4,7 +4,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "slam/optimisation/pose_uncertainty.h"
+#include "core/geometry/step_covariance.h"
 
 namespace vinebench::slam {
 namespace {

@@ -8,6 +8,7 @@
 #include "core/geometry/pose.h"
 #include "slam/odometry/inertial_filter.h"
 #include "slam/odometry/map_gravity.h"
+#include "slam/odometry/wheel_accuracy.h"
 #include "slam/odometry/wheel_odometry.h"
 
 namespace vinebench::slam {
@@ -15,11 +16,13 @@ namespace vinebench::slam {
 /// What is known of the body's motion while no camera sees anything.
 struct DeadReckoningConfig {
   std::optional<MecanumWheels> wheels;  ///< without, the last velocity is kept
-  double wheel_slip = 0.05;             ///< share of the way, standard deviation
-  double wheel_turn = 0.05;             ///< rad a m of the way and a rad turned, likewise
-  double acceleration = 0.5;            ///< m/s^2, that a kept velocity does not know of
-  double turn_acceleration = 0.5;       ///< rad/s^2, likewise
-  double max_sigma = 1.0;               ///< m; less certain than this the body is lost
+  /// Share of the way, standard deviation: gates allow for it; a pose's covariance goes by how
+  /// wrong the wheels were while the cameras saw.
+  double wheel_slip = 0.05;
+  double wheel_turn = 0.05;        ///< rad a m of the way and a rad turned, likewise
+  double acceleration = 0.5;       ///< m/s^2, that a kept velocity does not know of
+  double turn_acceleration = 0.5;  ///< rad/s^2, likewise
+  double max_sigma = 1.0;          ///< m; less certain than this the body is lost
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -77,18 +80,24 @@ class DeadReckoning {
 
   bool active() const { return frames_ > 0; }
   int frames() const { return frames_; }
+  /// By what was told of the wheels, which may begin to slip now.
   double sigma_position() const;  ///< m
   double sigma_rotation() const;  ///< rad
   bool is_lost() const { return sigma_position() > config_.max_sigma; }
 
-  /// Covariance of the motion since then, in the step of step_of.
+  /// Covariance of the motion since then, in the step of step_of: as wrong as the wheels were when
+  /// the cameras last saw, and at worst, which is what was told of them.
   Matrix6d covariance() const;
+  Matrix6d worst_covariance() const;
 
  private:
   bool is_inertial() const { return inertial_ && inertial_->running(); }
+  double sigma_of_velocity(double acceleration) const;
 
   DeadReckoningConfig config_;
   std::optional<InertialFilter> inertial_;
+  WheelAccuracy wheel_accuracy_;
+  WheelDrift drift_;
   int frames_ = 0;
   double seconds_on_velocity_ = 0;
   double way_ = 0;   ///< m, by the wheels

@@ -5,7 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "core/geometry/cross_matrix.h"
+#include "core/geometry/step_covariance.h"
 
 namespace vinebench::slam {
 namespace {
@@ -19,28 +19,6 @@ Matrix6d inflated_inverse(const Matrix6d& information) {
 }
 
 }  // namespace
-
-Matrix6d isotropic_covariance(double offset, double turn) {
-  Vector6d variances;
-  variances << Eigen::Vector3d::Constant(offset * offset), Eigen::Vector3d::Constant(turn * turn);
-  return variances.asDiagonal();
-}
-
-Matrix6d carried_step(const Pose& T_a_b) {
-  // A step (rho, theta) of a moves b by R_ba (rho + theta x t) and turns it by R_ba theta.
-  const Eigen::Matrix3d R_b_a = T_a_b.rotation.toRotationMatrix().transpose();
-  const Eigen::Vector3d& t = T_a_b.translation;
-  Matrix6d J = Matrix6d::Zero();
-  J.topLeftCorner<3, 3>() = R_b_a;
-  J.topRightCorner<3, 3>() = -R_b_a * cross_matrix(t);
-  J.bottomRightCorner<3, 3>() = R_b_a;
-  return J;
-}
-
-Matrix6d carry_covariance(const Matrix6d& of_a, const Pose& T_a_b) {
-  const Matrix6d J = carried_step(T_a_b);
-  return J * of_a * J.transpose();
-}
 
 void PoseUncertainty::start(const Matrix6d& covariance) {
   noise_ = covariance;

@@ -7,8 +7,8 @@
 #include <map>
 #include <numbers>
 
+#include "core/geometry/step_covariance.h"
 #include "slam/factors/reprojection.h"
-#include "slam/optimisation/pose_uncertainty.h"
 #include "slam/tags/tag_sightings.h"
 
 namespace vinebench::slam {

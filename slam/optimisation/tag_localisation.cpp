@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "core/geometry/step_covariance.h"
 #include "slam/factors/pose_manifold.h"
 #include "slam/factors/tag_corner_factor.h"
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "slam/camera/tag_cameras.h"
-#include "slam/optimisation/pose_uncertainty.h"
 #include "slam/tags/tag_sightings.h"
 
 namespace vinebench::slam {

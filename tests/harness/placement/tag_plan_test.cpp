@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/geometry/step_covariance.h"
+
 namespace vinebench::harness {
 namespace {
 
@@ -18,7 +20,7 @@ class TagPlanTest : public testing::Test {
     std::vector<Pose> poses;
     for (int k = 0; k <= 60; ++k) poses.push_back({{1, 0, 0, 0}, {1.0 * k, 0, 0}});
     chain_.emplace(poses, OdometryDrift{1e-3, 2e-4});
-    const Matrix6d sure = slam::isotropic_covariance(0.002, 0.01).inverse();
+    const Matrix6d sure = isotropic_covariance(0.002, 0.01).inverse();
     for (std::size_t k = 5; k <= 60; k += 5) {
       candidates_.emplace_back();
       candidates_.back().information = {{k, sure}};

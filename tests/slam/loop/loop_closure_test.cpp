@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "core/geometry/step_covariance.h"
 #include "core/util/error.h"
 #include "tests/support/loop_closure_case.h"
 

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "core/geometry/step_covariance.h"
 #include "slam/factors/reprojection.h"
 
 namespace vinebench::slam {
@@ -13,24 +14,6 @@ namespace {
 
 Pose sample_step() {
   return {exp_so3({0.1, -0.2, 0.5}), {0.4, -0.1, 0.2}};
-}
-
-TEST(PoseUncertaintyTest, IsCarriedAlongAMotionAsStepsAre) {
-  const Pose T_map_a{exp_so3({0.3, 0.1, -0.4}), {1, 2, 3}};
-  const Pose T_a_b = sample_step();
-  // A unit step of a alone has rank-one covariance; b's is that of the step it makes there.
-  for (int i = 0; i < 6; ++i) {
-    constexpr double kSmall = 1e-6;
-    Vector6d step = Vector6d::Zero();
-    step[i] = kSmall;
-    const Pose moved = (T_map_a * T_a_b).inverse() * (T_map_a * step_of(step) * T_a_b);
-    Vector6d there;
-    there << moved.translation, log_so3(moved.rotation);
-    there /= kSmall;
-    Matrix6d of_a = Matrix6d::Zero();
-    of_a(i, i) = 1;
-    EXPECT_LT((carry_covariance(of_a, T_a_b) - there * there.transpose()).norm(), 1e-5) << i;
-  }
 }
 
 TEST(PoseUncertaintyTest, GrowsFromKeyframeToKeyframe) {

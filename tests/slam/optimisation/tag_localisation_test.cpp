@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/geometry/step_covariance.h"
 #include "slam/optimisation/bundle_adjustment.h"
 #include "slam/tags/tag_pose.h"
 #include "tests/support/aisle_map.h"
