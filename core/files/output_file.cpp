@@ -61,9 +61,10 @@ int write_bytes(const Descriptor& descriptor, std::string_view bytes) {
 bool link_file(const std::filesystem::path& file, const std::filesystem::path& name) {
   const std::filesystem::path partial = temporary_name(name);
   if (::link(file.c_str(), partial.c_str()) != 0) return false;
-  const bool renamed = std::rename(partial.c_str(), name.c_str()) == 0;
+  const int error = std::rename(partial.c_str(), name.c_str()) == 0 ? 0 : errno;
   ::unlink(partial.c_str());  // rename() leaves both names where they are of one file already
-  return renamed;
+  if (error != 0) fail_to_write(name, error);
+  return true;
 }
 
 OutputFile::OutputFile(std::filesystem::path file) : file_(std::move(file)) {

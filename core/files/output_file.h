@@ -24,7 +24,8 @@ Descriptor create_file(const std::filesystem::path& file);
 int write_bytes(const Descriptor& descriptor, std::string_view bytes);
 
 /// Gives a complete file a second name, by a hard link; what has that name is replaced. False, and
-/// nothing done, where the system makes no such link: write the file again instead.
+/// nothing done, where the system makes no link there: write the file again instead. Throws Error
+/// with the system's reason where it makes one and does not let it have the name.
 bool link_file(const std::filesystem::path& file, const std::filesystem::path& name);
 
 /// A file that is written in parts to a temporary file beside it, of a random name, which gets the

@@ -150,14 +150,20 @@ TEST_F(OutputFileTest, WritingALinkedFileAgainLeavesItsOtherName) {
   EXPECT_EQ(read_file(folder_ / "other"), "first");
 }
 
-TEST_F(OutputFileTest, WhereNoLinkCanBeMadeNothingIsDone) {
+TEST_F(OutputFileTest, ALinkThatCannotHaveItsNameIsAnError) {
   const fs::path file = folder_.write("file", "ours");
   fs::create_directory(folder_ / "folder");
+  EXPECT_THAT(test::error_of([&] { link_file(file, folder_ / "folder"); }),
+              AllOf(HasSubstr((folder_ / "folder").string()), HasSubstr("Is a directory")));
+  EXPECT_EQ(content(), (std::set<std::string>{"file", "folder"}));
+}
+
+TEST_F(OutputFileTest, WhereNoLinkCanBeMadeNothingIsDone) {
+  const fs::path file = folder_.write("file", "ours");
   EXPECT_FALSE(link_file(folder_ / "missing", folder_ / "x"));
   EXPECT_FALSE(link_file(file, folder_ / "no/x"));
-  EXPECT_FALSE(link_file(file, folder_ / "folder"));
   EXPECT_FALSE(link_file("/proc/self/status", folder_ / "x"));  // another file system
-  EXPECT_EQ(content(), (std::set<std::string>{"file", "folder"}));
+  EXPECT_EQ(content(), (std::set<std::string>{"file"}));
 }
 
 TEST_F(OutputFileTest, WhatCannotBeCreatedIsNamedWithItsReason) {
