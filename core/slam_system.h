@@ -109,6 +109,10 @@ struct Estimate {
   /// By what the rig's calibration was found to be off at this frame, and corrected from here on.
   /// Empty if nothing was found.
   RigCalibration calibration;
+  /// Where this frame's map is in the world, by the registered tags seen until now; T_world_body is
+  /// its product with T_map_body. Absent without a pose, before a registered tag was seen, and from
+  /// systems that do not tell. Later tags and adjustments may move it.
+  std::optional<Pose> T_world_map{};
 };
 
 /// The final result of a SLAM system, after all corrections.

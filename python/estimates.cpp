@@ -64,6 +64,8 @@ py::dict dict_of(const Rig& rig, const Estimate& estimate) {
   entry["tags"] = tags_of(rig, estimate);
   entry["keyframe"] = estimate.keyframe;
   entry["loop_closure"] = closure_of(estimate);
+  entry["T_world_map"] =
+      estimate.T_world_map ? py::cast(estimate.T_world_map->matrix()) : py::none();
   return entry;
 }
 

@@ -111,6 +111,8 @@ class PythonSystem : public SlamSystem {
       std::tie(c.features, c.stereo, c.matches, c.inliers) =
           counts[py::str(name)].cast<std::tuple<int, int, int, int>>();
     }
+    const py::object world = answer["T_world_map"];
+    if (!world.is_none()) estimate.T_world_map = pose_of(world, "process: T_world_map");
     estimate.keyframe = answer["keyframe"].cast<bool>();
     estimate.loop_closure = closure_of(answer["loop_closure"]);
     return estimate;

@@ -169,6 +169,7 @@ void Pipeline::record_pose(const TrackedFrame& tracked, Estimate& estimate) {
   records_.add(estimate.stamp, map_.keyframes().back(), tracker_.T_map_body(), !tracked.tracked);
   estimate.T_map_body = tracker_.T_map_body();
   estimate.covariance = covariance(tracked, estimate.keyframe);
+  if (map_.world()) estimate.T_world_map = map_.world()->inverse();
 }
 
 SlamSummary Pipeline::finish() {

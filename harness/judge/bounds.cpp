@@ -45,6 +45,10 @@ std::optional<double> world_error(const RunResults& results) {
   return world != nullptr ? std::optional(world->position.rmse) : std::nullopt;
 }
 
+std::optional<double> live_world_error(const RunResults& results) {
+  return results.live_world ? std::optional(results.live_world->position.rmse) : std::nullopt;
+}
+
 std::optional<double> nees_mean(const RunResults& results) {
   const auto& consistency = results.consistency;
   return consistency && consistency->frames > 0 ? std::optional(consistency->nees_mean)
@@ -68,6 +72,8 @@ std::vector<Bound> position_bounds() {
            Spread::kError, asked<&E::ate_origin_rmse_max>, error<&Evaluation::origin>},
           {"ate_world_rmse_max", "ATE, in the world", " m", "/ate_world_rmse_m", false,
            Spread::kError, asked<&E::ate_world_rmse_max>, world_error},
+          {"ate_world_live_rmse_max", "ATE, in the world, live", " m", "/ate_world_live_rmse_m",
+           false, Spread::kError, asked<&E::ate_world_live_rmse_max>, live_world_error},
           {"rpe_trans_percent_max", "RPE", " %", "/rpe_trans_percent", false, Spread::kError,
            asked<&E::rpe_trans_percent_max>,
            [](const R& r) { return r.corrected ? r.corrected->rpe_trans_percent : std::nullopt; }},

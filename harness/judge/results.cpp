@@ -30,6 +30,19 @@ Stamp first_closure(const RunRecord& record) {
   return std::numeric_limits<Stamp>::max();
 }
 
+/// Of the frames with a pose by cameras whose place in the world was told with it.
+std::optional<WorldErrors> live_world_errors(const RunRecord& record) {
+  std::vector<PosePair> pairs;
+  for (const Tick& tick : record.ticks) {
+    const Estimate& estimate = tick.estimate;
+    if (!is_tracked(estimate) || !estimate.T_world_map || !tick.truth.known) continue;
+    pairs.push_back(
+        {tick.stamp, tick.truth.T_world_body, *estimate.T_world_map * *estimate.T_map_body});
+  }
+  if (pairs.empty()) return std::nullopt;
+  return WorldErrors{position_errors(pairs, {}), orientation_errors(pairs, {})};
+}
+
 std::optional<double> end_error(const RunRecord& record,
                                 const std::optional<Eigen::Vector2d>& route_end) {
   if (record.ticks.empty() || !record.ticks.back().truth.known) return std::nullopt;
@@ -47,6 +60,7 @@ RunResults measure(const RunRecord& record, const Trial& trial) {
   const Trajectory live = live_trajectory(record);
   results.corrected = evaluate(truth, record.summary.trajectory, record.summary.T_world_map);
   results.live = evaluate(truth, live);
+  results.live_world = live_world_errors(record);
   results.drift = drift_before(first_closure(record), truth, live);
   results.consistency = check_consistency(record);
   results.end_error = end_error(record, trial.route_end);

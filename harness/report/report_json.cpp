@@ -76,6 +76,8 @@ void add_gate_metrics(const RunResults& results, Json& metrics) {
   const auto& world = results.corrected ? results.corrected->world : std::nullopt;
   metrics["ate_world_rmse_m"] = world ? Json(world->position.rmse) : Json();
   metrics["ate_world_p95_m"] = world ? Json(world->position.p95) : Json();
+  const auto& live = results.live_world;
+  metrics["ate_world_live_rmse_m"] = live ? Json(live->position.rmse) : Json();
   metrics["heading_world_rmse_deg"] =
       world ? Json(degrees(world->orientation.heading.rmse)) : Json();
   metrics["tilt_world_rmse_deg"] = world ? Json(degrees(world->orientation.tilt.rmse)) : Json();

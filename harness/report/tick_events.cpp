@@ -44,6 +44,7 @@ std::vector<Json> TickEvents::of(const Tick& tick) {
   add_sightings();
   add_rejections();
   add_calibration();
+  add_world();
   if (tick.estimate.keyframe) add("keyframe");
   return events_;
 }
@@ -150,6 +151,17 @@ void TickEvents::add_calibration() {
                      {"right_ahead", pair.right_ahead}});
   }
   add("calibrated", {{"pairs", found}, {"tag_times_s", calibration.tag_times}});
+}
+
+/// One event at the first pose in the world.
+void TickEvents::add_world() {
+  const auto& T_world_map = tick_->estimate.T_world_map;
+  if (!T_world_map || in_world_) return;
+  in_world_ = true;
+  const Eigen::Vector3d& p = T_world_map->translation;
+  const Eigen::Quaterniond& q = T_world_map->rotation;
+  add("placed",
+      {{"position_m", {p.x(), p.y(), p.z()}}, {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}});
 }
 
 Json TickEvents::describe(const TagKey& tag, std::optional<double> distance) const {

@@ -60,6 +60,7 @@ class TickEvents {
   void add_sightings();
   void add_rejections();
   void add_calibration();
+  void add_world();
   nlohmann::ordered_json describe(const TagKey& tag, std::optional<double> distance) const;
 
   Rig rig_;
@@ -71,6 +72,7 @@ class TickEvents {
   double length_ = 0;  ///< of the true path, m
   bool had_pose_ = false;
   bool ever_had_pose_ = false;
+  bool in_world_ = false;
   bool reckoned_ = false;
   std::map<std::size_t, Begin> occlusions_;  ///< by camera
   std::map<TagKey, Sighting> sightings_;

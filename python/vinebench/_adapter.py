@@ -134,7 +134,9 @@ class SystemAdapter:
         return {"status": int(TrackingStatus(estimate.status)), "T_map_body": pose,
                 "covariance": _covariance(estimate.covariance), "cameras": _counts(estimate),
                 "keyframe": bool(estimate.keyframe),
-                "loop_closure": None if closure is None else dataclasses.asdict(closure)}
+                "loop_closure": None if closure is None else dataclasses.asdict(closure),
+                "T_world_map": (None if estimate.T_world_map is None
+                                else _pose(estimate.T_world_map, "T_world_map"))}
 
     def _estimate(self, pose: Any) -> Estimate:
         """Of a bare pose, or of none."""
@@ -151,16 +153,16 @@ class SystemAdapter:
                 "landmarks": int(summary.landmarks), "T_world_map": summary.T_world_map}
 
 
-def _pose(given: Any) -> Array:
+def _pose(given: Any, name: str = "T_map_body") -> Array:
     """Checked here, so that the message has the place."""
     pose = np.asarray(given, dtype=np.float64)
     if pose.shape != (4, 4):
-        raise ValueError(f"T_map_body: expected shape (4, 4), found {pose.shape}")
+        raise ValueError(f"{name}: expected shape (4, 4), found {pose.shape}")
     R = pose[:3, :3]
     rigid = (np.isfinite(pose).all() and np.abs(R @ R.T - np.eye(3)).max() <= 1e-3
              and np.linalg.det(R) > 0 and np.abs(pose[3] - [0, 0, 0, 1]).max() <= 1e-3)
     if not rigid:
-        raise ValueError("T_map_body: expected a rigid transform: a rotation matrix, a "
+        raise ValueError(f"{name}: expected a rigid transform: a rotation matrix, a "
                          "translation, and 0, 0, 0, 1 in the last row")
     return pose
 

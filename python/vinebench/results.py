@@ -62,6 +62,7 @@ class Metrics:
     ate_world_rmse_m: Optional[float]
     """ATE in the world without any alignment, RMSE, m."""
     ate_world_p95_m: Optional[float]
+    ate_world_live_rmse_m: Optional[float]
     """95 % of the poses are within it in the world, m."""
     rpe_trans_percent: Optional[float]
     """Relative pose error of the translation over 1 m, percent."""

@@ -93,6 +93,8 @@ class Estimate:
     tags: tuple[TagSighting, ...] = ()
     keyframe: bool = False
     loop_closure: Optional[LoopClosure] = None
+    T_world_map: Optional[Array] = None
+    """(4, 4), m: where this frame's map is in the world, by the registered tags seen until now."""
 
     def __post_init__(self) -> None:
         if self.status is None:
@@ -127,7 +129,8 @@ def estimate_of(entry: Mapping[str, Any]) -> Estimate:
         stamp=entry["stamp"], covariance=entry["covariance"],
         cameras={name: CameraCounts(*counts) for name, counts in entry["cameras"].items()},
         tags=tuple(TagSighting(**tag) for tag in entry["tags"]), keyframe=entry["keyframe"],
-        loop_closure=None if closure is None else LoopClosure(**closure))
+        loop_closure=None if closure is None else LoopClosure(**closure),
+        T_world_map=entry["T_world_map"])
 
 
 def flat_settings(settings: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:

@@ -59,6 +59,7 @@ class SlamTest(CourtTest):
         self.assertGreater(estimate.cameras["left"].inliers, 20)
         self.assertEqual(estimate.tags, ())
         self.assertIsNone(estimate.loop_closure)
+        self.assertIsNone(estimate.T_world_map)  # no tag
         self.assertEqual(slam.rig.name, "pair")
         summary = slam.finish()
         self.assertEqual(summary.trajectory.shape, (3, 8))

@@ -136,6 +136,7 @@ class SystemTest(CourtTest):
             "could not convert|invalid|float": "here",
             r"covariance: expected shape \(6, 6\)": vb.Estimate(np.eye(4), covariance=np.eye(3)),
             "covariance: expected finite": vb.Estimate(np.eye(4), covariance=np.full((6, 6), np.nan)),
+            "T_world_map: expected a rigid": vb.Estimate(np.eye(4), T_world_map=2 * np.eye(4)),
             "9 is not a valid TrackingStatus": vb.Estimate(np.eye(4), status=9),
         }
         for words, answer in cases.items():
@@ -196,6 +197,18 @@ class SystemTest(CourtTest):
         self.assertEqual(report.metrics.landmarks, 12)
         np.testing.assert_array_equal(report.trajectories.estimate[:, 1], 1)
         np.testing.assert_array_equal(report.trajectories.live[:, 1], 0)
+
+    def test_its_live_place_in_the_world_is_judged(self):
+        class Placed(Standing):
+            def process(self, frame):
+                T_world_map = np.eye(4)
+                T_world_map[:3, 3] = truth[frame.index]
+                place = None if frame.index < 2 else T_world_map
+                return vb.Estimate(np.eye(4), T_world_map=place)
+
+        truth = vb.run(self.court, slam=Standing()).trajectories.truth[:, 1:4] + [0, 0.03, 0]
+        report = vb.run(self.court, slam=Placed())
+        self.assertAlmostEqual(report.metrics.ate_world_live_rmse_m, 0.03, places=8)
 
     def test_an_interrupt_in_it_is_the_callers(self):
         with self.assertRaises(KeyboardInterrupt):

@@ -348,6 +348,27 @@ TEST(PipelineTest, ATagSeenOnlyBetweenKeyframesIsNoLoopYet) {
   }
 }
 
+// The world is not the map's first pose: it is a metre and a quarter turn away. The tag is in view
+// from frame 3 on.
+TEST(PipelineTest, PosesAreToldInTheWorldFromTheFirstRegisteredTagOn) {
+  const SyntheticAisle aisle(0.5, 8, kLandmarks);
+  const Pose T_cam_tag{exp_so3({0.1, 0.2, 0}), {0.02, 0.01, 2.0}};
+  const Pose T_start_tag = driving(3) * aisle.rig.cameras[4].T_body_cam * T_cam_tag;
+  const Pose T_world_start{exp_so3({0, 0, std::numbers::pi / 2}), {1, 0, 0.2}};
+  Pipeline pipeline(SlamConfig{}, aisle.rig,
+                    {{"tag36h11", 0, 0.161, T_world_start * T_start_tag}});
+  for (std::int64_t i = 0; i < 8; ++i) {
+    const Estimate estimate = pipeline.process(
+        i >= 3 ? aisle.frame_with_tag(i, driving(i), T_start_tag) : aisle.frame(i, driving(i)));
+    ASSERT_EQ(estimate.T_world_map.has_value(), i >= 3) << i;
+    if (i < 3) continue;
+    const Pose T_world_body = *estimate.T_world_map * *estimate.T_map_body;
+    const Pose truth = T_world_start * driving(0).inverse() * driving(i);
+    EXPECT_LT((T_world_body.translation - truth.translation).norm(), 0.005) << i;  // m, at 2 m
+    EXPECT_LT(T_world_body.rotation.angularDistance(truth.rotation), 0.003) << i;  // rad, likewise
+  }
+}
+
 TEST(PipelineTest, SameInputSameBits) {
   const SyntheticAisle aisle(0.5, 7, kLandmarks);
   std::string texts[2];

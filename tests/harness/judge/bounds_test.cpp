@@ -31,6 +31,7 @@ RunReport every_metric() {
   corrected.worst.error = 0.06;
   corrected.orientation = {{7 * kDegree, 8 * kDegree}, {9 * kDegree, 10 * kDegree}};
   corrected.world = WorldErrors{{.rmse = 0.11}, {{12 * kDegree, 0}, {13 * kDegree, 0}}};
+  results.live_world = WorldErrors{{.rmse = 0.19}, {}};
   results.drift = Drift{.error = 0.14};
   results.end_error = 0.15;
   results.consistency = Consistency{.frames = 1, .nees_mean = 16};

@@ -143,6 +143,19 @@ TEST(EventsTest, OcclusionBeginsAtTheGivenShare) {
   EXPECT_EQ(begins(0.96), 0);
 }
 
+TEST(EventsTest, TheFirstPlaceInTheWorldIsLogged) {
+  const std::vector<Json> placed = events_of(record_of([](Estimate& estimate) {
+                                               const double t = to_seconds(estimate.stamp);
+                                               if (t < 2) return;
+                                               estimate.T_world_map = Pose{{0, 0, 0, 1}, {t, 5, 6}};
+                                             }),
+                                             "placed");
+  ASSERT_EQ(placed.size(), 1u);
+  EXPECT_EQ(placed[0]["t"], 2);
+  EXPECT_EQ(placed[0]["position_m"], Json({2, 5, 6}));
+  EXPECT_EQ(placed[0]["quaternion_xyzw"], Json({0, 0, 1, 0}));  // half a turn about z
+}
+
 TEST(EventsTest, ACalibrationIsLogged) {
   const auto found = events_of(record_of([](Estimate& estimate) {
                                  if (estimate.stamp == test::seconds(5)) {

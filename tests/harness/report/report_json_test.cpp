@@ -88,6 +88,7 @@ TEST(ReportJsonTest, HasEveryKeyInItsOrder) {
                                           "worst_frame",
                                           "ate_world_rmse_m",
                                           "ate_world_p95_m",
+                                          "ate_world_live_rmse_m",
                                           "heading_world_rmse_deg",
                                           "tilt_world_rmse_deg",
                                           "drift_m",
