@@ -9,6 +9,7 @@
 #include "core/util/error.h"
 #include "slam/frame/measurements.h"
 #include "slam/loop/loop_correction.h"
+#include "slam/loop/tag_survey.h"
 #include "slam/tags/tag_sightings.h"
 #include "slam/tags/tag_times.h"
 #include "slam/tracking/keyframe_selector.h"
@@ -169,7 +170,7 @@ void Pipeline::record_pose(const TrackedFrame& tracked, Estimate& estimate) {
   records_.add(estimate.stamp, map_.keyframes().back(), tracker_.T_map_body(), !tracked.tracked);
   estimate.T_map_body = tracker_.T_map_body();
   estimate.covariance = covariance(tracked, estimate.keyframe);
-  if (map_.world()) estimate.T_world_map = map_.world()->inverse();
+  if (const auto T_map_world = world_by_tags(map_)) estimate.T_world_map = T_map_world->inverse();
 }
 
 SlamSummary Pipeline::finish() {

@@ -54,4 +54,14 @@ Pose likeliest_world(const std::vector<FoundTag>& tags) {
   return T_map_world;
 }
 
+std::optional<Pose> world_by_tags(const Map& map) {
+  std::vector<FoundTag> found;
+  for (const MapTag& tag : map.tags()) {
+    if (tag.fixed) return map.world();
+    if (!tag.survey) continue;
+    found.push_back({tag.survey->T_world_tag, tag.T_map_tag, tag.survey->covariance});
+  }
+  return found.size() < 2 ? map.world() : likeliest_world(found);
+}
+
 }  // namespace vinebench::slam

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/geometry/pose.h"
 #include "core/slam_system.h"
+#include "slam/map/map.h"
 
 namespace vinebench::slam {
 
@@ -31,5 +33,9 @@ Vector6d misplacement(const FoundTag& tag, const Pose& T_map_world);
 
 /// The likeliest T_map_world by these tags, of which there must be one at least.
 Pose likeliest_world(const std::vector<FoundTag>& tags);
+
+/// T_map_world by all surveyed tags of the map where they are now in it; Map::world() if it has not
+/// several of them, or one that is exact. Global adjustments come to the same.
+std::optional<Pose> world_by_tags(const Map& map);
 
 }  // namespace vinebench::slam

@@ -355,8 +355,7 @@ TEST(PipelineTest, PosesAreToldInTheWorldFromTheFirstRegisteredTagOn) {
   const Pose T_cam_tag{exp_so3({0.1, 0.2, 0}), {0.02, 0.01, 2.0}};
   const Pose T_start_tag = driving(3) * aisle.rig.cameras[4].T_body_cam * T_cam_tag;
   const Pose T_world_start{exp_so3({0, 0, std::numbers::pi / 2}), {1, 0, 0.2}};
-  Pipeline pipeline(SlamConfig{}, aisle.rig,
-                    {{"tag36h11", 0, 0.161, T_world_start * T_start_tag}});
+  Pipeline pipeline(SlamConfig{}, aisle.rig, {{"tag36h11", 0, 0.161, T_world_start * T_start_tag}});
   for (std::int64_t i = 0; i < 8; ++i) {
     const Estimate estimate = pipeline.process(
         i >= 3 ? aisle.frame_with_tag(i, driving(i), T_start_tag) : aisle.frame(i, driving(i)));

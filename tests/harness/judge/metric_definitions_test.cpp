@@ -137,8 +137,7 @@ MetricValues position_errors() {
       // Of nine, ordered, 95 % is 6 tenths of the way from the eighth (3.5 m) to the ninth (4 m).
       {"/ate_world_p95_m", 0.4 * std::hypot(0.07, 0.05) + 0.6 * std::hypot(0.08, 0.05)},
       // Of frames 6 to 8: 4 % of 3, 3.5 and 4 m along the drive.
-      {"/ate_world_live_rmse_m",
-       std::sqrt((0.12 * 0.12 + 0.14 * 0.14 + 0.16 * 0.16) / 3 + 0.0025)},
+      {"/ate_world_live_rmse_m", std::sqrt((0.12 * 0.12 + 0.14 * 0.14 + 0.16 * 0.16) / 3 + 0.0025)},
       // Before frame 6, the last pose by cameras is that of frame 3: 1.5 m, 4 % too long.
       {"/drift_m", 0.06},
       {"/drift_percent", 4},

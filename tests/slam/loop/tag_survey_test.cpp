@@ -71,5 +71,27 @@ TEST(TagSurveyTest, TheSurerTagCountsForMore) {
   EXPECT_LT(off.translation.tail<2>().norm(), 1e-6);
 }
 
+MapTag surveyed(int id, const FoundTag& tag) {
+  MapTag made{"tag36h11", id, 0.161, tag.T_map_tag};
+  made.survey = SurveyedPlace{tag.T_world_tag, tag.covariance};
+  return made;
+}
+
+TEST(TagSurveyTest, AllSurveyedTagsOfAMapSayWhereTheWorldIs) {
+  Map map(1.2);
+  EXPECT_FALSE(world_by_tags(map));
+  map.world() = Pose{Eigen::Quaterniond::Identity(), {7, 8, 9}};
+  Vector6d off = Vector6d::Zero();
+  off.y() = 0.02;
+  const FoundTag first = found(place(4, 1), off, 0.01);
+  const FoundTag second = found(place(-2, 5), -off, 0.02);
+  map.tags() = {surveyed(0, first), MapTag{"tag36h11", 5, 0.161, {}}};
+  EXPECT_EQ(world_by_tags(map)->translation, map.world()->translation);  // one says no more
+  map.tags().push_back(surveyed(1, second));
+  EXPECT_EQ(world_by_tags(map)->translation, likeliest_world({first, second}).translation);
+  map.tags().push_back({"tag36h11", 2, 0.161, {}, true});
+  EXPECT_EQ(world_by_tags(map)->translation, map.world()->translation);  // one is exact
+}
+
 }  // namespace
 }  // namespace vinebench::slam
