@@ -35,7 +35,8 @@ Vector6d misplacement(const FoundTag& tag, const Pose& T_map_world);
 Pose likeliest_world(const std::vector<FoundTag>& tags);
 
 /// T_map_world by all surveyed tags of the map where they are now in it; Map::world() if it has not
-/// several of them, or one that is exact. Global adjustments come to the same.
+/// several of them, or one that is exact. Global adjustments weigh surveys likewise, but outliers
+/// less, and have gravity beside them where an inertial unit takes part.
 std::optional<Pose> world_by_tags(const Map& map);
 
 }  // namespace vinebench::slam
