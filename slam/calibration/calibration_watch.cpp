@@ -211,21 +211,28 @@ void CalibrationWatch::add(const CalibrationBelief& part) {
   const bool first = freedom_ == 0 && parts_.information.isZero();
   if (!first) {
     const double freedom = freedom_of(part, prior_);
-    const double distance = distance_squared(part * (1 / spread()), known(), prior_);
-    if (distance > chi_squared_at(kTenThousandth, std::max(1.0, freedom))) {
-      if (!stranger_) {
-        stranger_ = part;
-        return;
-      }
-      parts_ = *stranger_;
-      chi_squared_ = freedom_ = 0;
-    } else {
+    const double limit = chi_squared_at(kTenThousandth, std::max(1.0, freedom));
+    const double distance = distance_to(parts_, part);
+    if (distance <= limit) {
       chi_squared_ += distance * spread();
       freedom_ += freedom;
+    } else if (!stranger_ || distance_to(*stranger_, part) > limit) {
+      stranger_ = part;
+      return;
+    } else {
+      parts_ = *stranger_;
+      chi_squared_ = freedom_ = 0;
     }
   }
   stranger_.reset();
   parts_ = parts_ + part;
+}
+
+/// Squared, of what a part says from what the rig file and these say.
+double CalibrationWatch::distance_to(const CalibrationBelief& others,
+                                     const CalibrationBelief& part) const {
+  const double share = 1 / spread();
+  return distance_squared(part * share, prior_ + others * share, prior_);
 }
 
 /// Factor of the variances that the parts' own say.

@@ -28,7 +28,7 @@ namespace vinebench::slam {
 /// How much the dozens differ from each other tells how far their information is to be trusted:
 /// errors that are no property of the cameras (leaves in the wind, noise of other kinds) make them
 /// differ by more than their own covariances say. Two dozens in a row that have nothing to do with
-/// those before mean that the cameras were knocked: then they alone count. Of a rig of one pair the
+/// those before, but with each other, mean that the cameras were knocked: then they alone count. Of a rig of one pair the
 /// disparity offset alone is corrected, if it is large, and once.
 class CalibrationWatch {
  public:
@@ -82,6 +82,7 @@ class CalibrationWatch {
   std::optional<RigCalibration> look_at_one_pair(const CalibrationBelief& now,
                                                  const EstimatorRig& rig);
   void add(const CalibrationBelief& part);
+  double distance_to(const CalibrationBelief& others, const CalibrationBelief& part) const;
   double spread() const;
 
   CalibrationConfig accuracy_;

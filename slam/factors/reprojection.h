@@ -42,7 +42,8 @@ class Reprojection {
   struct Linearised {
     Eigen::Vector3d residual;
     Eigen::Matrix<double, 3, 6> by_pose;
-    Eigen::Matrix3d by_point_in_body;  ///< by the point in the body frame
+    Eigen::Matrix3d by_point_in_body;         ///< by the point in the body frame
+    Eigen::Matrix<double, 3, 6> by_velocity;  ///< unset where late() is 0
   };
   Linearised linearise(const Pose& T_map_body, const Eigen::Vector3d& p_map) const;
 
@@ -63,6 +64,9 @@ class Reprojection {
 
   int size() const { return measurement_.size(); }
 
+  /// s after the frame's stamp that the pixel's row was exposed.
+  double late() const { return measurement_.late + camera_->time_of(measurement_.pixel.y()); }
+
  private:
   /// Where the point is from the body as it was when the row was exposed.
   Eigen::Vector3d in_body(const Pose& T_map_body, const Eigen::Vector3d& p_map) const {
@@ -71,10 +75,7 @@ class Reprojection {
     return has_times() ? way_until_exposed().inverse() * p_body : p_body;
   }
   bool has_times() const { return camera_->has_times() || measurement_.late != 0; }
-  Pose way_until_exposed() const {
-    return step_of(measurement_.velocity *
-                   (measurement_.late + camera_->time_of(measurement_.pixel.y())));
-  }
+  Pose way_until_exposed() const { return step_of(measurement_.velocity * late()); }
   Eigen::Vector3d in_camera(const Eigen::Vector3d& p_body) const;
   Eigen::Vector3d residual_at(const Eigen::Vector3d& p_cam) const;
   Eigen::Vector3d weights() const;

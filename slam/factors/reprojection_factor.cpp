@@ -17,12 +17,12 @@ using RowMajor37 = Eigen::Matrix<double, 3, 7, Eigen::RowMajor>;
 }  // namespace
 
 ReprojectionFactor::ReprojectionFactor(const StereoCameraModel& camera,
-                                       const PixelMeasurement& measurement,
-                                       bool calibration_unknown)
-    : camera_(&camera), measurement_(measurement) {
+                                       const PixelMeasurement& measurement, Unknown unknown)
+    : camera_(&camera), measurement_(measurement), unknown_(unknown) {
   set_num_residuals(measurement.size());
   *mutable_parameter_block_sizes() = {7, 3};
-  if (calibration_unknown) *mutable_parameter_block_sizes() = {7, 3, 7, kLensUnknowns};
+  if (unknown.calibration) *mutable_parameter_block_sizes() = {7, 3, 7, kLensUnknowns};
+  if (unknown.velocity) mutable_parameter_block_sizes()->push_back(6);
 }
 
 StereoCameraModel ReprojectionFactor::camera_of(double const* const* parameters) const {
@@ -38,11 +38,13 @@ bool ReprojectionFactor::Evaluate(double const* const* parameters, double* resid
                                   double** jacobians) const {
   const Pose T_map_body = from_block(parameters[0]);
   const Eigen::Map<const Eigen::Vector3d> p_map(parameters[1]);
-  const bool calibration_unknown = parameter_block_sizes().size() > 2;
+  const std::size_t velocity = unknown_.calibration ? 4 : 2;
   std::optional<StereoCameraModel> found;
-  if (calibration_unknown) found = camera_of(parameters);
+  if (unknown_.calibration) found = camera_of(parameters);
   const StereoCameraModel& camera = found ? *found : *camera_;
-  const Reprojection reprojection(camera, measurement_);
+  PixelMeasurement measurement = measurement_;
+  if (unknown_.velocity) measurement.velocity = Eigen::Map<const Vector6d>(parameters[velocity]);
+  const Reprojection reprojection(camera, measurement);
   if (jacobians == nullptr) {
     const Eigen::Vector3d residual = reprojection.residual(T_map_body, p_map);
     std::copy_n(residual.data(), num_residuals(), residuals);
@@ -59,7 +61,12 @@ bool ReprojectionFactor::Evaluate(double const* const* parameters, double* resid
     const Eigen::Matrix3d R_body_map = T_map_body.rotation.toRotationMatrix().transpose();
     copy_rows(Eigen::Matrix3d(at.by_point_in_body * R_body_map), num_residuals(), jacobians[1]);
   }
-  if (!calibration_unknown) return true;
+  if (unknown_.velocity && jacobians[velocity] != nullptr) {
+    Eigen::Matrix<double, 3, 6> J = Eigen::Matrix<double, 3, 6>::Zero();
+    if (reprojection.late() != 0) J = at.by_velocity;
+    copy_rows(J, num_residuals(), jacobians[velocity]);
+  }
+  if (!unknown_.calibration) return true;
   if (jacobians[2] == nullptr && jacobians[3] == nullptr) return true;
   const auto by_calibration = reprojection.by_calibration(T_map_body, p_map, *camera_);
   if (jacobians[2] != nullptr) {

@@ -10,11 +10,18 @@ namespace vinebench::slam {
 
 /// The same as a cost function of Ceres: parameters are the body's pose (7), the point (3) and,
 /// where its calibration is unknown, T_body_cam of the camera (7) and the other numbers of
-/// PairCalibration, in their order, against the camera given.
+/// PairCalibration, in their order, against the camera given, and at last, where that is unknown,
+/// the body's velocity (6, as PixelMeasurement has it).
 class ReprojectionFactor : public ceres::CostFunction {
  public:
+  /// What is unknown beside pose and point.
+  struct Unknown {
+    bool calibration = false;
+    bool velocity = false;
+  };
+
   ReprojectionFactor(const StereoCameraModel& camera, const PixelMeasurement& measurement,
-                     bool calibration_unknown = false);
+                     Unknown unknown = {false, false});
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
@@ -29,6 +36,7 @@ class ReprojectionFactor : public ceres::CostFunction {
 
   const StereoCameraModel* camera_;
   PixelMeasurement measurement_;
+  Unknown unknown_;
 };
 
 }  // namespace vinebench::slam

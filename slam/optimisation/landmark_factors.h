@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <ceres/normal_prior.h>
+
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -48,6 +50,7 @@ class LandmarkFactors : public FactorSource, private Sights {
   PixelMeasurement measurement(const Observation& o) const;
   const StereoCameraModel& camera(const Observation& o) const;
   void add_factors(ProblemBuilder& problem);
+  void add_velocities(ProblemBuilder& problem);
   void add_sights(ProblemBuilder& problem);
 
   const EstimatorRig& rig_;
@@ -60,6 +63,9 @@ class LandmarkFactors : public FactorSource, private Sights {
   std::vector<Eigen::Vector3d> points_;
   std::vector<Seen> seen_;                  ///< landmark by landmark
   std::deque<ReprojectionFactor> factors_;  ///< of these, unless there are many keyframes
+  std::vector<Vector6d> velocities_;        ///< of the keyframes that have late images
+  std::vector<double*> velocity_blocks_;    ///< by keyframe; null where there are none
+  std::deque<ceres::NormalPrior> velocity_beliefs_;
   std::vector<LandmarkLook> looks_;
   std::vector<Outlier> outliers_;
 };

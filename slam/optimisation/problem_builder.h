@@ -27,11 +27,12 @@ class ProblemBuilder {
     kLandmarks = 0,
     kInertial = 1,
     kTagMeasures = 2,
-    kPoses = 3,
-    kTags = 4,
-    kCameras = 5,
-    kLenses = 6,
-    kTagTimes = 7
+    kVelocities = 3,
+    kPoses = 4,
+    kTags = 5,
+    kCameras = 6,
+    kLenses = 7,
+    kTagTimes = 8
   };
 
   /// `many`: by solve_by_schur(), for very many keyframes. No calibration can be unknown then.

@@ -165,9 +165,15 @@ bool Tracker::match_anywhere(const Map& map, const EstimatorRig& rig, const Pose
   return true;
 }
 
-/// Takes the frame's velocity to be that of the step to its pose as far as it is known.
+/// Takes the frame's velocity to be what that of the step to its pose, as far as it is known, has
+/// become by its end: it goes on to change as it did since the step before.
 void Tracker::update_velocity(TrackedFrame& tracked) const {
-  if (const auto velocity = velocity_to(tracked)) tracked.frame->velocity = *velocity;
+  const auto of_step = velocity_to(tracked);
+  if (!of_step) return;
+  tracked.frame->velocity = *of_step;
+  if (!velocity_known_) return;
+  const double dt = to_seconds(tracked.frame->stamp - stamp_);
+  tracked.frame->velocity += (*of_step - velocity_) * (dt / (dt + step_seconds_));
 }
 
 /// Of the step from the last frame. None after an odometry gap: the step also has the gap's error,
@@ -296,6 +302,7 @@ void Tracker::accept(const TrackedFrame& tracked) {
   if (const auto velocity = velocity_to(tracked)) {
     velocity_ = *velocity;
     velocity_known_ = true;
+    step_seconds_ = to_seconds(tracked.frame->stamp - stamp_);
   }
   T_map_body_ = tracked.motion.T_map_body;
   stamp_ = tracked.frame->stamp;
@@ -308,6 +315,7 @@ void Tracker::accept(const TrackedFrame& tracked) {
 void Tracker::reckon(const FrameFeatures& frame) {
   const double dt = to_seconds(frame.stamp - stamp_);
   const Pose step = dead_reckoning_.advance(frame.wheels, velocity_, dt);
+  step_seconds_ = dt;
   T_map_body_ = dead_reckoning_.T_map_body().value_or(T_map_body_ * step);
   stamp_ = frame.stamp;
   if (const auto inertial = dead_reckoning_.velocity()) {

@@ -100,11 +100,13 @@ class Tracker {
   FollowSettings follow_;
   Pose T_map_body_;
   Stamp stamp_ = 0;
-  Vector6d velocity_ = Vector6d::Zero();  ///< of the body in its own frame, m/s and rad/s
-  std::vector<int> last_landmarks_;       ///< seen in the frame before, ascending
-  DeadReckoning dead_reckoning_;          ///< the odometry gap, while there is one
-  bool velocity_known_ = false;           ///< a frame was seen after the start
-  bool guessed_ = false;                  ///< the pose, by the looks of the place alone
+  /// Of the body in its own frame over the last step, m/s and rad/s.
+  Vector6d velocity_ = Vector6d::Zero();
+  double step_seconds_ = 0;
+  std::vector<int> last_landmarks_;  ///< seen in the frame before, ascending
+  DeadReckoning dead_reckoning_;     ///< the odometry gap, while there is one
+  bool velocity_known_ = false;      ///< a frame was seen after the start
+  bool guessed_ = false;             ///< the pose, by the looks of the place alone
 };
 
 /// Ids of landmarks that a frame may see: those of the keyframes that share most of `seen`, and of

@@ -55,8 +55,29 @@ TEST(ReprojectionFactorTest, JacobiansByAnUnknownCalibrationAreTheNumericOnes) {
   const auto T_body_cam = as_vector(to_block(e.T_cam_body.inverse()));
   for (const std::optional<double> right_x : {std::optional<double>{}, std::optional(380.0)}) {
     m.right_x = right_x;
-    expect_jacobian(ReprojectionFactor(e, m, true),
+    expect_jacobian(ReprojectionFactor(e, m, {.calibration = true, .velocity = false}),
                     {as_vector(to_block(body())), {p.x(), p.y(), p.z()}, T_body_cam, lens_off()});
+  }
+}
+
+TEST(ReprojectionFactorTest, JacobiansByAnUnknownVelocityAreTheNumericOnes) {
+  const StereoCameraModel e = camera();
+  PixelMeasurement m = moving_measurement();
+  m.right_x = 380;
+  const Eigen::Vector3d p = point();
+  const std::vector<double> velocity(m.velocity.data(), m.velocity.data() + 6);
+  std::vector<std::vector<double>> blocks{as_vector(to_block(body())), {p.x(), p.y(), p.z()}};
+  for (const double late : {0.0, 0.03}) {
+    m.late = late;
+    auto of_velocity = blocks;
+    of_velocity.push_back(velocity);
+    expect_jacobian(ReprojectionFactor(e, m, {.calibration = false, .velocity = true}),
+                    of_velocity);
+    auto of_all = blocks;
+    of_all.push_back(as_vector(to_block(e.T_cam_body.inverse())));
+    of_all.push_back(lens_off());
+    of_all.push_back(velocity);
+    expect_jacobian(ReprojectionFactor(e, m, {.calibration = true, .velocity = true}), of_all);
   }
 }
 

@@ -94,6 +94,22 @@ TEST_F(TrackerTest, FollowsTheBodyAndTiesItsFeatures) {
   }
 }
 
+// Way s = t^2 / 2 m and turn of as many rad, at 15 frames a second: after n frames both speeds are
+// n / 15, and that of the last step was (n - 1/2) / 15. The way's end is tangent to the body, whose
+// x axis the ways of the two steps leave by their turn: 3 mm/s of 0.27 m/s.
+TEST_F(TrackerTest, AFramesVelocityIsThatOfItsInstant) {
+  Tracker tracker(settings_);
+  tracker.start(ahead(0), stamp_of_frame(0, 15));
+  TrackedFrame tracked;
+  for (int i = 1; i <= 4; ++i) {
+    const double s = 0.5 * i * i / 225.0;
+    tracked = track(tracker, i, ahead(s, s));
+    ASSERT_TRUE(tracked.tracked) << i;
+  }
+  EXPECT_NEAR(tracked.frame->velocity[0], 4 / 15.0, 0.003);
+  EXPECT_NEAR(tracked.frame->velocity[5], 4 / 15.0, 1e-3);
+}
+
 TEST_F(TrackerTest, FindsItselfWhereThePredictionIsFarOff) {
   Tracker tracker = moving(3);
   // A jolt of 0.4 rad: 100 px, beyond the widest search of 40 px.
