@@ -28,8 +28,8 @@ namespace vinebench::slam {
 /// How much the dozens differ from each other tells how far their information is to be trusted:
 /// errors that are no property of the cameras (leaves in the wind, noise of other kinds) make them
 /// differ by more than their own covariances say. Two dozens in a row that have nothing to do with
-/// those before, but with each other, mean that the cameras were knocked: then they alone count. Of a rig of one pair the
-/// disparity offset alone is corrected, if it is large, and once.
+/// those before, but with each other, mean that the cameras were knocked: then they alone count. Of
+/// a rig of one pair the disparity offset alone is corrected, if it is large, and once.
 class CalibrationWatch {
  public:
   /// `disparity_sigma`: px, accuracy of disparity offsets.
