@@ -46,10 +46,9 @@ Pipeline::Pipeline(const SlamConfig& config, const StereoRig& rig,
                     inertial_noise(config.inertial, rig.imu)},
                    rig_.tag_cameras, tags),
       recovery_(tracker_, loop_closer_, rig_, map_),
-      calibration_(
-          {config.calibration, config.stereo.calibration_sigma, config.stereo.self_calibration,
-           is_accuracy_told(config.calibration, config.stereo.calibration_sigma), is_live()},
-          rig_),
+      calibration_({config.calibration, config.stereo.calibration_sigma,
+                    config.stereo.self_calibration, is_live()},
+                   rig_),
       covariance_(is_live()) {
   rig_.wheels = config.dead_reckoning.wheels;
   rig_.noise.loss = config.loss;
@@ -200,9 +199,11 @@ SlamSummary Pipeline::finish() {
 }
 
 Matrix6d Pipeline::covariance(const TrackedFrame& tracked, bool keyframe) const {
-  if (keyframe) return covariance_.of_keyframe(calibration_.error());
+  ErrorOfImageTimes times;
+  if (tracked.tracked) times = error_of_image_times(*tracked.frame, tracked.associations, rig_);
+  if (keyframe) return covariance_.of_keyframe(calibration_.error(), times);
   const Pose T_last_now = map_.keyframes().back().T_map_body.inverse() * tracker_.T_map_body();
-  const Matrix6d seen = covariance_.of_frame(T_last_now, tracked, calibration_.error());
+  const Matrix6d seen = covariance_.of_frame(T_last_now, tracked, calibration_.error(), times);
   return tracked.tracked ? seen : seen + tracker_.dead_reckoning().covariance();
 }
 

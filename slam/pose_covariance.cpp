@@ -28,15 +28,19 @@ PoseUncertainty& PoseCovariance::of_closed() {
   return *closed_;
 }
 
-Matrix6d PoseCovariance::of_keyframe(const Eigen::MatrixXd& calibration) const {
-  return now_.at({}, Matrix6d::Zero()) + now_.of_calibration({}, calibration);
+Matrix6d PoseCovariance::of_keyframe(const Eigen::MatrixXd& calibration,
+                                     const ErrorOfImageTimes& times) const {
+  return now_.at({}, Matrix6d::Zero()) +
+         now_.of_calibration({}, calibration, times.by_calibration) + times.by_velocity;
 }
 
 Matrix6d PoseCovariance::of_frame(const Pose& T_last_now, const TrackedFrame& tracked,
-                                  const Eigen::MatrixXd& calibration) const {
+                                  const Eigen::MatrixXd& calibration,
+                                  const ErrorOfImageTimes& times) const {
   const Matrix6d information =
       tracked.tracked ? tracked.motion.information : Matrix6d(Matrix6d::Zero());
-  return now_.at(T_last_now, information) + now_.of_calibration(T_last_now, calibration);
+  return now_.at(T_last_now, information) +
+         now_.of_calibration(T_last_now, calibration, times.by_calibration) + times.by_velocity;
 }
 
 }  // namespace vinebench::slam

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "slam/optimisation/pose_uncertainty.h"
+#include "slam/tracking/image_times.h"
 #include "slam/tracking/tracker.h"
 
 namespace vinebench::slam {
@@ -35,10 +36,11 @@ class PoseCovariance {
 
   /// Of the latest keyframe, and of a frame at T_last_now from it, which for one that was dead
   /// reckoned leaves its covariance to be added. `calibration` has the second moments of the
-  /// calibrations' errors.
-  Matrix6d of_keyframe(const Eigen::MatrixXd& calibration) const;
+  /// calibrations' errors, and `times` what not knowing when images were taken adds.
+  Matrix6d of_keyframe(const Eigen::MatrixXd& calibration,
+                       const ErrorOfImageTimes& times = {}) const;
   Matrix6d of_frame(const Pose& T_last_now, const TrackedFrame& tracked,
-                    const Eigen::MatrixXd& calibration) const;
+                    const Eigen::MatrixXd& calibration, const ErrorOfImageTimes& times = {}) const;
 
  private:
   PoseUncertainty& of_closed();

@@ -160,7 +160,7 @@ CalibrationAverage average(const CalibrationBelief& now, const CalibrationBelief
   for (const double logarithm : logarithms) sum += std::exp(logarithm - most);
 
   CalibrationAverage found{Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size),
-                           std::exp(logarithms[0] - most) / sum};
+                           std::exp(logarithms[0] - most) / sum, 0};
   Eigen::MatrixXd& moments = found.covariance;  // about the rig file, at first
   // As before anything is seen, where each of the sets counts.
   const bool apart = now.information.isDiagonal(0) && now.information_vector.isZero(0);
@@ -168,6 +168,7 @@ CalibrationAverage average(const CalibrationBelief& now, const CalibrationBelief
     const double weight = std::exp(logarithms[set] - most) / sum;
     if (weight < kLeastWeight) continue;
     const std::vector<Eigen::Index> numbers = numbers_of(causes, set);
+    found.numbers_at_work += weight * static_cast<double>(numbers.size());
     if (apart) {
       for (const Eigen::Index i : numbers) moments(i, i) += weight * (1 / now.information(i, i));
       continue;

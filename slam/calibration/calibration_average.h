@@ -12,6 +12,7 @@ struct CalibrationAverage {
   Eigen::VectorXd mean;        ///< of to_vector()
   Eigen::MatrixXd covariance;  ///< likewise
   double file_is_right = 0;    ///< the probability that all of them are
+  double numbers_at_work = 0;  ///< how many are not, expected
 };
 
 /// The mean over all sets of causes that may be at work, by their evidence (Hoeting et al.,

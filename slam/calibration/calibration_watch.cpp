@@ -13,13 +13,11 @@ namespace {
 constexpr std::size_t kPart = 12;  // keyframes
 constexpr int kIterations = 8;
 
-/// Keyframes that show how errors move the body, and as many as there must be before: the first
-/// ones, beside a tag, are nearer to each other than those to come.
-constexpr std::size_t kFew = 4;
-constexpr std::size_t kBeforeFew = 2;
+/// The first look is at the first keyframes. What they say is not added up: the dozen has it too.
+constexpr std::size_t kFirstKeyframes = 6;
 
-/// Once so many dozens have been looked at, every fourth is enough.
-constexpr int kFrequentLooks = 8;
+/// Once so many dozens have been looked at, beside the first keyframes, every fourth is enough.
+constexpr int kFrequentLooks = 9;
 constexpr std::size_t kLaterLooks = 48;  // keyframes
 
 /// Landmarks that fewer keyframes of a part see say too little of the calibrations for the time
@@ -37,7 +35,8 @@ constexpr double kExact = 1e-3;
 constexpr double kLeastOfOnePair = 0.9;  // px
 
 /// Quantiles of the normal distribution: what happens by chance once in a thousand and in ten
-/// thousand looks.
+/// thousand looks. The first of these probabilities besides.
+constexpr double kSeldom = 1e-3;
 constexpr double kThousandth = 3.09;
 constexpr double kTenThousandth = 3.72;
 
@@ -118,19 +117,9 @@ CalibrationWatch::CalibrationWatch(const CalibrationConfig& accuracy, double dis
       drift_(Eigen::MatrixXd::Zero(6, prior_.information.cols())) {}
 
 bool CalibrationWatch::due(const Map& map) const {
-  return map.keyframes().size() >= looked_ + (looks_ < kFrequentLooks ? kPart : kLaterLooks);
-}
-
-bool CalibrationWatch::may_feel(const Map& map) const {
-  return !felt_ && looks_ == 0 && map.keyframes().size() >= begin_ + kBeforeFew + kFew;
-}
-
-void CalibrationWatch::feel(const Map& map, const EstimatorRig& rig,
-                            const AdjustmentOptions& options) {
-  felt_ = true;
-  const auto few = job(kFew, map, rig, options);
-  few->solve();
-  keep_drift(few->calibration(), kFew);
+  const std::size_t more =
+      looks_ == 0 ? kFirstKeyframes : (looks_ < kFrequentLooks ? kPart : kLaterLooks);
+  return map.keyframes().size() >= looked_ + more;
 }
 
 std::optional<RigCalibration> CalibrationWatch::look(const Map& map, const EstimatorRig& rig,
@@ -142,8 +131,8 @@ std::optional<RigCalibration> CalibrationWatch::look(const Map& map, const Estim
 
 std::unique_ptr<AdjustmentJob> CalibrationWatch::begin_look(const Map& map, const EstimatorRig& rig,
                                                             const AdjustmentOptions& options) {
+  if (looks_++ == 0) return job(kFirstKeyframes, map, rig, options);
   looked_ = map.keyframes().size();
-  ++looks_;
   return job(kPart, map, rig, options);
 }
 
@@ -151,14 +140,18 @@ std::optional<RigCalibration> CalibrationWatch::finish_look(const CalibrationMar
                                                             const EstimatorRig& rig) {
   const CalibrationBelief part = found.belief + prior_ * -1;
   if (!part.information.allFinite() || !part.information_vector.allFinite()) return std::nullopt;
-  keep_drift(found, kPart);
-  add(part);
-  const CalibrationBelief now = known();
+  const bool first = looks_ == 1;
+  keep_drift(found, first ? kFirstKeyframes : kPart);
+  if (!first) add(part);
+  const CalibrationBelief now = first ? prior_ + part : known();
   average_ = average(now, prior_, pairs_);
-  if (pairs_ == 1) return look_at_one_pair(now, rig);
+  if (pairs_ == 1) return first ? std::nullopt : look_at_one_pair(now, rig);
   const Eigen::VectorXd& better = average_.mean;
   const double gain = unlikeliness(now, to_vector(rig.calibration)) - unlikeliness(now, better);
-  if (gain < chi_squared_at(kThousandth, static_cast<double>(better.size()))) return std::nullopt;
+  if (average_.file_is_right > kSeldom ||
+      gain < chi_squared_at(kThousandth, std::max(1.0, average_.numbers_at_work))) {
+    return std::nullopt;
+  }
   replaced_ = true;
   return from_vector(better, pairs_);
 }
@@ -205,6 +198,10 @@ std::unique_ptr<AdjustmentJob> CalibrationWatch::job(std::size_t keyframes, cons
 void CalibrationWatch::keep_drift(const CalibrationMarginal& marginal, std::size_t keyframes) {
   if (!marginal.of_last_pose.allFinite()) return;
   drift_ = marginal.of_last_pose / static_cast<double>(keyframes - 1);
+  for (Eigen::Index pair = 0; pair < static_cast<Eigen::Index>(pairs_); ++pair) {
+    drift_.col(pair * kPairUnknowns + PairNumber::kTime).setZero();
+    drift_.col(pair * kPairUnknowns + PairNumber::kReadout).setZero();
+  }
 }
 
 void CalibrationWatch::add(const CalibrationBelief& part) {

@@ -36,18 +36,11 @@ class CalibrationWatch {
   CalibrationWatch(const CalibrationConfig& accuracy, double disparity_sigma,
                    const EstimatorRig& rig);
 
-  /// Whether enough keyframes came since the last look: a dozen, later four.
+  /// Whether enough keyframes came: six for the first look, then a dozen, later four dozens.
   bool due(const Map& map) const;
 
-  /// Whether there are enough keyframes to see how errors of the calibrations move the body, once,
-  /// before the first look.
-  bool may_feel(const Map& map) const;
-
-  /// Finds drift() from a few keyframes. They tell too little of the calibrations themselves.
-  void feel(const Map& map, const EstimatorRig& rig, const AdjustmentOptions& options);
-
   /// Keyframes before this one are not looked at: those of a loaded map.
-  void begin(std::size_t keyframe) { begin_ = looked_ = keyframe; }
+  void begin(std::size_t keyframe) { looked_ = keyframe; }
 
   /// Looks at the latest keyframes. The calibrations, where they are now known to
   /// differ from the rig's; otherwise none. The map is not touched.
@@ -70,9 +63,10 @@ class CalibrationWatch {
   /// (CalibrationAverage): of to_vector().
   Eigen::MatrixXd error(const EstimatorRig& rig) const;
 
-  /// By how much such errors move the body from one keyframe to the next, as the last look had it,
-  /// or feel() before: steps of step_of in six rows, a column for each number of to_vector(). Zero
-  /// before either.
+  /// By how much such errors move the body from one keyframe to the next, as the last look had it:
+  /// steps of step_of in six rows, a column for each number of to_vector(). Zero before. Times
+  /// and readouts move a frame and what comes after it goes on from where the frame is in truth:
+  /// their columns are zero (ErrorOfImageTimes).
   const Eigen::MatrixXd& drift() const { return drift_; }
 
  private:
@@ -94,9 +88,7 @@ class CalibrationWatch {
   Eigen::MatrixXd drift_;
   double chi_squared_ = 0;  ///< of the dozens against those before
   double freedom_ = 0;      ///< numbers that these chi-squares are of
-  std::size_t begin_ = 0;   ///< keyframes that are not its own
   std::size_t looked_ = 0;  ///< keyframes
-  bool felt_ = false;
   int looks_ = 0;
   bool replaced_ = false;
 };

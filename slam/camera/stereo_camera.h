@@ -46,7 +46,9 @@ struct StereoCameraModel {
            right_ahead != 0;
   }
   /// s after the stamp that a row is exposed.
-  double time_of(double y) const { return time_offset + readout * (y / lens.height - 0.5); }
+  double time_of(double y) const { return time_offset + readout * share_of_readout(y); }
+  /// Of the time from the first row to the last, from the middle one on.
+  double share_of_readout(double y) const { return y / lens.height - 0.5; }
   bool has_times() const { return time_offset != 0 || readout != 0; }
 };
 

@@ -14,12 +14,6 @@ namespace {
 /// Images, or rows of them, that are less late are where any velocity has them.
 constexpr double kLate = 1e-3;  // s
 
-/// Of a frame's velocity against that of the time until its last image, by the steps before, root
-/// mean square an axis: on mecanum wheels at 10 and 15 frames a second, 5 to 11 mm/s along an axis,
-/// 20 to 60 mrad/s about one.
-constexpr double kVelocityError = 0.01;  // m/s
-constexpr double kTurnRateError = 0.05;  // rad/s
-
 bool has_late_images(const FrameFeatures& frame, const EstimatorRig& rig) {
   for (std::size_t v = 0; v < frame.views.size(); ++v) {
     const StereoCameraModel& camera = rig.left_cameras[v];
@@ -136,19 +130,18 @@ void LandmarkFactors::add_factors(ProblemBuilder& problem) {
   }
 }
 
-/// Of the keyframes with late images: what the velocity has wrong would be taken for an error of
-/// the calibration.
+/// Of the keyframes with late images, and of all where the calibration is unknown, which may find
+/// them late: what the velocity has wrong would be taken for an error of the calibration.
 void LandmarkFactors::add_velocities(ProblemBuilder& problem) {
   velocity_blocks_.assign(frames_.size(), nullptr);
   velocities_.reserve(frames_.size());  // nothing moves any more once it is handed out
   for (std::size_t k = 0; k < frames_.size(); ++k) {
-    if (!frames_[k] || !has_late_images(*frames_[k], rig_)) continue;
+    if (!frames_[k]) continue;
+    if (calibration_ == nullptr && !has_late_images(*frames_[k], rig_)) continue;
     double* block = velocities_.emplace_back(frames_[k]->velocity).data();
     velocity_blocks_[k] = block;
     problem.add_block(block, 6, ProblemBuilder::Group::kVelocities);
-    Vector6d weight;
-    weight << Eigen::Vector3d::Constant(1 / kVelocityError),
-        Eigen::Vector3d::Constant(1 / kTurnRateError);
+    const Vector6d weight = error_of_velocity().cwiseInverse();
     velocity_beliefs_.emplace_back(weight.asDiagonal().toDenseMatrix(), velocities_.back());
     problem.add_factor(velocity_beliefs_.back(), nullptr, {block});
   }

@@ -57,10 +57,11 @@ void PoseUncertainty::cross_gap(const Pose& T_last_now, const Matrix6d& covarian
   by_calibration_ = carried * by_calibration_;
 }
 
-Matrix6d PoseUncertainty::of_calibration(const Pose& T_last_now,
-                                         const Eigen::MatrixXd& error) const {
-  if (by_calibration_.cols() != error.cols()) return Matrix6d::Zero();
-  const Eigen::MatrixXd now = carried_step(T_last_now) * by_calibration_;
+Matrix6d PoseUncertainty::of_calibration(const Pose& T_last_now, const Eigen::MatrixXd& error,
+                                         const Eigen::MatrixXd& of_frame) const {
+  Eigen::MatrixXd now = Eigen::MatrixXd::Zero(6, error.cols());
+  if (by_calibration_.cols() == error.cols()) now = carried_step(T_last_now) * by_calibration_;
+  if (of_frame.cols() == error.cols()) now += of_frame;
   return now * error * now.transpose();
 }
 

@@ -48,8 +48,10 @@ class PoseUncertainty {
   /// period of dead reckoning is to be added by the caller.
   Matrix6d at(const Pose& T_last_now, const Matrix6d& information) const;
 
-  /// What the calibrations' errors, of these second moments, add to that.
-  Matrix6d of_calibration(const Pose& T_last_now, const Eigen::MatrixXd& error) const;
+  /// What the calibrations' errors, of these second moments, add to that: as they drifted the
+  /// keyframe, and as they move this frame alone, likewise a column for each.
+  Matrix6d of_calibration(const Pose& T_last_now, const Eigen::MatrixXd& error,
+                          const Eigen::MatrixXd& of_frame = {}) const;
 
  private:
   /// Steps by a scale, and by the turns about each axis by the way along each.

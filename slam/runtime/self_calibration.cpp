@@ -22,18 +22,15 @@ bool is_accuracy_told(const CalibrationConfig& told, double disparity_sigma) {
 }
 
 SelfCalibration::SelfCalibration(const SelfCalibrationSettings& settings, const EstimatorRig& rig)
-    : settings_(settings), watch_(settings.accuracy, settings.disparity_sigma, rig) {}
+    : settings_(settings), watch_(settings.accuracy, settings.disparity_sigma, rig) {
+  if (settings.enabled) error_ = watch_.error(rig);
+}
 
 std::optional<RigCalibration> SelfCalibration::after_keyframe(const Map& map,
                                                               const EstimatorRig& rig,
                                                               const AdjustmentOptions& options,
                                                               StageTimes& times) {
   if (!settings_.enabled) return std::nullopt;
-  if (settings_.accuracy_told && watch_.may_feel(map)) {
-    const ScopedTimer timer(times, "calibration");
-    watch_.feel(map, rig, options);
-    error_ = watch_.error(rig);
-  }
   if (!settings_.beside_tracking) {
     if (!watch_.due(map)) return std::nullopt;
     const ScopedTimer timer(times, "calibration");

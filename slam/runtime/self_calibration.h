@@ -16,7 +16,6 @@ struct SelfCalibrationSettings {
   CalibrationConfig accuracy{};  ///< of the rig file
   double disparity_sigma = 1;    ///< px, of its disparity offsets
   bool enabled = true;           ///< else nothing is looked at, and errors are those of the file
-  bool accuracy_told = false;    ///< by somebody: then the first keyframes count already
   bool beside_tracking = false;  ///< looks take their time on a thread of their own
 };
 
@@ -45,7 +44,7 @@ class SelfCalibration {
   /// The calibrations as they are known now, if they were replaced once.
   std::optional<RigCalibration> latest() const { return watch_.latest(); }
 
-  /// As CalibrationWatch has them; error() is empty before the first look.
+  /// As CalibrationWatch has them; error() is empty where it is switched off.
   const Eigen::MatrixXd& error() const { return error_; }
   const Eigen::MatrixXd& drift() const { return watch_.drift(); }
 

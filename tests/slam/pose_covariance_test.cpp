@@ -67,6 +67,22 @@ TEST(PoseCovarianceTest, AnIndependentLoopAddsToWhatIsKnown) {
   expect_same(covariance.of_keyframe(kExact), kUnsure / 2);
 }
 
+// A calibration's number of deviation 2 that moves the frame by 1 mm, and what its velocity leaves
+// open: in a keyframe and any other.
+TEST(PoseCovarianceTest, AFrameAddsWhatTheTimesOfItsImagesLeaveOpen) {
+  PoseCovariance covariance(false);
+  covariance.begin(kSure);
+  ErrorOfImageTimes times;
+  times.by_calibration = 1e-3 * Eigen::MatrixXd::Identity(6, 1);
+  times.by_velocity = 1e-5 * Matrix6d::Identity();
+  const Eigen::MatrixXd error = Eigen::MatrixXd::Constant(1, 1, 4);
+  Matrix6d more = times.by_velocity;
+  more(0, 0) += 4e-6;
+  expect_same(covariance.of_keyframe(error, times), kSure + more);
+  expect_same(covariance.of_frame({}, seen(1e4), error, times),
+              covariance.of_frame({}, seen(1e4), error) + more);
+}
+
 TEST(PoseCovarianceTest, AFrameAddsWhatItsMotionLeavesOpen) {
   PoseCovariance covariance(false);
   covariance.begin(kSure);

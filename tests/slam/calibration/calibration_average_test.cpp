@@ -29,6 +29,8 @@ TEST(CalibrationAverageTest, BeforeAnythingIsSeenEverySecondFileIsRight) {
   EXPECT_EQ(found.mean.norm(), 0);
   // Of the 255 sets of eight causes, 128 have any one of them.
   EXPECT_NEAR(found.covariance(6, 6), 0.5 * 128 / 255, 1e-12);
+  // Together they have each of the pair's numbers once.
+  EXPECT_NEAR(found.numbers_at_work, kPairUnknowns * 0.5 * 128 / 255, 1e-12);
 }
 
 // Numbers that are known apart are added up without a matrix: to what one with a correlation of

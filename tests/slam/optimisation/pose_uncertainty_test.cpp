@@ -108,6 +108,22 @@ TEST(PoseUncertaintyTest, ErrorsOfTheCalibrationAddUpInALine) {
   EXPECT_EQ(uncertainty.of_calibration({}, Eigen::MatrixXd::Identity(2, 2)).norm(), 0);
 }
 
+// Of two errors one has moved the keyframe by 3 mm; the other moves this frame alone by 4 mm. A
+// correlation of a half: 9 + 16 + 2 * 0.5 * 3 * 4.
+TEST(PoseUncertaintyTest, AFrameIsMovedBesides) {
+  PoseUncertainty uncertainty;
+  uncertainty.start(Matrix6d::Zero());
+  Eigen::MatrixXd drift = Eigen::MatrixXd::Zero(6, 2), frame = Eigen::MatrixXd::Zero(6, 2);
+  drift(0, 0) = 0.003;
+  frame(0, 1) = 0.004;
+  const Eigen::Matrix2d error{{1, 0.5}, {0.5, 1}};
+  // Before any keyframe it is all there is.
+  EXPECT_NEAR(uncertainty.of_calibration({}, error, frame)(0, 0), 16e-6, 1e-15);
+  uncertainty.keyframe({}, 1e9 * Matrix6d::Identity(), drift);
+  EXPECT_NEAR(uncertainty.of_calibration({}, error, frame)(0, 0), 37e-6, 1e-15);
+  EXPECT_NEAR(uncertainty.of_calibration({}, error)(0, 0), 9e-6, 1e-15);
+}
+
 // Three keyframes before it is known that each is moved by 1 mm, and one after.
 TEST(PoseUncertaintyTest, ADriftThatIsFoundLateWasThereBefore) {
   PoseUncertainty uncertainty;
