@@ -20,8 +20,7 @@ struct SelfCalibrationSettings {
 };
 
 /// Whether somebody said how accurate the rig file is. The defaults are wide enough for any rig:
-/// taken for an error that it has, they would make the covariances of most useless until a dozen of
-/// keyframes tell better.
+/// taken for an error that it has, they would make the covariances of most useless.
 bool is_accuracy_told(const CalibrationConfig& accuracy, double disparity_sigma);
 
 /// CalibrationWatch over a drive: when it looks, at once or beside tracking, and what error the
