@@ -3,7 +3,7 @@
 #include "slam/optimisation/pose_uncertainty.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include <cmath>
 
 #include "core/geometry/step_covariance.h"
 
@@ -21,16 +21,20 @@ Matrix6d inflated_inverse(const Matrix6d& information) {
 }  // namespace
 
 void PoseUncertainty::start(const Matrix6d& covariance) {
-  noise_ = covariance;
-  by_way_.setZero();
+  known_ = of_start(covariance);
   by_calibration_.resize(6, 0);
   without_drift_ = 0;
 }
 
 void PoseUncertainty::keyframe(const Pose& T_last_now, const Matrix6d& information,
                                const Eigen::MatrixXd& drift) {
-  noise_ = noise_at(T_last_now, information);
-  by_way_ = by_way_at(T_last_now);
+  known_ = moved(T_last_now);
+  known_.topLeftCorner<6, 6>() += inflated_inverse(information);
+  const double alike = std::exp(-T_last_now.translation.norm() / kAlike);
+  known_.topRightCorner<6, kRates>() *= alike;
+  known_.bottomLeftCorner<kRates, 6>() *= alike;
+  known_.bottomRightCorner<kRates, kRates>() *= alike * alike;
+  known_.bottomRightCorner<kRates, kRates>().diagonal().array() += 1 - alike * alike;
   if (by_calibration_.cols() != drift.cols()) by_calibration_.setZero(6, drift.cols());
   by_calibration_ = carried_step(T_last_now) * by_calibration_ + drift;
   if (drift.isZero()) {
@@ -42,18 +46,20 @@ void PoseUncertainty::keyframe(const Pose& T_last_now, const Matrix6d& informati
 }
 
 void PoseUncertainty::measure(const Matrix6d& covariance) {
-  const Matrix6d before = noise_ + by_way_ * by_way_.transpose();
-  const Matrix6d gain = before * (before + covariance).inverse();
-  const Matrix6d left = Matrix6d::Identity() - gain;
-  noise_ = left * noise_ * left.transpose() + gain * covariance * gain.transpose();
-  by_way_ = left * by_way_;
-  by_calibration_ = left * by_calibration_;
+  const Matrix6d innovation = known_.topLeftCorner<6, 6>() + covariance;
+  const Eigen::Matrix<double, 6 + kRates, 6> gain =
+      known_.leftCols<6>() * innovation.ldlt().solve(Matrix6d::Identity());
+  Covariance left = Covariance::Identity();
+  left.leftCols<6>() -= gain;
+  known_ = left * known_ * left.transpose() + gain * covariance * gain.transpose();
+  by_calibration_ = left.topLeftCorner<6, 6>() * by_calibration_;
 }
 
 void PoseUncertainty::cross_gap(const Pose& T_last_now, const Matrix6d& covariance) {
   const Matrix6d carried = carried_step(T_last_now);
-  noise_ = carry_covariance(noise_, T_last_now) + covariance;
-  by_way_ = carried * by_way_;
+  known_.topRows<6>() = (carried * known_.topRows<6>()).eval();
+  known_.leftCols<6>() = (known_.leftCols<6>() * carried.transpose()).eval();
+  known_.topLeftCorner<6, 6>() += covariance;
   by_calibration_ = carried * by_calibration_;
 }
 
@@ -66,25 +72,24 @@ Matrix6d PoseUncertainty::of_calibration(const Pose& T_last_now, const Eigen::Ma
 }
 
 Matrix6d PoseUncertainty::at(const Pose& T_last_now, const Matrix6d& information) const {
-  const ByWay by_way = by_way_at(T_last_now);
-  return noise_at(T_last_now, information) + by_way * by_way.transpose();
+  return moved(T_last_now).topLeftCorner<6, 6>() + inflated_inverse(information);
 }
 
-Matrix6d PoseUncertainty::noise_at(const Pose& T_last_now, const Matrix6d& information) const {
-  return carry_covariance(noise_, T_last_now) + inflated_inverse(information);
+PoseUncertainty::Covariance PoseUncertainty::of_start(const Matrix6d& covariance) {
+  Covariance start = Covariance::Identity();
+  start.topLeftCorner<6, 6>() = covariance;
+  return start;
 }
 
-PoseUncertainty::ByWay PoseUncertainty::by_way_at(const Pose& T_last_now) const {
-  return carried_step(T_last_now) * by_way_ + of_way(T_last_now.translation);
-}
-
-PoseUncertainty::ByWay PoseUncertainty::of_way(const Eigen::Vector3d& way) {
-  ByWay steps = ByWay::Zero();
-  steps.col(0).head<3>() = kScale * way;
+PoseUncertainty::Covariance PoseUncertainty::moved(const Pose& T_last_now) const {
+  Covariance by_state = Covariance::Identity();
+  by_state.topLeftCorner<6, 6>() = carried_step(T_last_now);
+  const Eigen::Vector3d& way = T_last_now.translation;
+  by_state.block<3, 1>(0, 6) = kScale * way;
   for (int axis = 0; axis < 3; ++axis) {
-    steps.block<1, 3>(3 + axis, 1 + 3 * axis) = kTurn * way.transpose();
+    by_state.block<1, 3>(3 + axis, 7 + 3 * axis) = kTurn * way.transpose();
   }
-  return steps;
+  return by_state * known_ * by_state.transpose();
 }
 
 }  // namespace vinebench::slam

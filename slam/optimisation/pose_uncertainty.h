@@ -17,18 +17,21 @@ namespace vinebench::slam {
 /// makes up for both. It was found, like those below, on drives of seeds that no table has
 /// (docs/benchmarks.md).
 ///
-/// Besides, all of a drive has errors that are no noise: what leaves and stereo's windows make of
-/// where landmarks are is alike from keyframe to keyframe, so that lengths are off by the same
-/// share and each metre driven turns the body by the same angle. `kScale` and `kTurn` are their
-/// standard deviations.
+/// Besides, a drive has errors that are no noise: what leaves and stereo's windows make of where
+/// landmarks are is alike from keyframe to keyframe, so that lengths are off by a share and each
+/// metre driven turns the body by an angle. `kScale` and `kTurn` are the standard deviations of
+/// these rates. Other surroundings have others: along the way they are Gauss-Markov processes,
+/// whose correlation falls to 1/e within `kAlike`. A way back is not quite that there with other
+/// signs.
 ///
-/// Errors of the cameras' calibration are the same all the way, too. Such errors add up in a line:
-/// kept is the step that each makes.
+/// Errors of the cameras' calibration are the same all the way. Such errors add up in a line: kept
+/// is the step that each makes.
 class PoseUncertainty {
  public:
-  static constexpr double kInflation = 0.25;
+  static constexpr double kInflation = 0.5;
   static constexpr double kScale = 5e-4;  ///< of lengths
-  static constexpr double kTurn = 5e-5;   ///< rad/m, about each axis by the way along each
+  static constexpr double kTurn = 1e-4;   ///< rad/m, about each axis by the way along each
+  static constexpr double kAlike = 0.5;   ///< m
 
   /// The map begins here, or a tag of known pose has just fixed it.
   void start(const Matrix6d& covariance);
@@ -54,15 +57,15 @@ class PoseUncertainty {
                           const Eigen::MatrixXd& of_frame = {}) const;
 
  private:
-  /// Steps by a scale, and by the turns about each axis by the way along each.
-  using ByWay = Eigen::Matrix<double, 6, 10>;
-  static ByWay of_way(const Eigen::Vector3d& way);
+  /// A scale, and turns about each axis by the way along each.
+  static constexpr int kRates = 10;
+  /// Of the keyframe's step, then of these rates in their standard deviations.
+  using Covariance = Eigen::Matrix<double, 6 + kRates, 6 + kRates>;
 
-  Matrix6d noise_at(const Pose& T_last_now, const Matrix6d& information) const;
-  ByWay by_way_at(const Pose& T_last_now) const;
+  static Covariance of_start(const Matrix6d& covariance);
+  Covariance moved(const Pose& T_last_now) const;
 
-  Matrix6d noise_ = Matrix6d::Zero();  ///< of the keyframe
-  ByWay by_way_ = ByWay::Zero();       ///< the keyframe's step by an error of one sigma each
+  Covariance known_ = of_start(Matrix6d::Zero());
   /// The keyframe's step by each error; no columns for none.
   Eigen::Matrix<double, 6, Eigen::Dynamic> by_calibration_;
   int without_drift_ = 0;  ///< keyframes

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "core/geometry/step_covariance.h"
 #include "slam/factors/reprojection.h"
@@ -34,10 +35,24 @@ TEST(PoseUncertaintyTest, GrowsFromKeyframeToKeyframe) {
   EXPECT_LT((uncertainty.at({}, Matrix6d::Zero()) - one).norm(), 1e-18);
 }
 
-// Three steps of 1 m ahead, without noise: lengths are 3 m off by their share; a turn of k to the
-// left for each metre makes 3 k, and moves to the left by k and 2 k in the two steps after the
-// first. Up likewise, by the turn about the other axis. Back again, the turns and lengths cancel.
-TEST(PoseUncertaintyTest, ErrorsOfTheWayAddUpInALine) {
+/// Variance of a sum of a rate's values, so many times each, at the beginning of steps of 1 m: of
+/// two that are n steps apart the correlation is exp(-n / kAlike).
+double variance_of(const std::vector<double>& times) {
+  double sum = 0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    for (std::size_t j = 0; j < times.size(); ++j) {
+      const double apart = i > j ? static_cast<double>(i - j) : static_cast<double>(j - i);
+      sum += times[i] * times[j] * std::exp(-apart / PoseUncertainty::kAlike);
+    }
+  }
+  return sum;
+}
+
+// Three steps of 1 m ahead, without noise: lengths are off by the scales of the three; each step's
+// turn moves to the left by 1 m in each step after it, so that the first counts twice and the
+// second once. Up likewise, by the turn about the other axis. Back again each counts with the other
+// sign, and has become another one meanwhile.
+TEST(PoseUncertaintyTest, ErrorsOfTheWayAddUpAsFarAsTheyAreAlike) {
   constexpr double kScale = PoseUncertainty::kScale;
   constexpr double kTurn = PoseUncertainty::kTurn;
   PoseUncertainty uncertainty;
@@ -48,21 +63,28 @@ TEST(PoseUncertaintyTest, ErrorsOfTheWayAddUpInALine) {
   };
   for (int i = 0; i < 3; ++i) drive(1);
   const Matrix6d there = uncertainty.at({}, Matrix6d::Zero());
-  EXPECT_NEAR(there(0, 0), std::pow(3 * kScale, 2), 1e-15);
-  for (const int axis : {1, 2, 3, 4, 5}) {
-    EXPECT_NEAR(there(axis, axis), std::pow(3 * kTurn, 2), 1e-15) << axis;
+  const double along = variance_of({1, 1, 1});
+  EXPECT_NEAR(there(0, 0), kScale * kScale * along, 1e-15);
+  for (const int axis : {3, 4, 5}) {
+    EXPECT_NEAR(there(axis, axis), kTurn * kTurn * along, 1e-15) << axis;
   }
-  EXPECT_NEAR(there(1, 5), std::pow(3 * kTurn, 2), 1e-15);
-  // A frame 2 m further on, where the turns are as much as after 5 m, and 2 times 3 k to the left.
+  for (const int axis : {1, 2}) {
+    EXPECT_NEAR(there(axis, axis), kTurn * kTurn * variance_of({2, 1, 0}), 1e-15) << axis;
+  }
+  // Of 2 a + b and a + b + c: half of what the square of their sum has beyond their own squares.
+  const double both = variance_of({3, 2, 1}) - variance_of({2, 1, 0}) - along;
+  EXPECT_NEAR(there(1, 5), kTurn * kTurn * both / 2, 1e-15);
+  // A frame 2 m further on, with another rate, and 2 m times the turns until then to the left.
   const Pose further{Eigen::Quaterniond::Identity(), {2, 0, 0}};
   const Matrix6d frame = uncertainty.at(further, Matrix6d::Zero());
-  EXPECT_NEAR(frame(0, 0), std::pow(5 * kScale, 2), 1e-15);
-  EXPECT_NEAR(frame(1, 1), std::pow(9 * kTurn, 2), 1e-15);
-  EXPECT_NEAR(frame(5, 5), std::pow(5 * kTurn, 2), 1e-15);
+  EXPECT_NEAR(frame(0, 0), kScale * kScale * variance_of({1, 1, 1, 2}), 1e-15);
+  EXPECT_NEAR(frame(1, 1), kTurn * kTurn * variance_of({4, 3, 2}), 1e-15);
+  EXPECT_NEAR(frame(5, 5), kTurn * kTurn * variance_of({1, 1, 1, 2}), 1e-15);
   for (int i = 0; i < 3; ++i) drive(-1);
   const Matrix6d back = uncertainty.at({}, Matrix6d::Zero());
-  EXPECT_NEAR(back(0, 0), 0, 1e-15);
-  EXPECT_NEAR(back(5, 5), 0, 1e-15);
+  const double returned = variance_of({1, 1, 1, -1, -1, -1});
+  EXPECT_NEAR(back(0, 0), kScale * kScale * returned, 1e-15);
+  EXPECT_NEAR(back(5, 5), kTurn * kTurn * returned, 1e-15);
   uncertainty.start(Matrix6d::Zero());
   EXPECT_EQ(uncertainty.at({}, Matrix6d::Zero()).norm(), 0);
 }
@@ -79,6 +101,19 @@ TEST(PoseUncertaintyTest, AMeasurementTellsOfErrorsOfTheWay) {
   measured(0, 0) = 4 * kScale * kScale;
   uncertainty.measure(measured);
   EXPECT_NEAR(uncertainty.at({}, Matrix6d::Zero())(0, 0), 0.8 * kScale * kScale, 1e-11);
+}
+
+// The way of that metre, measured exactly, tells its scale s; of the next metre's, exp(-1 / kAlike)
+// times s but for what is left of its variance.
+TEST(PoseUncertaintyTest, AMeasurementTellsOfErrorsOfTheWayToCome) {
+  constexpr double kScale = PoseUncertainty::kScale;
+  const Pose step{Eigen::Quaterniond::Identity(), {1, 0, 0}};
+  PoseUncertainty uncertainty;
+  uncertainty.start(Matrix6d::Zero());
+  uncertainty.keyframe(step, Matrix6d::Zero(), Eigen::MatrixXd::Zero(6, 0));
+  uncertainty.measure(1e-18 * Matrix6d::Identity());
+  const double left = 1 - std::exp(-2 / PoseUncertainty::kAlike);
+  EXPECT_NEAR(uncertainty.at(step, Matrix6d::Zero())(0, 0), kScale * kScale * left, 1e-15);
 }
 
 // Of two errors one makes each step 1 mm longer, one turns it by 2 mrad to the left: after three
