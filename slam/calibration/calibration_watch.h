@@ -20,10 +20,12 @@ namespace vinebench::slam {
 /// than the other pairs do, and than a tag camera sees it move past a tag, which also is a measure
 /// of length (TagMeasures); and where a tag camera has a time of its own, what it sees of a tag is
 /// ahead or behind as the body speeds up or turns. So each dozen of keyframes is adjusted by itself
-/// with PairCalibration and the tag cameras' times as further unknowns. What it says of them, while
-/// all its poses and landmarks are unknown too, is added up over the drive, beside the rig file's
-/// own accuracy, so that what the motion does not show stays where the file has it. A calibration
-/// is replaced where the likelihood ratio of what is known then is beyond chance.
+/// with PairCalibration, the tag cameras' times and the body's velocities as further unknowns;
+/// before the first dozen is complete, its first half, which is not added up. What it says of them,
+/// while all its poses and landmarks are unknown too, is added up over the drive, beside the rig
+/// file's own accuracy, so that what the motion does not show stays where the file has it. A
+/// calibration is replaced where the rig file is hardly right, and the likelihood ratio of what is
+/// known then beyond chance.
 ///
 /// How much the dozens differ from each other tells how far their information is to be trusted:
 /// errors that are no property of the cameras (leaves in the wind, noise of other kinds) make them
@@ -64,9 +66,8 @@ class CalibrationWatch {
   Eigen::MatrixXd error(const EstimatorRig& rig) const;
 
   /// By how much such errors move the body from one keyframe to the next, as the last look had it:
-  /// steps of step_of in six rows, a column for each number of to_vector(). Zero before. Times
-  /// and readouts move a frame and what comes after it goes on from where the frame is in truth:
-  /// their columns are zero (ErrorOfImageTimes).
+  /// steps of step_of in six rows, a column for each number of to_vector(). Zero before. The
+  /// columns of times and readouts are zero: these move single frames (ErrorOfImageTimes).
   const Eigen::MatrixXd& drift() const { return drift_; }
 
  private:
